@@ -21,18 +21,21 @@ namespace {
 
 constexpr int kOffsetDigits = 3;
 
-/// "4 lines, 3 arcs, 4 clothoids".
-std::string kinds_text(const Alignment& alignment) {
+void add_profile_facts(const ProfileReport& report, const Units& units, Facts& facts) {
+  const VerticalProfile& profile = report.profile;
   std::array<std::size_t, 3> count{};
-  for (const auto& e : alignment.elements) ++count[static_cast<std::size_t>(e.kind)];
-  return fmt::format("{}, {}, {}", counted(count[0], "line", "lines"),
-                     counted(count[1], "arc", "arcs"), counted(count[2], "clothoid", "clothoids"));
-}
-
-/// Below the title of its picture.
-std::string picture_verdict(const AlignmentReport& report) {
-  return fmt::format("{}; all points within {} {}", kinds_text(report.alignment),
-                     significant(report.tolerance, kOffsetDigits), report.units.text());
+  for (const auto& e : profile.elements) ++count[static_cast<std::size_t>(e.kind)];
+  facts.add("profile",
+            fmt::format("{}: {}, {}, {}", counted(profile.elements.size(), "element", "elements"),
+                        counted(count[0], "grade", "grades"), counted(count[1], "crest", "crests"),
+                        counted(count[2], "sag", "sags")));
+  double largest = 0.0;
+  for (const double offset : profile.offsets) largest = std::max(largest, std::abs(offset));
+  facts.add("heights", fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
+                                   counted(profile.offsets.size(), "height", "heights"),
+                                   significant(largest, kOffsetDigits), units.text(),
+                                   significant(report.tolerance, kOffsetDigits),
+                                   significant(profile.rms, kOffsetDigits)));
 }
 
 std::string alignment_text(const AlignmentReport& report, const std::vector<std::string>& remarks,
@@ -52,58 +55,94 @@ std::string alignment_text(const AlignmentReport& report, const std::vector<std:
                                   significant(largest, kOffsetDigits), report.units.text(),
                                   significant(report.tolerance, kOffsetDigits),
                                   significant(alignment.rms, kOffsetDigits)));
+  if (report.profile) add_profile_facts(*report.profile, report.units, facts);
+  for (const std::string& remark : report.remarks) facts.add("note", remark);
   for (const std::string& remark : remarks) facts.add("note", remark);
   if (!files.empty()) facts.add("written", listed(files));
   return bold(report.name) + "\n" +
          elements_text(alignment.elements, std::max(alignment.length, report.tolerance),
                        report.limit) +
-         "\n" + facts.text();
+         "\n" +
+         (report.profile ? profile_text(report.profile->profile,
+                                        std::max(alignment.length, report.profile->tolerance)) +
+                               "\n"
+                         : "") +
+         facts.text();
 }
 
-bool is_element_table(const std::string& path) { return format_of(path) == FileFormat::kSamples; }
+/// What the formats of contours do not write for it.
+std::optional<std::string> own_text(const std::string& path, const AlignmentReport& report) {
+  const auto format = format_of(path);
+  if (format == FileFormat::kSamples) {
+    return elements_csv(report.alignment.elements, report.limit);
+  }
+  if (format == FileFormat::kPicture) {
+    return alignment_picture(report);
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
 int run(const AlignmentCommand& command) {
   std::vector<std::string> names = command.outputs;
-  if (!command.deviations.empty()) names.push_back(command.deviations);
-  if (auto free = check_outputs(names, {&command.input, 1}); !free) return report(free.error());
+  for (const std::string& table : {command.deviations, command.profile_table}) {
+    if (!table.empty()) names.push_back(table);
+  }
+  std::vector<std::string> inputs = {command.input};
+  if (!command.heights.empty()) inputs.push_back(command.heights);
+  if (auto free = check_outputs(names, inputs); !free) return report(free.error());
   Result<std::vector<Output>> outputs = outputs_of(command.outputs, command.input);
   if (!outputs) return report(outputs.error());
-  Result<PointSeries> series = read_series(command.input, command.import);
+  Result<PointSeries> series = read_series(command.input, with_heights(command.import));
   if (!series) return report(series.error());
   if (command.units) take_units(*series, *command.units);
+  AlignmentJob job = command.job;
+  if (!command.heights.empty()) {
+    auto heights = read_heights(command.heights);
+    if (!heights) return report(heights.error());
+    warn(heights->warnings);
+    job.heights = std::move(*heights);
+  }
   ProgressBar bar(!command.quiet);
-  const auto made = alignment_report(*series, command.job, bar.progress());
+  const auto made = alignment_report(*series, job, bar.progress());
   bar.clear();
   warn(series->warnings);
   if (!made) return report(made.error());
-  std::vector<Output> drawn;
-  for (const Output& output : *outputs) {
-    if (!is_element_table(output.path)) drawn.push_back(output);
+  if (!command.profile_table.empty() && !made->profile) {
+    return report({ErrorCode::kBadOption, "there is no profile to be written", "--profile-table",
+                   "give heights in a column z, or a file of them by --profile"});
   }
   ExportOptions formats;
   formats.name = series->label.empty() ? series->name : series->label;
-  formats.picture = {series->name, picture_verdict(*made)};
+  formats.picture = {series->name, alignment_verdict(*made)};
   formats.first_station = command.job.first_station;
+  formats.transitions = made->transitions;
+  if (made->profile) formats.profile = made->profile->profile;
+  std::vector<Output> drawn, own;
+  for (Output& output : *outputs) {
+    auto text = own_text(output.path, *made);
+    if (text) output.text = std::move(*text);
+    (text ? own : drawn).push_back(std::move(output));
+  }
   FileNotes notes;
   auto texts = exported(drawn, made->stored, formats, notes);
   if (!texts) return report(texts.error());
-  for (Output& output : *outputs) {
-    if (!is_element_table(output.path)) continue;
-    output.text = elements_csv(made->alignment.elements, made->limit);
-    texts->push_back(std::move(output));
-  }
+  for (Output& output : own) texts->push_back(std::move(output));
   if (!command.deviations.empty()) {
     texts->push_back(
         {command.deviations, FileFormat::kSamples, deviations_csv(*made, series->points)});
+  }
+  if (!command.profile_table.empty()) {
+    texts->push_back(
+        {command.profile_table, FileFormat::kSamples, profile_csv(made->profile->profile)});
   }
   warn(notes.warnings);
   const auto written = write_files(*texts, command.input);
   if (!written) return report(written.error());
   std::string text;
   if (command.json) {
-    text = alignment_json(*made) + "\n";
+    text = alignment_json(*made);
   } else if (!command.quiet) {
     text = alignment_text(*made, notes.remarks, *written);
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli_app.h"
+#include "obvid/pipeline/internal/alignment_values.h"
 #include "obvid/pipeline/internal/format_values.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "options.h"
@@ -17,8 +18,10 @@ namespace {
 
 struct RawAlignment {
   AlignmentCommand command;
-  std::optional<std::string> noise, units;
-  std::optional<std::string> least_length, least_radius, first_station, acceleration;
+  std::optional<std::string> units;
+  std::optional<std::string> least_length, least_radius, first_station, acceleration,
+      least_vertical;
+  AlignmentValues typed;
   std::string format;  ///< of what -o sends to standard output
   bool csv = false;
   FormatValues reading;
@@ -48,7 +51,11 @@ constexpr std::array kNumberOptions = {
     NumberOption{"--lateral-acceleration", "A", &RawAlignment::acceleration, true, kPositive,
                  "in m/s^2, without the unit",
                  "Acceleration to the side, m/s^2: the table tells the speed at which the sharpest "
-                 "end of each element has it [none]"}};
+                 "end of each element has it, the picture along the way [none]"},
+    NumberOption{"--min-vertical-length", "L", &RawAlignment::least_vertical, true, kPositive,
+                 kInUnits,
+                 "Least length of a grade or vertical curve, input units [a quarter of the mean "
+                 "distance of heights]"}};
 
 void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   AlignmentCommand& command = raw.command;
@@ -57,17 +64,37 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
                  "tol gives tolerances of single points; - is standard input");
   add_output(app, command.outputs, raw.format,
              "File to write: .xml LandXML, .xodr OpenDRIVE, .dxf, .json contour, .step, .svg "
-             "and every other ending of obvid convert; .csv is the table of elements");
-  app.add_option("--noise", raw.noise,
+             "and every other ending of obvid convert; .csv is the table of elements, .svg shows "
+             "curvature, speed and heights over the station");
+  app.add_option("--noise", raw.typed.noise,
                  "How far the alignment may pass the points, input units, or rounding: half a unit "
-                 "of the last printed digit [rounding]")
+                 "of the last printed digit, or auto: estimated from their scatter [rounding]")
       ->type_name("EPS");
   for (const NumberOption& option : kNumberOptions) {
     app.add_option(option.name, raw.*option.text, option.help)->type_name(option.value);
   }
+  app.add_option("--transitions", raw.typed.transitions,
+                 "Kind of the transitions between lines and arcs: clothoid, bloss, sine, cosine or "
+                 "helmert [clothoid]")
+      ->type_name("KIND");
   app.add_option(
          "--deviations", command.deviations,
-         "File to write: .csv of station, offset (left positive) and coordinates of each point")
+         "File to write: .csv of station, offset (left positive) and coordinates of each point, "
+         "and of heights")
+      ->type_name("OUT");
+  app.add_option("--profile", command.heights,
+                 "File of station and height per line, input units: heights of the profile [the "
+                 "column z of the points]")
+      ->type_name("FILE");
+  app.add_option("--profile-noise", raw.typed.profile_noise,
+                 "How far the profile may pass the heights, input units, or rounding or auto "
+                 "[rounding]")
+      ->type_name("EPS");
+  app.add_option("--profile-curves", raw.typed.profile_curves,
+                 "Vertical curves: parabolas or arcs [parabolas]")
+      ->type_name("KIND");
+  app.add_option("--profile-table", command.profile_table,
+                 "File to write: .csv of grades and vertical curves")
       ->type_name("OUT");
   app.add_option("--units", raw.units, "Unit of the input: m, ft, usft, km, ... [as the file says]")
       ->type_name("NAME");
@@ -79,7 +106,9 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
       "Elements join with common tangents; curvature steps only where the points ask for it.\n"
       "Examples:\n"
       "  obvid alignment survey.csv --noise 0.02 --units m -o road.xml\n"
-      "  obvid alignment track.geojson --noise 0.5 -o road.xodr -o elements.csv"));
+      "  obvid alignment track.geojson --noise 0.5 -o road.xodr -o elements.csv\n"
+      "  obvid alignment survey.csv --noise 0.02 --profile levels.csv --profile-noise 0.01 -o "
+      "road.xml"));
 }
 
 /// The number that was typed; nothing was: nothing.
@@ -121,16 +150,14 @@ Result<void> check_alignment(RawAlignment& raw) {
   command.job.least_radius = numbers[1].value_or(0.0);
   command.job.first_station = numbers[2].value_or(0.0);
   command.job.acceleration = numbers[3];
+  command.job.profile.least_length = numbers[4].value_or(0.0);
   if (!command.deviations.empty() && !command.deviations.ends_with(".csv")) {
     return fail(bad_option("deviations are a table", "--deviations", "name a .csv"));
   }
-  if (!raw.noise || *raw.noise == "rounding") return {};
-  const auto noise = given_number(raw.noise, "--noise", true,
-                                  "the tolerance must be a positive length or rounding",
-                                  "give it in the units of the points");
-  OBVID_TRY(noise);
-  command.job.noise = *noise;
-  return {};
+  if (!command.profile_table.empty() && !command.profile_table.ends_with(".csv")) {
+    return fail(bad_option("a profile is written as a table", "--profile-table", "name a .csv"));
+  }
+  return set_alignment(raw.typed, command.job);
 }
 
 }  // namespace

@@ -15,7 +15,9 @@ namespace obvid {
 struct AlignmentCommand {
   std::string input;
   std::vector<std::string> outputs;
-  std::string deviations;  ///< .csv of all points; empty: none
+  std::string deviations;     ///< .csv of all points; empty: none
+  std::string heights;        ///< file of stations and heights; empty: the column z
+  std::string profile_table;  ///< .csv of grades and vertical curves; empty: none
   AlignmentJob job;
   ImportOptions import;
   std::optional<Units> units;

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
-#include "obvid/curve/internal/clothoid.h"
 #include "obvid/numeric/internal/banded.h"
 #include "obvid/numeric/internal/gauss.h"
 
@@ -38,7 +36,10 @@ constexpr double kDampingStart = 1e-6, kDampingMost = 1e6, kDampingLeast = 1e-12
 Element place_on(const Chain& chain, const std::vector<Element>& joints, std::size_t k, double s) {
   const double k0 = chain.curvature(k, 0), k1 = chain.curvature(k, 1);
   const Element start{joints[k].point, joints[k].theta, k0};
-  return clothoid_at(start, (k1 - k0) / chain.length[k], s);
+  if (chain.law[k] != Transition::kClothoid) {
+    return transition_at(chain.law[k], start, k1, chain.length[k], s);
+  }
+  return element_behind(chain.plane, start, (k1 - k0) / chain.length[k], s);
 }
 
 /// Derivatives of the point and heading at s on element k by its own numbers.
@@ -47,11 +48,20 @@ struct OwnDerivatives {
   double theta_kappa0 = 0.0, theta_kappa1 = 0.0, theta_length = 0.0;
 };
 
-OwnDerivatives derivatives_of(double theta, double k0, double k1, double length, double s,
-                              bool to_end) {
+OwnDerivatives derivatives_of(Plane plane, Transition law, double theta, double k0, double k1,
+                              double length, double s, bool to_end) {
   OwnDerivatives out;
   const double turn = std::abs(k0 * s) + std::abs(k1 * s);
-  const int parts = 1 + static_cast<int>(turn);
+  // laws that are no polynomials of low degree, or have a corner in their middle, want more
+  const int least = law == Transition::kClothoid ? 1 : 8;
+  const int parts = least * (1 + static_cast<int>(turn));
+  const bool linear = law == Transition::kClothoid;
+  const auto turned_by = [&](double u) {
+    return linear ? u * u / (2.0 * length) : length * transition_turn(law, u / length);
+  };
+  const auto stretched_by = [&](double u, double square) {
+    return linear ? square / length : (u * transition_share(law, u / length) - square) / length;
+  };
   const double h = s / parts;
   for (int part = 0; part < parts; ++part) {
     const double middle = (part + 0.5) * h;
@@ -59,19 +69,19 @@ OwnDerivatives derivatives_of(double theta, double k0, double k1, double length,
       const double node = GaussRule<8>::kNode[i / 2] * (i % 2 == 0 ? 0.5 : -0.5);
       const double u = middle + node * h;
       const double weight = 0.5 * h * GaussRule<8>::kWeight[i / 2];
-      const Vec2 side = left_normal(unit_at(theta + k0 * u + (k1 - k0) * u * u / (2.0 * length)));
-      const double square = u * u / (2.0 * length);
+      const double square = turned_by(u);
+      const Vec2 side = sideways(plane, theta + k0 * u + (k1 - k0) * square);
       out.kappa0 = out.kappa0 + weight * (u - square) * side;
       out.kappa1 = out.kappa1 + weight * square * side;
-      out.length = out.length - weight * (k1 - k0) * square / length * side;
+      out.length = out.length - weight * (k1 - k0) * stretched_by(u, square) * side;
     }
   }
-  const double square = s * s / (2.0 * length);
+  const double square = turned_by(s);
   out.theta_kappa0 = s - square;
   out.theta_kappa1 = square;
-  out.theta_length = -(k1 - k0) * square / length;
+  out.theta_length = -(k1 - k0) * stretched_by(s, square);
   if (to_end) {  // the end moves on as the element grows
-    out.length = out.length + unit_at(theta + 0.5 * (k0 + k1) * length);
+    out.length = out.length + forward(plane, theta + 0.5 * (k0 + k1) * length);
     out.theta_length += k1;
   }
   return out;
@@ -91,6 +101,7 @@ class Fitter {
 
   Fitted run() {
     Fitted out;
+    find_feet(chain_, points_, feet_);  // those given may belong to what the chain was before
     improve(2.0);
     out.squares = objective(2.0);
     out.largest = largest();
@@ -194,11 +205,11 @@ class Fitter {
     if (!held_.start) {
       row[0] = direction.x;
       row[1] = direction.y;
-      row[2] = dot(direction, left_normal(at.point - joints_[0].point));
+      row[2] = dot(direction, turned(chain_.plane, at.point - joints_[0].point));
     }
     const auto add = [&](std::size_t k, const OwnDerivatives& d, Vec2 arm) {
       const auto put = [&](std::size_t column, Vec2 move, double turn) {
-        if (column != kNone) row[column] += dot(direction, move + turn * left_normal(arm));
+        if (column != kNone) row[column] += dot(direction, move + turn * turned(chain_.plane, arm));
       };
       put(column_of(chain_.ends[k][0]), d.kappa0, d.theta_kappa0);
       put(column_of(chain_.ends[k][1]), d.kappa1, d.theta_kappa1);
@@ -209,8 +220,9 @@ class Fitter {
     }
     if (element < chain_.size()) {
       add(element,
-          derivatives_of(joints_[element].theta, chain_.curvature(element, 0),
-                         chain_.curvature(element, 1), chain_.length[element], s, false),
+          derivatives_of(chain_.plane, chain_.law[element], joints_[element].theta,
+                         chain_.curvature(element, 0), chain_.curvature(element, 1),
+                         chain_.length[element], s, false),
           Vec2{});
     }
   }
@@ -219,9 +231,9 @@ class Fitter {
     joints_ = chain_.joints();
     whole_.clear();
     for (std::size_t k = 0; k < chain_.size(); ++k) {
-      whole_.push_back(derivatives_of(joints_[k].theta, chain_.curvature(k, 0),
-                                      chain_.curvature(k, 1), chain_.length[k], chain_.length[k],
-                                      true));
+      whole_.push_back(derivatives_of(chain_.plane, chain_.law[k], joints_[k].theta,
+                                      chain_.curvature(k, 0), chain_.curvature(k, 1),
+                                      chain_.length[k], chain_.length[k], true));
     }
   }
 
@@ -244,7 +256,7 @@ class Fitter {
     for (std::size_t i = 0; i < feet_.size(); ++i) {
       const Foot& foot = feet_[i];
       const Element at = place_on(chain_, joints_, foot.element, foot.s);
-      row_of(foot.element, foot.s, at, left_normal(unit_at(at.theta)), row);
+      row_of(foot.element, foot.s, at, left_normal(forward(chain_.plane, at.theta)), row);
       double weight = 1.0 / (tolerance_[i] * tolerance_[i]);
       if (power > 2.0)
         weight *= std::pow(std::max(std::abs(ratio(i)) / top, kLeastShare), power - 2.0);
@@ -267,8 +279,9 @@ class Fitter {
     std::vector<double> row(unknowns_);
     const auto along = [&](std::size_t i, bool at_end) {
       const Element at = at_end ? end : joints_.front();
-      row_of(at_end ? chain_.size() : 0, 0.0, at, unit_at(at.theta), row);
-      conditions_.push_back({row, dot(unit_at(at.theta), points_[i] - at.point)});
+      const Vec2 direction = lengthwise(chain_.plane, at.theta);
+      row_of(at_end ? chain_.size() : 0, 0.0, at, direction, row);
+      conditions_.push_back({row, dot(direction, points_[i] - at.point)});
     };
     if (!held_.start) along(0, false);
     if (held_.end || held_.closed) {
@@ -291,7 +304,7 @@ class Fitter {
         put(column_of(chain_.ends[k][1]), whole_[k].theta_kappa1);
         put(first_length_ + k, whole_[k].theta_length);
       }
-      conditions_.push_back({row, std::remainder(goal.theta - end.theta, 2.0 * std::numbers::pi)});
+      conditions_.push_back({row, turn_between(chain_.plane, end.theta, goal.theta)});
     } else {
       along(points_.size() - 1, true);
     }
@@ -419,7 +432,8 @@ class Fitter {
     const std::vector<Element> joints = chain.joints();
     double gap = 0.0;
     const auto along = [&](const Element& at, Vec2 point) {
-      gap = std::max(gap, std::abs(dot(unit_at(at.theta), point - at.point)));
+      const Vec2 direction = lengthwise(chain.plane, at.theta);
+      gap = std::max(gap, std::abs(dot(direction, point - at.point)));
     };
     if (!held_.start) along(joints.front(), points_.front());
     if (!held_.end && !held_.closed) {
@@ -429,7 +443,7 @@ class Fitter {
     const Element goal = held_.end ? *held_.end : joints.front();
     double length = 0.0;
     for (const double l : chain.length) length += l;
-    const double turn = std::remainder(goal.theta - joints.back().theta, 2.0 * std::numbers::pi);
+    const double turn = turn_between(chain.plane, joints.back().theta, goal.theta);
     return std::max({gap, norm(goal.point - joints.back().point), length * std::abs(turn)});
   }
 
@@ -505,9 +519,11 @@ std::vector<Element> Chain::joints() const {
   for (std::size_t k = 0; k < size(); ++k) {
     const double k0 = curvature(k, 0), k1 = curvature(k, 1);
     const Element& from = out.back();
-    out.push_back({from.point + clothoid_step(from.theta, k0, k1, length[k]),
-                   from.theta + 0.5 * (k0 + k1) * length[k],
-                   k + 1 < size() ? curvature(k + 1, 0) : k1});
+    const Vec2 end = law[k] == Transition::kClothoid
+                         ? from.point + step_along(plane, from.theta, k0, k1, length[k])
+                         : transition_at(law[k], from, k1, length[k], length[k]).point;
+    out.push_back(
+        {end, from.theta + 0.5 * (k0 + k1) * length[k], k + 1 < size() ? curvature(k + 1, 0) : k1});
   }
   return out;
 }
@@ -523,10 +539,11 @@ void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<
       }
       while (foot.s < 0.0 && foot.element > 0) foot.s += chain.length[--foot.element];
       const Element at = place_on(chain, joints, foot.element, foot.s);
-      const Vec2 t = unit_at(at.theta), away = points[i] - at.point;
-      foot.offset = cross(t, away);
-      foot.along = dot(t, away);
-      const double stretch = std::max(0.2, 1.0 - at.kappa * foot.offset);
+      const Vec2 away = points[i] - at.point;
+      foot.offset = cross(forward(chain.plane, at.theta), away);
+      foot.along = dot(lengthwise(chain.plane, at.theta), away);
+      const double stretch =
+          chain.plane == Plane::kMap ? std::max(0.2, 1.0 - at.kappa * foot.offset) : 1.0;
       const double size = norm(at.point - chain.start) + chain.length[foot.element];
       if (std::abs(foot.along) <= kRounding * size) break;
       foot.s += foot.along / stretch;

@@ -7,7 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "obvid/alignment/transition.h"
 #include "obvid/geom/element.h"
+#include "plane.h"
 
 namespace obvid::alignment {
 
@@ -17,11 +19,13 @@ namespace obvid::alignment {
 struct Chain {
   static constexpr int kStraight = -1;  ///< in place of a number: curvature 0
 
+  Plane plane = Plane::kMap;
   Vec2 start;
   double theta = 0.0;                    ///< heading at the start, rad
   std::vector<double> length;            ///< of each element
   std::vector<double> kappa;             ///< 1/unit
   std::vector<std::array<int, 2>> ends;  ///< of each element: numbers of its curvatures
+  std::vector<Transition> law;           ///< of each element; of none in a graph but clothoids
 
   [[nodiscard]] std::size_t size() const { return length.size(); }
   [[nodiscard]] double curvature(std::size_t element, std::size_t end) const {

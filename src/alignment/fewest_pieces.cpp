@@ -61,8 +61,8 @@ double area_of(const std::vector<State>& corners) {
 class Search {
  public:
   Search(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
-         const AlignmentOptions& options)
-      : points_(points), tolerance_(tolerance), options_(options) {
+         const AlignmentOptions& options, const Sought& sought)
+      : points_(points), tolerance_(tolerance), options_(options), sought_(sought) {
     set_places();
   }
 
@@ -99,38 +99,59 @@ class Search {
     theta_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, n - 1);
-      theta_[i] = heading(points_[b] - points_[a]);
-      if (i > 0) theta_[i] = nearest_angle(theta_[i], theta_[i - 1]);
+      theta_[i] = heading_of(points_[b] - points_[a], i > 0 ? theta_[i - 1] : 0.0);
     }
     if (n > 2) {  // of the circle through three points
-      theta_[0] = nearest_angle(
-          2.0 * nearest_angle(heading(points_[1] - points_[0]), theta_[1]) - theta_[1], theta_[1]);
-      theta_[n - 1] = 2.0 * nearest_angle(heading(points_[n - 1] - points_[n - 2]), theta_[n - 2]) -
-                      theta_[n - 2];
+      theta_[0] = 2.0 * heading_of(points_[1] - points_[0], theta_[1]) - theta_[1];
+      if (sought_.plane == Plane::kMap) theta_[0] = nearest_angle(theta_[0], theta_[1]);
+      theta_[n - 1] =
+          2.0 * heading_of(points_[n - 1] - points_[n - 2], theta_[n - 2]) - theta_[n - 2];
     }
     for (std::size_t i = 0; i + 1 < n; ++i) {
       places_.push_back({static_cast<double>(i), points_[i], theta_[i]});
-      const auto piece = clothoid_between(points_[i], theta_[i], points_[i + 1], theta_[i + 1]);
+      const auto piece =
+          piece_between(sought_.plane, points_[i], theta_[i], points_[i + 1], theta_[i + 1]);
       for (std::size_t k = 1; k < options_.divisions && piece; ++k) {
         const double part = static_cast<double>(k) / static_cast<double>(options_.divisions);
-        const Jet jet = evaluate(*piece, part);
+        const Tangent at = tangent_of(*piece, part);
         places_.push_back(
-            {static_cast<double>(i) + part, jet.point, nearest_angle(heading(jet.d1), theta_[i])});
+            {static_cast<double>(i) + part, at.point, heading_of(at.direction, theta_[i])});
       }
     }
     places_.push_back({static_cast<double>(n - 1), points_[n - 1], theta_[n - 1]});
     along_ = {0.0};
     for (std::size_t k = 1; k < places_.size(); ++k) {
-      along_.push_back(along_.back() + norm(places_[k].point - places_[k - 1].point));
+      along_.push_back(along_.back() + distance(places_[k - 1].point, places_[k].point));
     }
     unit_ = 0.0;
-    for (std::size_t i = 1; i < n; ++i) unit_ += norm(points_[i] - points_[i - 1]);
+    for (std::size_t i = 1; i < n; ++i) unit_ += distance(points_[i - 1], points_[i]);
     unit_ /= static_cast<double>(n - 1);
     eps_ = *std::max_element(tolerance_.begin(), tolerance_.end());
   }
 
+  /// Heading of a vector, next to another one.
+  [[nodiscard]] double heading_of(Vec2 v, double beside) const {
+    return sought_.plane == Plane::kMap ? nearest_angle(heading(v), beside) : v.y / v.x;
+  }
+
+  /// A place on a piece, and how fast it moves on: not its direction alone.
+  struct Tangent {
+    Vec2 point, direction;
+  };
+  [[nodiscard]] Tangent tangent_of(const ClothoidPiece& piece, double u) const {
+    if (sought_.plane == Plane::kMap) {
+      const Jet jet = evaluate(piece, u);
+      return {jet.point, jet.d1};
+    }
+    const Element at =
+        element_behind(Plane::kGraph, {piece.start, piece.theta0, piece.kappa0},
+                       (piece.kappa1 - piece.kappa0) / piece.length, u * piece.length);
+    return {at.point, forward(Plane::kGraph, at.theta)};
+  }
+
   std::vector<State> start_polygon() const {
-    const double e = tolerance_.front() / eps_, s = kFarOff * unit_ / eps_;
+    const double farthest = sought_.plane == Plane::kMap ? kFarOff : kBox * eps_ / unit_;
+    const double e = tolerance_.front() / eps_, s = farthest * unit_ / eps_;
     return {{-e, -s}, {e, -s}, {e, s}, {-e, s}};
   }
 
@@ -143,7 +164,7 @@ class Search {
     valid_ = false;
     rows_.clear();
     const Place &a = places_[i], &b = places_[j];
-    const auto piece = clothoid_between(a.point, a.theta, b.point, b.theta);
+    const auto piece = piece_between(sought_.plane, a.point, a.theta, b.point, b.theta);
     if (!piece) return nullptr;
     const double length = piece->length;
     const auto first = static_cast<std::size_t>(std::ceil(a.at));
@@ -157,15 +178,19 @@ class Search {
       } else if (static_cast<double>(p) == b.at) {
         u = 1.0;
       } else {
-        at += p == first ? 0.0 : norm(points_[p] - points_[p - 1]) / length;
-        if (p == first) at = norm(points_[p] - a.point) / length;
+        at += p == first ? 0.0 : distance(points_[p - 1], points_[p]) / length;
+        if (p == first) at = distance(a.point, points_[p]) / length;
         u = std::clamp(at, 0.0, 1.0);
         for (int step = 0; step < 3; ++step) {
-          const Jet jet = evaluate(*piece, u);
-          const Vec2 t = jet.d1 / norm(jet.d1);
-          const double along = dot(t, points_[p] - jet.point);
-          offset = cross(t, points_[p] - jet.point);
-          u = std::clamp(u + along / length, 0.0, 1.0);
+          const Tangent foot = tangent_of(*piece, u);
+          const Vec2 away = points_[p] - foot.point;
+          if (sought_.plane == Plane::kGraph) {
+            offset = away.y;
+            break;
+          }
+          const Vec2 t = foot.direction / norm(foot.direction);
+          offset = cross(t, away);
+          u = std::clamp(u + dot(t, away) / length, 0.0, 1.0);
         }
         at = u;
         if (!(std::abs(offset) < kBox * eps_)) return nullptr;
@@ -181,6 +206,7 @@ class Search {
       rows_.push_back({minus, (tolerance_[p] - offset) / eps_});
     }
     if (options_.least_radius > 0.0) add_curvature_rows(*piece);
+    if (sought_.constant) add_constant_rows(*piece);
     valid_ = true;
     return &rows_;
   }
@@ -199,6 +225,24 @@ class Search {
       rows_.push_back({change[end], (most - kappa[end]) * scale});
       rows_.push_back({minus, (most + kappa[end]) * scale});
     }
+  }
+
+  /// The curvature is the same at both ends.
+  void add_constant_rows(const ClothoidPiece& piece) {
+    const double slope = piece.length / unit_;
+    const double change = (piece.kappa1 - piece.kappa0) * piece.length * piece.length / eps_;
+    const double size = std::max(2.0, slope);
+    const Unknowns row = {2.0 / size, slope / size, -2.0 / size, slope / size};
+    Unknowns minus = row;
+    for (double& x : minus) x = -x;
+    const double wanted = -change / (6.0 * size);
+    rows_.push_back({row, wanted + kSameState});
+    rows_.push_back({minus, kSameState - wanted});
+  }
+
+  /// From one place to a later one: of points as long as their way, of heights along the station.
+  [[nodiscard]] double distance(Vec2 from, Vec2 to) const {
+    return sought_.plane == Plane::kMap ? norm(to - from) : to.x - from.x;
   }
 
   /// Whether a clothoid between two places is as long as asked for; one over all points may be
@@ -355,7 +399,7 @@ class Search {
 
   [[nodiscard]] Node node_at(std::size_t place, State s) const {
     const Place& p = places_[place];
-    return {p.at, p.point + eps_ * s.offset * left_normal(unit_at(p.theta)),
+    return {p.at, p.point + eps_ * s.offset * sideways(sought_.plane, p.theta),
             p.theta + eps_ / unit_ * s.slope};
   }
 
@@ -388,6 +432,7 @@ class Search {
   const std::vector<Vec2>& points_;
   const std::vector<double>& tolerance_;
   const AlignmentOptions& options_;
+  const Sought sought_;
   std::vector<double> theta_;
   std::vector<Place> places_;
   std::vector<double> along_;  ///< length of the chords before a place
@@ -401,10 +446,25 @@ class Search {
 
 }  // namespace
 
+std::optional<ClothoidPiece> piece_between(Plane plane, Vec2 start, double theta0, Vec2 end,
+                                           double theta1) {
+  if (plane == Plane::kMap) return clothoid_between(start, theta0, end, theta1);
+  const double length = end.x - start.x;
+  if (!(length > 0.0)) return std::nullopt;
+  const double slope = (end.y - start.y) / length;
+  return ClothoidPiece{start,
+                       end,
+                       theta0,
+                       (6.0 * slope - 4.0 * theta0 - 2.0 * theta1) / length,
+                       (2.0 * theta0 + 4.0 * theta1 - 6.0 * slope) / length,
+                       length};
+}
+
 Result<std::vector<Node>> fewest_pieces(const std::vector<Vec2>& points,
                                         const std::vector<double>& tolerance,
-                                        const AlignmentOptions& options, const RunContext& run) {
-  return Search(points, tolerance, options).run(run);
+                                        const AlignmentOptions& options, const Sought& sought,
+                                        const RunContext& run) {
+  return Search(points, tolerance, options, sought).run(run);
 }
 
 }  // namespace obvid::alignment

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "obvid/alignment/alignment.h"
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
+#include "obvid/curve/pieces.h"
 #include "obvid/geom/vec2.h"
+#include "plane.h"
 
 namespace obvid::alignment {
 
@@ -18,6 +21,11 @@ struct Node {
   double theta = 0.0;  ///< rad, unwrapped
 };
 
+/// The piece of linear curvature with given points and headings at both ends; in a graph a cubic.
+/// Nothing where there is none.
+[[nodiscard]] std::optional<ClothoidPiece> piece_between(Plane plane, Vec2 start, double theta0,
+                                                         Vec2 end, double theta1);
+
 /// Fewest clothoids with common tangents (G1) that pass within `tolerance` of all points: nodes
 /// from the first to the last point, one more than clothoids. The number is the fewest that this
 /// search finds, among nodes at the points and at `options.divisions - 1` places between two of
@@ -27,10 +35,13 @@ struct Node {
 ///
 /// Dynamic programming: which offsets and headings are possible at a place after k clothoids is
 /// kept as a few convex polygons. Time grows with the points of a clothoid squared, linearly with
-/// those of the series. Distinct neighbours, at least two points.
+/// those of the series. Distinct neighbours, at least two points; in a graph ascending stations.
+/// What is said of clothoids holds for the arcs alone, or for the cubics and parabolas of a graph,
+/// where those are `sought`.
 [[nodiscard]] Result<std::vector<Node>> fewest_pieces(const std::vector<Vec2>& points,
                                                       const std::vector<double>& tolerance,
                                                       const AlignmentOptions& options,
+                                                      const Sought& sought,
                                                       const RunContext& run = {});
 
 }  // namespace obvid::alignment

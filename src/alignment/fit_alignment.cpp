@@ -1,361 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <tuple>
-#include <utility>
 
-#include "chain_of_elements.h"
-#include "fewest_pieces.h"
+#include "found_chain.h"
 #include "obvid/alignment/alignment.h"
-#include "obvid/contour/clothoids.h"
 
 namespace obvid {
 namespace alignment {
 namespace {
 
-constexpr std::size_t kBeside = 3;   ///< elements to both sides that move with one that is changed
-constexpr std::size_t kWindow = 12;  ///< elements that are fitted at once
-constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elements get no shorter
-constexpr double kHopeless = 4.0;      ///< estimated squares over the most that there can be
-/// Largest offset over its tolerance after least squares from which no higher power comes back.
-constexpr double kHopelessOffset = 3.0;
-constexpr int kPasses = 4;    ///< over all conditions
-constexpr int kPolishes = 3;  ///< over the whole alignment, where an offset is too large
-
-class Simplifier {
- public:
-  Simplifier(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
-             const AlignmentOptions& options, Chain chain, std::vector<Foot> feet)
-      : points_(points), tolerance_(tolerance), chain_(std::move(chain)), feet_(std::move(feet)) {
-    double length = 0.0;
-    for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
-    least_length_ = std::max(kLeastLength * length / static_cast<double>(points.size() - 1),
-                             options.least_length);
-    if (options.least_radius > 0.0) largest_curvature_ = 1.0 / options.least_radius;
+AlignmentKind kind_of(const std::array<int, 2>& ends, Transition law) {
+  if (ends[0] != ends[1]) {
+    return static_cast<AlignmentKind>(static_cast<int>(AlignmentKind::kClothoid) +
+                                      static_cast<int>(law));
   }
-
-  Result<void> run(const RunContext& run) {
-    const std::vector<Element> joints = chain_.joints();  // of the search: the points are there
-    for (double& kappa : chain_.kappa) {
-      kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
-    }
-    if (auto on = polish(run, &joints); !on) return on;
-    if (auto on = merge_all(run); !on) return on;
-    for (int pass = 0; pass < kPasses; ++pass) {
-      const auto taken = take_conditions(run);
-      if (!taken) return fail(taken.error());
-      if (!*taken) break;
-    }
-    if (auto on = merge_all(run); !on) return on;
-    for (int i = 0; i < kPolishes && largest() > 1.0; ++i) {
-      if (auto on = polish(run); !on) return on;
-    }
-    return {};
-  }
-
-  [[nodiscard]] const Chain& chain() const { return chain_; }
-  [[nodiscard]] const std::vector<Foot>& feet() const { return feet_; }
-  [[nodiscard]] double largest() {
-    find_feet(chain_, points_, feet_);
-    double out = 0.0;
-    for (std::size_t i = 0; i < feet_.size(); ++i) {
-      out = std::max(out, std::abs(feet_[i].offset) / tolerance_[i]);
-    }
-    return out;
-  }
-
- private:
-  /// Some elements with their points, cut out.
-  struct Window {
-    std::size_t first = 0;  ///< element
-    std::size_t first_point = 0;
-    Chain chain;
-    std::vector<Vec2> points;
-    std::vector<double> tolerance;
-    std::vector<Foot> feet;
-    std::vector<int> number;  ///< in the whole chain, of each curvature
-    Held held;
-  };
-
-  [[nodiscard]] Window cut(const Chain& chain, std::size_t first, std::size_t last) const {
-    return cut(chain, feet_, first, last, chain_.joints(), last);
-  }
-
-  /// What lies beside stays: joints `first` and `end` of those that are.
-  [[nodiscard]] Window cut(const Chain& chain, const std::vector<Foot>& feet, std::size_t first,
-                           std::size_t last, const std::vector<Element>& joints,
-                           std::size_t end) const {
-    Window out;
-    out.first = first;
-    out.chain.start = joints[first].point;
-    out.chain.theta = joints[first].theta;
-    out.held.start = first > 0;
-    out.held.least_length = least_length_;
-    out.held.largest_curvature = largest_curvature_;
-    if (last < chain.size()) out.held.end = joints[end];
-    for (std::size_t k = first; k < last; ++k) {
-      out.chain.length.push_back(chain.length[k]);
-      std::array<int, 2> ends{};
-      for (std::size_t e = 0; e < 2; ++e) ends[e] = own_number(chain, chain.ends[k][e], out);
-      out.chain.ends.push_back(ends);
-    }
-    for (std::size_t k = 0; k < out.number.size(); ++k) {
-      // a curvature that an element outside has too stays as it is
-      if (is_used_outside(chain, out.number[k], first, last)) {
-        out.held.kappa.push_back(static_cast<int>(k));
-      }
-    }
-    bool begun = false;
-    for (std::size_t i = 0; i < feet.size(); ++i) {
-      if (feet[i].element < first || feet[i].element >= last) continue;
-      if (!begun) out.first_point = i;
-      begun = true;
-      out.points.push_back(points_[i]);
-      out.tolerance.push_back(tolerance_[i]);
-      Foot foot = feet[i];
-      foot.element -= first;
-      out.feet.push_back(foot);
-    }
-    return out;
-  }
-
-  static int own_number(const Chain& chain, int number, Window& window) {
-    if (number == Chain::kStraight) return number;
-    const auto found = std::find(window.number.begin(), window.number.end(), number);
-    const auto own = found - window.number.begin();
-    if (found == window.number.end()) {
-      window.number.push_back(number);
-      window.chain.kappa.push_back(chain.kappa[static_cast<std::size_t>(number)]);
-    }
-    return static_cast<int>(own);
-  }
-
-  /// Whether its elements, fitted, pass its points.
-  static bool fits(Window& window) {
-    if (window.points.empty()) return false;
-    return fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held)
-               .largest <= 1.0;
-  }
-
-  void put_back(const Window& window, Chain& chain) {
-    if (window.first == 0) {
-      chain.start = window.chain.start;
-      chain.theta = window.chain.theta;
-    }
-    for (std::size_t k = 0; k < window.chain.size(); ++k) {
-      chain.length[window.first + k] = window.chain.length[k];
-    }
-    for (std::size_t k = 0; k < window.number.size(); ++k) {
-      chain.kappa[static_cast<std::size_t>(window.number[k])] = window.chain.kappa[k];
-    }
-    for (std::size_t i = 0; i < window.feet.size(); ++i) {
-      Foot foot = window.feet[i];
-      foot.element += window.first;
-      feet_[window.first_point + i] = foot;
-    }
-  }
-
-  /// Windows end at joints of the chain as it is, or where it is meant to pass.
-  Result<void> polish(const RunContext& run, const std::vector<Element>* meant = nullptr) {
-    for (std::size_t first = 0; first < chain_.size(); first += kWindow / 2) {
-      if (auto on =
-              tell(run, "fitting", static_cast<double>(first) / static_cast<double>(chain_.size()));
-          !on)
-        return on;
-      const std::size_t last = std::min(first + kWindow, chain_.size());
-      Window window = cut(chain_, first, last);
-      if (meant != nullptr && last < chain_.size()) window.held.end = (*meant)[last];
-      if (window.points.empty()) continue;
-      const Fitted fitted =
-          fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
-      if (std::isfinite(fitted.largest)) put_back(window, chain_);
-      if (last == chain_.size()) break;
-    }
-    find_feet(chain_, points_, feet_);
-    return {};
-  }
-
-  /// Neighbours become one wherever that passes the points: the search keeps some of the ways to a
-  /// place only, and its joints are at places.
-  Result<void> merge_all(const RunContext& run) {
-    for (std::size_t k = 0; k + 1 < chain_.size();) {
-      const double done = static_cast<double>(k) / static_cast<double>(chain_.size());
-      if (auto on = tell(run, "fewer elements", done); !on) return on;
-      if (!merge(k)) ++k;
-    }
-    return {};
-  }
-
-  /// Element k and the next one as one: begun as the longer one, or from end to end.
-  bool merge(std::size_t k) {
-    const std::array<int, 2> a = chain_.ends[k], b = chain_.ends[k + 1];
-    return merge(k, chain_.length[k] < chain_.length[k + 1] ? b : a) || merge(k, {a[0], b[1]});
-  }
-
-  bool merge(std::size_t k, const std::array<int, 2>& ends) {
-    const std::vector<Element> joints = chain_.joints();
-    Chain next = chain_;
-    std::vector<Foot> feet = feet_;
-    const auto behind = static_cast<std::ptrdiff_t>(k) + 1;
-    for (Foot& foot : feet) {
-      if (foot.element <= k) continue;
-      if (foot.element == k + 1) foot.s += chain_.length[k];
-      --foot.element;
-    }
-    next.length[k] += next.length[k + 1];
-    next.ends[k] = ends;
-    next.length.erase(next.length.begin() + behind);
-    next.ends.erase(next.ends.begin() + behind);
-    const std::size_t first = k - std::min(k, kBeside);
-    const std::size_t last = std::min(k + kBeside + 1, next.size());
-    Window window = cut(next, feet, first, last, joints, last + 1);
-    window.held.hopeless = kHopelessOffset;
-    if (!fits(window)) return false;
-    chain_ = std::move(next);
-    feet_ = std::move(feet);
-    put_back(window, chain_);
-    return true;
-  }
-
-  /// A condition at an element or at the joint before the next one.
-  struct Candidate {
-    std::size_t element = 0;
-    int a = 0, b = Chain::kStraight;
-    double growth = 0.0;
-    double room = 0.0;  ///< the most that squares within the tolerances can be
-    bool of_joint = false;
-  };
-
-  [[nodiscard]] std::pair<std::size_t, std::size_t> around(std::size_t element) const {
-    return {element - std::min(element, kBeside), std::min(element + kBeside + 2, chain_.size())};
-  }
-
-  void add_candidates(std::size_t k, std::vector<Candidate>& out) const {
-    const auto add = [&](int a, int b, bool of_joint = false) {
-      if (a == b) return;
-      if (a == Chain::kStraight) std::swap(a, b);
-      out.push_back({k, a, b, 0.0, 0.0, of_joint});
-    };
-    const auto [k0, k1] = chain_.ends[k];
-    add(k0, k1);
-    if (k0 == k1 && k0 != Chain::kStraight) add(k0, Chain::kStraight);
-    if (k + 1 < chain_.size()) add(k1, chain_.ends[k + 1][0], true);
-  }
-
-  Result<void> estimate(std::vector<Candidate>& candidates, const RunContext& run) const {
-    for (Candidate& c : candidates) {
-      if (auto on = may_go_on(run); !on) return on;
-      const auto [first, last] = around(c.element);
-      Window window = cut(chain_, first, last);
-      c.room = static_cast<double>(window.points.size());
-      c.growth = std::numeric_limits<double>::infinity();
-      if (window.points.empty()) continue;
-      const auto own = [&](int number) {
-        return number == Chain::kStraight
-                   ? number
-                   : static_cast<int>(
-                         std::find(window.number.begin(), window.number.end(), number) -
-                         window.number.begin());
-      };
-      c.growth = growth_of(window.chain, window.points, window.tolerance, window.feet, window.held,
-                           own(c.a), own(c.b));
-    }
-    return {};
-  }
-
-  bool take(const Candidate& c) {
-    if (!is_used(c.a) || (c.b != Chain::kStraight && !is_used(c.b))) return false;
-    const auto [first, last] = around(c.element);
-    if (is_used_outside(chain_, c.a, first, last)) return false;
-    Chain next = chain_;
-    if (c.b != Chain::kStraight && !is_used_outside(chain_, c.b, first, last)) {
-      const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
-      next.kappa[b] = 0.5 * (next.kappa[a] + next.kappa[b]);
-    }
-    for (auto& ends : next.ends) {
-      for (int& number : ends) {
-        if (number == c.a) number = c.b;
-      }
-    }
-    Window window = cut(next, first, last);
-    if (!fits(window)) return false;
-    chain_ = std::move(next);
-    put_back(window, chain_);
-    return true;
-  }
-
-  /// Elements that share a curvature follow one another: those beside the window tell.
-  static bool is_used_outside(const Chain& chain, int number, std::size_t first, std::size_t last) {
-    const auto uses = [&](std::size_t element) {
-      return chain.ends[element][0] == number || chain.ends[element][1] == number;
-    };
-    return (first > 0 && uses(first - 1)) || (last < chain.size() && uses(last));
-  }
-
-  [[nodiscard]] bool is_used(int number) const {
-    return std::any_of(chain_.ends.begin(), chain_.ends.end(), [&](const std::array<int, 2>& ends) {
-      return ends[0] == number || ends[1] == number;
-    });
-  }
-
-  /// Whether one was taken.
-  Result<bool> take_conditions(const RunContext& run) {
-    std::vector<Candidate> candidates;
-    for (std::size_t k = 0; k < chain_.size(); ++k) add_candidates(k, candidates);
-    OBVID_TRY(estimate(candidates, run));
-    // an element that is an arc or a line goes before a joint without a step: where both are
-    // possible, but not together, the step is what was built
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) {
-                       return std::tie(a.of_joint, a.growth) < std::tie(b.of_joint, b.growth);
-                     });
-    bool taken = false;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (auto on =
-              tell(run, "kinds", static_cast<double>(i) / static_cast<double>(candidates.size()));
-          !on) {
-        return fail(on.error());
-      }
-      if (candidates[i].growth <= kHopeless * candidates[i].room && take(candidates[i])) {
-        taken = true;
-      }
-    }
-    return taken;
-  }
-
-  const std::vector<Vec2>& points_;
-  const std::vector<double>& tolerance_;
-  Chain chain_;
-  std::vector<Foot> feet_;
-  double least_length_ = 0.0;
-  double largest_curvature_ = std::numeric_limits<double>::infinity();
-};
-
-/// The chain through nodes, with the points' feet about where they are.
-void set_chain(const std::vector<Node>& nodes, std::size_t points, Chain& chain,
-               std::vector<Foot>& feet) {
-  chain.start = nodes.front().point;
-  chain.theta = nodes.front().theta;
-  feet.assign(points, {});
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-    const Node &a = nodes[k], &b = nodes[k + 1];
-    const auto piece = clothoid_between(a.point, a.theta, b.point, b.theta);
-    const int next = static_cast<int>(chain.kappa.size());
-    chain.ends.push_back({next, next + 1});
-    chain.kappa.push_back(piece ? piece->kappa0 : 0.0);
-    chain.kappa.push_back(piece ? piece->kappa1 : 0.0);
-    chain.length.push_back(piece ? piece->length : norm(b.point - a.point));
-    for (auto i = static_cast<std::size_t>(std::ceil(a.place)); static_cast<double>(i) <= b.place;
-         ++i) {
-      feet[i].element = k;
-      feet[i].s = chain.length[k] * (static_cast<double>(i) - a.place) / (b.place - a.place);
-    }
-  }
-}
-
-AlignmentKind kind_of(const std::array<int, 2>& ends) {
-  if (ends[0] != ends[1]) return AlignmentKind::kClothoid;
   return ends[0] == Chain::kStraight ? AlignmentKind::kLine : AlignmentKind::kArc;
 }
 
@@ -366,7 +24,7 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   std::vector<double> station = {0.0};
   for (std::size_t k = 0; k < chain.size(); ++k) {
     AlignmentElement e;
-    e.kind = kind_of(chain.ends[k]);
+    e.kind = kind_of(chain.ends[k], chain.law[k]);
     e.station = station.back();
     e.start = joints[k];
     e.length = chain.length[k];
@@ -409,48 +67,21 @@ Result<void> keeps_limits(const Alignment& found, const AlignmentOptions& option
 }  // namespace
 }  // namespace alignment
 
+Transition transition_of(AlignmentKind kind) {
+  if (kind <= AlignmentKind::kClothoid) return Transition::kClothoid;
+  return static_cast<Transition>(static_cast<int>(kind) -
+                                 static_cast<int>(AlignmentKind::kClothoid));
+}
+
 Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
                                 const std::vector<double>& tolerance,
                                 const AlignmentOptions& options, const RunContext& run) {
-  if (given.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "an alignment needs at least two points", "", "", -1,
-                 static_cast<double>(given.size())});
-  }
-  for (const double least : {options.least_length, options.least_radius}) {
-    if (least >= 0.0 && std::isfinite(least)) continue;
-    return fail(
-        {ErrorCode::kBadOption, "a least length or radius must be 0 or more", "", "", -1, least});
-  }
-  // coordinates of maps are far from their origin
-  const Vec2 origin = given.front();
-  std::vector<Vec2> points;
-  points.reserve(given.size());
-  for (const Vec2 p : given) points.push_back(p - origin);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i] == points[i - 1]) {
-      return fail({ErrorCode::kChordReversal, "two neighbouring points coincide", "", "",
-                   static_cast<std::ptrdiff_t>(i), 0.0});
-    }
-  }
-  const auto nodes = alignment::fewest_pieces(points, tolerance, options, run);
-  if (!nodes) return fail(nodes.error());
-  alignment::Chain chain;
-  std::vector<alignment::Foot> feet;
-  alignment::set_chain(*nodes, points.size(), chain, feet);
-  alignment::find_feet(chain, points, feet);
-  alignment::Simplifier simplifier(points, tolerance, options, std::move(chain), std::move(feet));
-  if (auto done = simplifier.run(run); !done) return fail(done.error());
-  const double largest = simplifier.largest();
-  if (!(largest <= 1.0)) {
-    return fail({ErrorCode::kToleranceNotReached,
-                 "the alignment that was found leaves the tolerance", "",
-                 "give a larger --noise, or --min-length or --min-radius: other elements may do",
-                 -1, largest});
-  }
-  Alignment out = alignment::alignment_of(simplifier.chain(), simplifier.feet(), tolerance);
+  const auto found = alignment::find_chain(given, tolerance, options, {}, run);
+  OBVID_TRY(found);
+  Alignment out = alignment::alignment_of(found->chain, found->feet, tolerance);
   OBVID_TRY(alignment::keeps_limits(out, options));
-  for (AlignmentElement& e : out.elements) e.start.point = e.start.point + origin;
-  out.end.point = out.end.point + origin;
+  for (AlignmentElement& e : out.elements) e.start.point = e.start.point + found->origin;
+  out.end.point = out.end.point + found->origin;
   return out;
 }
 

@@ -30,6 +30,8 @@ Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, cons
   formats.name = contour.name;
   formats.picture = contour.picture;
   formats.first_station = contour.first_station;
+  formats.profile = contour.profile;
+  formats.transitions = contour.transitions;
   const StoredContour* stored = &contour.stored;
   StoredContour other;
   if (request->units) {

@@ -32,6 +32,8 @@ struct obvid_contour {
   obvid::StoredContour stored;
   std::string name = "contour";  ///< of the curve, where a format has a place for it
   double first_station = 0.0;    ///< of its start, units
+  std::optional<obvid::VerticalProfile> profile{};     ///< of heights along it
+  std::vector<obvid::PlacedTransition> transitions{};  ///< that it has clothoids in place of
   obvid::PictureTitles picture;
   std::vector<std::string> warnings;  ///< of the fit
 };

@@ -9,6 +9,7 @@
 #include "obvid/io/contour_json.h"
 #include "obvid/io/internal/file_kind.h"
 #include "obvid/io/read_points.h"
+#include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/cut_job.h"
@@ -28,6 +29,7 @@ constexpr Known kWorksheet{.fit = true, .construction = true, .worksheet = true,
 constexpr Known kFitting{.fit = true, .import = true};
 constexpr Known kImporting{.import = true};
 constexpr Known kCutting{.import = true, .cut = true};
+constexpr Known kAligning{.import = true, .alignment = true};
 
 Result<PointSeries> series_of(const obvid_input& input, const Request& request, bool drawings) {
   if (input.space) {
@@ -49,6 +51,14 @@ Result<PointSeries> series_of(const obvid_input& input, const Request& request, 
   }();
   if (series && request.units) take_units(*series, *request.units);
   return series;
+}
+
+/// Stations and heights: of points x and y.
+Result<StationHeights> heights_of(const obvid_input& input) {
+  if (!input.points) return parse_heights(input.text, input.name);
+  StationHeights out;
+  out.points = input.points->points;
+  return out;
 }
 
 Result<Drawing> drawing_of(const obvid_input& input) {
@@ -272,6 +282,48 @@ int obvid_cut(const obvid_input* const* inputs, size_t count, const char* option
     out->files.push_back({".dxf", sketch_dxf(sketch)});
     out->remarks = made->warnings;
     *files = out.release();
+    return {};
+  });
+}
+
+int obvid_alignment(const obvid_input* input, const obvid_input* heights, const char* options,
+                    const obvid_run* run, obvid_contour** contour, obvid_files** files,
+                    char** report, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    Result<Request> request = request_of(options, kAligning);
+    OBVID_TRY(request);
+    request->import = with_heights(request->import);
+    Result<PointSeries> series = series_of(*input, *request, true);
+    OBVID_TRY(series);
+    AlignmentJob& job = request->alignment;
+    std::vector<std::string> warnings = series->warnings;
+    if (heights != nullptr) {
+      auto read = heights_of(*heights);
+      OBVID_TRY(read);
+      warnings.insert(warnings.end(), read->warnings.begin(), read->warnings.end());
+      job.heights = std::move(*read);
+    }
+    const auto made = alignment_report(*series, job, context_of(run));
+    OBVID_TRY(made);
+    auto out = std::make_unique<obvid_contour>();
+    out->stored = made->stored;
+    out->name = series->label.empty() ? series->name : series->label;
+    out->first_station = job.first_station;
+    if (made->profile) out->profile = made->profile->profile;
+    out->transitions = made->transitions;
+    out->picture = {series->name, alignment_verdict(*made)};
+    out->warnings = std::move(warnings);
+    auto tables = std::make_unique<obvid_files>();
+    tables->files.push_back({".csv", elements_csv(made->alignment.elements, made->limit)});
+    tables->files.push_back({".deviations.csv", deviations_csv(*made, series->points)});
+    if (made->profile) {
+      tables->files.push_back({".profile.csv", profile_csv(made->profile->profile)});
+    }
+    tables->files.push_back({".svg", alignment_picture(*made)});
+    tables->remarks = made->remarks;
+    hand_out_text(alignment_json(*made), report);
+    if (contour != nullptr) *contour = out.release();
+    if (files != nullptr) *files = tables.release();
     return {};
   });
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/pipeline/internal/alignment_values.h"
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/format_values.h"
 #include "obvid/pipeline/internal/job_values.h"
@@ -23,6 +24,7 @@ struct Written {
   std::string along;
   std::optional<double> tolerance;
   CutValues cut;
+  AlignmentValues alignment;
   std::optional<std::string> units;
 };
 
@@ -99,6 +101,18 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"controller", text(w.cut.controller)},
                 {"decimals", count(w.cut.decimals)}});
   }
+  if (known.alignment) {
+    AlignmentJob& job = out.alignment;
+    all.insert({{"noise", text(w.alignment.noise)},
+                {"min-length", number(job.least_length)},
+                {"min-radius", number(job.least_radius)},
+                {"station", number(job.first_station)},
+                {"lateral-acceleration", number(job.acceleration)},
+                {"transitions", text(w.alignment.transitions)},
+                {"profile-noise", text(w.alignment.profile_noise)},
+                {"profile-curves", text(w.alignment.profile_curves)},
+                {"min-vertical-length", number(job.profile.least_length)}});
+  }
   if (known.formats) {
     all.insert({{"output-tolerance", number(f.tolerance)},
                 {"for", text(f.profile)},
@@ -146,6 +160,7 @@ Result<void> check(Written& w, const Known& known, Request& out) {
       .and_then([&] { return set_formats(w.formats, out.formats, out.profile); })
       .and_then([&] { return set_import(w.formats, out.import); })
       .and_then([&] { return set_cut(w.cut, out.cut); })
+      .and_then([&] { return set_alignment(w.alignment, out.alignment); })
       .and_then([&]() -> Result<void> {
         out.worksheet = with_job(out.worksheet, out.job);
         if (has_both_headings(out.job)) out.import.list.two = TwoPoints::kDo;

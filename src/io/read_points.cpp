@@ -57,6 +57,7 @@ Result<void> fill_missing(FixedData& kept, const FixedData& other, std::string w
     kept.tolerance = std::min(kept.tolerance.value_or(*other.tolerance), *other.tolerance);
   }
   kept.corner = kept.corner || other.corner;
+  if (!kept.height) kept.height = other.height;
   return {};
 }
 
@@ -188,6 +189,8 @@ Result<PointSeries> parse_points(string_view text, string_view name,
   series.points = std::move(raw->points);
   series.fixed = std::move(raw->fixed);
   series.rounding = rounding_of(*raw);
+  const std::array<text::ColumnDigits, 1> heights{raw->height_digits};
+  series.height_rounding = heights[0].empty() ? 0.0 : text::half_units(heights)[0];
   series.warnings = std::move(raw->warnings);
   return series;
 }

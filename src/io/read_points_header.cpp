@@ -223,6 +223,7 @@ std::optional<Columns> read_header(string_view line) {
   columns.kappa_min_scale = 1.0 / scale_of(names, columns.kappa_min, columns.unit_x);
   columns.kappa_max_scale = 1.0 / scale_of(names, columns.kappa_max, columns.unit_x);
   columns.tolerance_scale = scale_of(names, columns.tolerance, columns.unit_x);
+  columns.z_scale = scale_of(names, columns.z, columns.unit_x);
   return columns;
 }
 

@@ -29,7 +29,7 @@ struct Columns {
   /// Ends of ranges.
   std::optional<std::size_t> heading_min, heading_max, radius_min, radius_max, kappa_min, kappa_max;
   /// Columns in another unit than x: what their numbers become in that of x.
-  double radius_scale = 1.0, kappa_scale = 1.0, tolerance_scale = 1.0;
+  double radius_scale = 1.0, kappa_scale = 1.0, tolerance_scale = 1.0, z_scale = 1.0;
   double radius_min_scale = 1.0, radius_max_scale = 1.0;
   double kappa_min_scale = 1.0, kappa_max_scale = 1.0;
   std::vector<std::string> unused;  ///< names that mean nothing here

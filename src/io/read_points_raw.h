@@ -36,6 +36,7 @@ struct RawPoints {
   std::vector<FixedData> fixed;                     ///< empty, or one per point
   std::array<text::ColumnDigits, 2> digits;         ///< of x and y, without the first row
   std::array<text::PrintedDigits, 2> first_digits;  ///< first row: it may turn out to be no point
+  text::ColumnDigits height_digits;                 ///< of z, where heights are read
   bool first_is_point = true;
   std::vector<std::size_t> breaks;          ///< points before which a blank line stands
   std::optional<std::size_t> stated_count;  ///< a count that stands before the points

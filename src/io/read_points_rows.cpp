@@ -306,14 +306,22 @@ Result<void> RowReader::read_named_row(Place place) {
   OBVID_TRY(x);
   const Result<double> y = number_at(place.line, layout_.y);
   OBVID_TRY(y);
+  std::optional<double> height;
   if (layout_.z) {
     const auto z = optional_cell(place.line, layout_.z, false);
     OBVID_TRY(z);
-    if (*z) watch_third(**z);
+    if (*z && options_.heights) {
+      height = layout_.z_scale * **z;
+      raw_.height_digits.add(text::digits_of(fields_.cell[*layout_.z]));
+    } else if (*z) {
+      watch_third(**z);
+    }
   }
-  if (layout_.has_fixed_data()) {
-    const Result<FixedData> fixed = read_fixed(place.line);
+  if (layout_.has_fixed_data() || height || !raw_.fixed.empty()) {
+    Result<FixedData> fixed = layout_.has_fixed_data() ? read_fixed(place.line) : FixedData{};
     OBVID_TRY(fixed);
+    fixed->height = height;
+    raw_.fixed.resize(raw_.points.size());
     if (raw_.fixed.empty()) raw_.fixed.reserve(most_rows_left(needed));
     raw_.fixed.push_back(*fixed);
   }

@@ -258,6 +258,35 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
                     self.assertEqual(C.string_at(data, size.value), file.read(), name)
             lib.obvid_files_free(files)
 
+    def test_alignment_its_tables_and_its_profile(self):
+        survey = os.path.join(SOURCES, "examples/road_survey.csv")
+        levels = "".join(f"{1000 + 20 * i},{100 + 0.02 * 20 * i:.3f}\n" for i in range(20))
+        options = {"noise": 0.008, "station": 1000, "lateral-acceleration": 1, "min-length": 10,
+                   "profile-noise": 0.01, "units": "m"}
+        with tempfile.TemporaryDirectory() as folder:
+            at = lambda name: os.path.join(folder, name)  # noqa: E731
+            with open(at("levels.csv"), "w", encoding="ascii") as file:
+                file.write("station,height\n" + levels)
+            typed = [word for name, value in options.items() for word in ("--" + name, str(value))]
+            printed, _ = program("alignment", survey, *typed, "--profile", at("levels.csv"), "--json", "-o", at("r.csv"),
+                                 "-o", at("r.svg"), "-o", at("r.xml"), "-o", at("r.xodr"), "--deviations", at("d.csv"),
+                                 "--profile-table", at("p.csv"))
+            contour, files, report, size = C.c_void_p(), C.c_void_p(), C.c_void_p(), C.c_size_t()
+            ours = call(lib.obvid_alignment, read(survey), read(at("levels.csv")), json.dumps(options).encode(), None,
+                        C.byref(contour), C.byref(files), C.byref(report), report=report)
+            self.assertEqual(ours, printed)
+            for k, name in enumerate(("r.csv", "d.csv", "p.csv", "r.svg")):
+                data = lib.obvid_files_data(files, C.c_size_t(k), C.byref(size))
+                with open(at(name), "rb") as file:
+                    self.assertEqual(C.string_at(data, size.value), file.read(), name)
+            for ending in ("xml", "xodr"):
+                with open(at("r." + ending), encoding="utf-8", newline="") as file:
+                    written = file.read()
+                self.assertEqual(export(contour, ending), written)
+                self.assertIn("ProfAlign" if ending == "xml" else "elevationProfile", written)
+            lib.obvid_files_free(files)
+            lib.obvid_contour_free(contour)
+
     def test_files_with_options(self):
         with tempfile.TemporaryDirectory() as folder:
             name = os.path.join(folder, "contour.nc")

@@ -22,7 +22,8 @@ import c_interface_test as c  # noqa: E402  (takes the same arguments)
 
 FOLDER = os.path.join(c.SOURCES, "docs/schema")
 # Options of the command line that say what is done with a result, not what it is.
-FOR_PEOPLE = {"help", "output", "json", "quiet", "no-progress", "csv", "suggest", "flat", "format"}
+FOR_PEOPLE = {"help", "output", "json", "quiet", "no-progress", "csv", "suggest", "flat", "format", "deviations",
+              "profile", "profile-table"}
 
 
 def schemas():
@@ -217,6 +218,13 @@ class Reports(unittest.TestCase):
         self.holds("cut", json.loads(c.call(c.lib.obvid_cut, inputs, C.c_size_t(1), b'{"diameter": 3, "depth": 5}', None,
                                             C.byref(files), C.byref(out), report=out)))
 
+    def test_of_an_alignment(self):
+        files, out = C.c_void_p(), C.c_void_p()
+        self.holds("alignment", json.loads(c.call(
+            c.lib.obvid_alignment, c.read(example("road_survey.csv")), c.read(example("road_levels.csv")),
+            b'{"noise": 0.02, "profile-noise": "auto", "station": 12000, "lateral-acceleration": 1}', None, None,
+            C.byref(files), C.byref(out), report=out)))
+
     def test_every_job_with_a_report_has_a_schema(self):
         with open(os.path.join(c.SOURCES, "include/obvid/obvid.h"), encoding="utf-8") as header:
             declared = re.findall(r"OBVID_API int obvid_(\w+)\(([^;]*)\);", header.read())
@@ -254,6 +262,7 @@ class Options(unittest.TestCase):
                                                o, None, ref(out), ref(text))
         yield "surface_export", lambda o: c.call(lib.obvid_surface_export, surface, b"stl", o, None, ref(out))
         yield "surface_check", lambda o: c.call(lib.obvid_surface_check, surface, o, None, ref(text))
+        yield "alignment", lambda o: c.call(lib.obvid_alignment, points, None, o, None, None, ref(out), ref(text))
         yield "cut", lambda o: c.call(lib.obvid_cut, inputs, C.c_size_t(1), o, None, ref(out), ref(text))
         yield "surface_toolpath", lambda o: c.call(lib.obvid_surface_toolpath, surface, o, None, ref(out), ref(text))
 
@@ -275,7 +284,7 @@ class Options(unittest.TestCase):
                     ("surface", "grid"): names_of("surface_make") | names_of("surface_export"),
                     ("surface", "skin"): names_of("surface_make") | names_of("surface_export"),
                     ("surface", "check"): names_of("surface_check"),
-                    ("cut",): names_of("cut"),
+                    ("cut",): names_of("cut"), ("alignment",): names_of("alignment"),
                     ("toolpath",): names_of("surface_toolpath") | names_of("surface_export"),
                     ("region",): names_of("region"), ("compare",): names_of("compare") | names_of("export"),
                     ("analyse",): names_of("analyse") | names_of("export"), ("verify",): set()}
@@ -283,7 +292,8 @@ class Options(unittest.TestCase):
         for command, known in commands.items():
             with self.subTest(command=command):
                 self.assertEqual(typed(*command) - known, set())
-        for command in [("fit",), ("region",), ("convert",), ("toolpath",), ("cut",), ("surface", "check")] + [
+        for command in [("fit",), ("region",), ("convert",), ("toolpath",), ("cut",), ("alignment",),
+                        ("surface", "check")] + [
                 ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "offset")]:
             every |= typed(*command)
         self.assertEqual(typed("fit"), commands[("fit",)])

@@ -126,6 +126,46 @@ def check_alignment(alignment):
         faults.append(f"length {total}, elements {walked}")
 
 
+def check_profile(alignment):
+    """Between PVIs grades are straight; a curve lies half before its PVI and half behind it (by its
+    tangents), and curves do not overlap. Parabolas and arcs bend one way."""
+    for profile in alignment.findall(f"{SCHEMA}Profile/{SCHEMA}ProfAlign"):
+        if not profile.get("name"):
+            faults.append("ProfAlign lacks name")
+        nodes = list(profile)
+        kinds = [node.tag[len(SCHEMA):] for node in nodes]
+        if len(nodes) < 2 or kinds[0] != "PVI" or kinds[-1] != "PVI":
+            faults.append(f"ProfAlign has {kinds}")
+            return
+        places = [tuple(float(word) for word in node.text.split()) for node in nodes]
+        stations = [place[0] for place in places]
+        if any(len(place) != 2 for place in places) or stations != sorted(stations):
+            faults.append(f"PVIs at {stations}")
+            return
+        grades = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(places, places[1:])]
+        end = stations[0]
+        for i, (node, kind) in enumerate(zip(nodes, kinds)):
+            if kind == "PVI":
+                continue
+            if kind not in ("ParaCurve", "CircCurve") or not 0 < i < len(nodes) - 1:
+                faults.append(f"ProfAlign has {kinds}")
+                return
+            length = float(node.get("length"))
+            before = after = 0.5 * length
+            if kind == "CircCurve":
+                # tangents of an arc are as long as each other
+                tangent = float(node.get("radius")) * math.tan(
+                    0.5 * abs(math.atan(grades[i]) - math.atan(grades[i - 1])))
+                before = tangent * math.cos(math.atan(grades[i - 1]))
+                after = tangent * math.cos(math.atan(grades[i]))
+                if abs(before + after - length) > 1e-6 * length:
+                    faults.append(f"CircCurve of length {length}: its radius says {before + after}")
+            slack = 1e-7 * (stations[-1] - stations[0])
+            if stations[i] - before < end - slack or stations[i] + after > stations[-1] + slack:
+                faults.append(f"the vertical curve at {stations[i]} has no room")
+            end = stations[i] + after
+
+
 def check_units(root):
     """One child of Units, Metric or Imperial, with units of its own system."""
     systems = [node for parent in root.findall(SCHEMA + "Units") for node in parent]
@@ -150,6 +190,7 @@ def main():
         faults.append(f"{len(alignments)} alignments")
     for alignment in alignments:
         check_alignment(alignment)
+        check_profile(alignment)
     print("\n".join(faults), end="")
     return 1 if faults else 0
 

@@ -23,6 +23,8 @@ ORDER = {  # children in the order of the schema
     "line": [],
     "spiral": [],
     "arc": [],
+    "elevationProfile": ["elevation"],
+    "elevation": [],
     "lanes": ["laneOffset", "laneSection"],
     "laneSection": ["left", "center", "right"],
     "center": ["lane"],
@@ -36,6 +38,7 @@ REQUIRED = {
     "geometry": ["s", "x", "y", "hdg", "length"],
     "spiral": ["curvStart", "curvEnd"],
     "arc": ["curvature"],
+    "elevation": ["s", "a", "b", "c", "d"],
     "laneSection": ["s"],
     "lane": ["id", "type"],
     "width": ["sOffset", "a", "b", "c", "d"],
@@ -112,6 +115,23 @@ def check_line(road):
         faults.append(f"road {number}: length {length}, elements {station}")
 
 
+def check_elevations(road):
+    """Cubics from 0 on, each beginning with the height and the grade of the one before."""
+    rows = [tuple(float(node.get(name)) for name in "sabcd")
+            for node in road.findall("elevationProfile/elevation")]
+    if not rows:
+        return
+    number, length = road.get("id"), float(road.get("length"))
+    if rows[0][0] != 0.0 or any(b[0] <= a[0] for a, b in zip(rows, rows[1:])) or rows[-1][0] >= length:
+        faults.append(f"road {number}: elevations at {[row[0] for row in rows]}")
+    for (s, a, b, c, d), (next_s, next_a, next_b, _, _) in zip(rows, rows[1:]):
+        x = next_s - s
+        if abs(a + x * (b + x * (c + x * d)) - next_a) > TOLERANCE * length:
+            faults.append(f"road {number}: step of the height at {next_s}")
+        if abs(b + x * (2 * c + 3 * d * x) - next_b) > 1e-7:
+            faults.append(f"road {number}: step of the grade at {next_s}")
+
+
 def check_roads(root):
     roads = root.findall("road")
     numbers = [road.get("id") for road in roads]
@@ -119,6 +139,7 @@ def check_roads(root):
         faults.append(f"roads {numbers}")
     for road in roads:
         check_line(road)
+        check_elevations(road)
         sections = road.findall("lanes/laneSection")
         if not sections or float(sections[0].get("s")) != 0.0:
             faults.append("lane sections do not begin at 0")

@@ -10,6 +10,7 @@ Lengths are in units of the points, angles of arrays in radians, of options in d
 from 0. docs/python.md explains it with pictures.
 """
 from ._library import version as __version__
+from .alignments import Alignment, alignment
 from .contour import BSpline, Contour, Piece, Samples
 from .cutting import CutProgram, cut
 from .errors import (
@@ -53,12 +54,12 @@ from .space import Corner, SpaceCurve, SpaceSamples, SpaceVerification
 from .surfaces import Surface, SurfaceSamples, Toolpath, read_surface, skin, surface, toolpath
 
 __all__ = [
-    "Analysis", "BSpline", "CancelledError", "CarrierRow", "Certificate", "Contour",
+    "Alignment", "Analysis", "BSpline", "CancelledError", "CarrierRow", "Certificate", "Contour",
     "Corner", "CutProgram", "DrawingAnalysis", "FitReport", "InputError", "InternalError", "NoContourError",
     "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "SpaceCurve",
     "SpaceSamples", "SpaceVerification", "Suggestion", "Surface", "SurfaceSamples", "Table", "Toolpath",
     "UsageError", "Verification",
-    "__version__", "analyse", "compare", "cut", "fit", "fit_many", "fit_space", "read", "read_contour",
+    "__version__", "alignment", "analyse", "compare", "cut", "fit", "fit_many", "fit_space", "read", "read_contour",
     "read_space", "read_surface", "read_text", "region", "skin", "suggest", "surface", "toolpath",
     "verify", "why_not", "worksheet",
 ]  # fmt: skip

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "obvid/alignment/transition.h"
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/geom/element.h"
@@ -11,9 +12,12 @@
 namespace obvid {
 
 /// What surveyors call the elements of a horizontal alignment.
-enum class AlignmentKind { kLine, kArc, kClothoid };
+enum class AlignmentKind { kLine, kArc, kClothoid, kBloss, kSine, kCosine, kHelmert };
 
-/// One element: curvature changes linearly along it.
+/// The law of an element whose curvature changes; that of clothoids for all others.
+[[nodiscard]] Transition transition_of(AlignmentKind kind);
+
+/// One element: curvature changes linearly along it, or by the law of its kind.
 struct AlignmentElement {
   AlignmentKind kind = AlignmentKind::kLine;
   double station = 0.0;  ///< arc length of its start along the alignment, units
@@ -45,6 +49,9 @@ struct AlignmentOptions {
   double least_length = 0.0;  ///< of each element, units; 0: a quarter of the mean distance of
                               ///< points. An alignment of one element may be shorter
   double least_radius = 0.0;  ///< of each place, units; 0: any
+  /// What takes the place of clothoids between lines and arcs, and at the ends, wherever the
+  /// tolerance allows it; others stay clothoids.
+  Transition transitions = Transition::kClothoid;
 };
 
 /// Few lines, arcs and clothoids, each beginning with the tangent of the one before (G1), within

@@ -20,7 +20,8 @@ struct PointListOptions {
   TwoPoints two = TwoPoints::kTooFew;
   std::size_t skip = 0;  ///< lines at the beginning that are not looked at; errors count them
   std::optional<std::array<std::size_t, 2>>
-      columns{};  ///< of x and y, from 0, whatever their names
+      columns{};         ///< of x and y, from 0, whatever their names
+  bool heights = false;  ///< a column z is that of heights (FixedData::height)
 };
 
 /// What is left of a text behind its first lines.

@@ -3,25 +3,58 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "obvid/alignment/alignment.h"
+#include "obvid/alignment/profile.h"
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/pipeline/element_table.h"
+#include "obvid/pipeline/import.h"
 #include "obvid/report/stored_contour.h"
 #include "obvid/series/point_series.h"
 
 namespace obvid {
+
+/// Heights along an alignment, of a file of their own.
+struct StationHeights {
+  std::vector<Vec2> points;  ///< station, height; units of the alignment, ascending
+  double rounding = 0.0;     ///< half a unit of the last printed digit of heights
+  std::vector<std::string> warnings;
+};
+
+/// Reads stations and heights, the first two columns of a list. Errors: those of `parse_points`;
+/// E402 stations that do not ascend.
+[[nodiscard]] Result<StationHeights> parse_heights(std::string_view text, std::string_view name);
+/// The same of a file. Error: E301.
+[[nodiscard]] Result<StationHeights> read_heights(const std::string& path);
 
 /// What an alignment of points is to be.
 struct AlignmentJob {
   std::optional<double> noise{};  ///< how far the alignment may pass a point, units; nothing: half
                                   ///< a unit of the last printed digit. Points with a tolerance of
                                   ///< their own keep that
-  double least_length = 0.0;      ///< of each element, units; 0: a quarter of the points' distance
-  double least_radius = 0.0;      ///< of each place, units; 0: any
-  double first_station = 0.0;     ///< of the first point, units
-  std::optional<double> acceleration{};  ///< to the side, m/s^2: what limits the speed
+  bool noise_from_scatter = false;  ///< estimated from the points, in place of `noise`
+  double least_length = 0.0;   ///< of each element, units; 0: a quarter of the points' distance
+  double least_radius = 0.0;   ///< of each place, units; 0: any
+  double first_station = 0.0;  ///< of the first point, units
+  Transition transitions = Transition::kClothoid;  ///< wanted between lines and arcs
+  std::optional<double> acceleration{};            ///< to the side, m/s^2: what limits the speed
+  std::optional<StationHeights> heights{};         ///< in place of those of the points
+  std::optional<double>
+      profile_noise{};  ///< how far the profile may pass a height, units; nothing:
+                        ///< half a unit of the last printed digit of heights
+  bool profile_noise_from_scatter = false;  ///< estimated from the heights, in place of that
+  ProfileOptions profile{};                 ///< curves, least length of its elements
+};
+
+/// The profile of an alignment, stations counted from `AlignmentJob::first_station`.
+struct ProfileReport {
+  VerticalProfile profile;
+  std::vector<Vec2> heights;  ///< station, height: what it passes
+  double tolerance = 0.0;     ///< units
+  bool of_points = false;     ///< heights are those of the points, one each, in their order
 };
 
 /// Lines, arcs and clothoids through points, with what is to be said of them.
@@ -30,21 +63,46 @@ struct AlignmentReport {
   Units units;
   double tolerance = 0.0;  ///< largest of all points, units
   Alignment alignment;
-  std::optional<SpeedLimit> limit;  ///< where an acceleration was given
-  StoredContour stored;  ///< the same as a contour, each element a piece, with its certificate
+  std::optional<SpeedLimit> limit;         ///< where an acceleration was given
+  std::optional<ProfileReport> profile{};  ///< where there are heights
+  std::vector<std::string> remarks{};      ///< how tolerances were estimated
+  StoredContour stored;  ///< the same as a contour with its certificate: each element a piece, or
+                         ///< as many clothoids as keep to a transition of another kind
+  std::vector<PlacedTransition> transitions{};  ///< these
 };
 
 /// The fewest lines, arcs and clothoids found (`fit_alignment`) within the tolerances of a series.
-/// Reentrant. Errors: those of `fit_alignment`; E203 a tolerance that is not a positive length, or
+/// With heights, of the points or of a file, also their profile (`fit_profile`).
+/// Reentrant. Errors: those of `fit_alignment` and `fit_profile`; E302, E304 where a tolerance
+/// cannot be estimated; E203 a tolerance that is not a positive length, or
 /// none where the points have no printed digits, an acceleration that is not positive, or one
 /// beside a unit that is no length.
 [[nodiscard]] Result<AlignmentReport> alignment_report(const PointSeries& series,
                                                        const AlignmentJob& job,
                                                        const RunContext& run = {});
 
-/// Station, offset (to the left positive) and coordinates of each point.
+/// What is read of the points of an alignment: heights too.
+[[nodiscard]] ImportOptions with_heights(ImportOptions import);
+
+/// Station, offset (to the left positive) and coordinates of each point; with a profile also height
+/// and its offset (upwards positive), those of a file in rows of their own.
 [[nodiscard]] std::string deviations_csv(const AlignmentReport& report,
                                          const std::vector<Vec2>& points);
+/// Grades and vertical curves: station, length, height, grades in percent, radius, and where the
+/// grades meet.
+[[nodiscard]] std::string profile_csv(const VerticalProfile& profile);
+
+/// Curve, curvature, speed and heights over the station as one SVG file.
+[[nodiscard]] std::string alignment_picture(const AlignmentReport& report);
+
+/// "4 lines, 3 arcs, 4 clothoids".
+[[nodiscard]] std::string kinds_text(const Alignment& alignment);
+/// The kinds, and how far points are off: below the title of pictures.
+[[nodiscard]] std::string alignment_verdict(const AlignmentReport& report);
+
+/// "grade", "crest", "sag".
+[[nodiscard]] const char* to_string(ProfileKind kind);
+
 /// All figures; angles in rad, lengths in units, curvatures in 1/unit.
 [[nodiscard]] std::string alignment_json(const AlignmentReport& report);
 

@@ -38,7 +38,7 @@ struct SpeedLimit {
 void add_elements(JsonText& json, const std::vector<AlignmentElement>& elements,
                   const std::optional<SpeedLimit>& limit = {});
 
-/// "line", "arc", "clothoid".
+/// "line", "arc", "clothoid", "bloss", "sine", "cosine", "helmert".
 [[nodiscard]] const char* to_string(AlignmentKind kind);
 /// Parameter of a clothoid, sqrt(length / |change of curvature|), units; 0 of other elements.
 [[nodiscard]] double clothoid_parameter(const AlignmentElement& element);

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "obvid/alignment/profile.h"
+#include "obvid/alignment/transition.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/core/result.h"
 #include "obvid/exchange/internal/dxf/write.h"
@@ -19,10 +21,13 @@ namespace obvid {
 
 /// Choices of the formats. Lengths in units of the contour.
 struct ExportOptions {
-  std::string name = "contour";     ///< of the curve, where a format has a place for it
-  double first_station = 0.0;       ///< of the start, units of the contour; of LandXML
-  PictureTitles picture{};          ///< of .svg pictures
-  PicturePlots plots{};             ///< that .svg pictures have on request
+  std::string name = "contour";  ///< of the curve, where a format has a place for it
+  double first_station = 0.0;    ///< of the start, units of the contour; of LandXML
+  std::optional<VerticalProfile>
+      profile{};  ///< of heights, stations as from there; of LandXML, OpenDRIVE
+  std::vector<PlacedTransition> transitions{};  ///< what clothoids stand for; of LandXML
+  PictureTitles picture{};                      ///< of .svg pictures
+  PicturePlots plots{};                         ///< that .svg pictures have on request
   std::string asked{};              ///< what .html pages say was asked for; empty: nothing
   std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of the
                                     ///< size; of arcs and G-code 2e-5 of it, of G-code at least

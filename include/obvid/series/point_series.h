@@ -19,6 +19,7 @@ struct FixedData {
   std::optional<double> theta;         ///< heading, rad
   std::optional<double> kappa;         ///< signed curvature, 1/unit
   std::optional<double> tolerance;     ///< how far the point may move, units
+  std::optional<double> height{};      ///< of what stands above the plane, units; where it is read
   bool corner = false;                 ///< the contour may turn here at once (G0)
   std::optional<ValueRange> thetas{};  ///< headings that do, rad, at most half a turn apart
   std::optional<ValueRange> kappas{};  ///< signed curvatures that do, 1/unit
@@ -55,6 +56,7 @@ struct PointSeries {
   std::vector<FixedData> fixed;  ///< empty, or one entry per point
   std::vector<KeptPiece> kept;   ///< of drawings, ascending; empty for lists of points
   Vec2 rounding;  ///< half a unit of the last printed digit of x and of y; 0 when not from text
+  double height_rounding = 0.0;  ///< the same of heights
   std::vector<std::string> warnings;  ///< sentences for the user, e.g. merged duplicates
 };
 

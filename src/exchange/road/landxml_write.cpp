@@ -79,9 +79,10 @@ Vec2 tangents_meet(const RoadElement& e) {
 
 class LandXmlWriter {
  public:
-  LandXmlWriter(const std::vector<RoadLine>& lines, std::string_view unit, double first_station,
+  /// `ratio`: units of the format in one of the contour.
+  LandXmlWriter(const std::vector<RoadLine>& lines, std::string_view unit, double ratio,
                 const LandXmlOptions& options)
-      : lines_(lines), unit_(unit), first_station_(first_station), options_(options) {}
+      : lines_(lines), unit_(unit), ratio_(ratio), options_(options) {}
 
   std::string run() {
     double length = 0.0;
@@ -94,13 +95,25 @@ class LandXmlWriter {
         escaped_xml(options_.date), escaped_xml(options_.time), units());
     put("  <Alignments name=\"{}\">\n    <Alignment name=\"{}\" length=\"{}\" staStart=\"{}\">\n"
         "      <CoordGeom>\n",
-        name, name, length, first_station_);
+        name, name, length, ratio_ * options_.first_station);
+    std::size_t piece = 0;
+    auto next = options_.transitions.begin();
     for (const RoadLine& line : lines_) {
-      for (const RoadElement& element : line.elements) {
-        for (const RoadElement& part : parts_of(element)) write(part);
+      for (std::size_t k = 0; k < line.elements.size(); ++k, ++piece) {
+        while (next != options_.transitions.end() && next->first_piece < piece) ++next;
+        if (next != options_.transitions.end() && next->first_piece == piece &&
+            k + next->pieces <= line.elements.size() && next->kappa0 * next->kappa1 >= 0.0) {
+          transition(*next, line.elements[k], line.elements[k + next->pieces - 1]);
+          k += next->pieces - 1;
+          piece += next->pieces - 1;
+          continue;
+        }
+        for (const RoadElement& part : parts_of(line.elements[k])) write(part);
       }
     }
-    put("      </CoordGeom>\n    </Alignment>\n  </Alignments>\n</LandXML>\n");
+    put("      </CoordGeom>\n");
+    if (options_.profile) profile(*options_.profile, name);
+    put("    </Alignment>\n  </Alignments>\n</LandXML>\n");
     return std::move(out_);
   }
 
@@ -131,14 +144,51 @@ class LandXmlWriter {
       point("End", e.end);
       put("        </Curve>\n");
     } else {
-      put("        <Spiral length=\"{}\" radiusStart=\"{}\" radiusEnd=\"{}\" rot=\"{}\" "
-          "spiType=\"clothoid\">\n",
-          e.length, radius(e.kappa0), radius(e.kappa1), e.kappa0 + e.kappa1 > 0.0 ? "ccw" : "cw");
-      point("Start", e.start);
-      point("PI", tangents_meet(e));
-      point("End", e.end);
-      put("        </Spiral>\n");
+      spiral(e, "clothoid");
     }
+  }
+
+  void spiral(const RoadElement& e, const char* kind) {
+    put("        <Spiral length=\"{}\" radiusStart=\"{}\" radiusEnd=\"{}\" rot=\"{}\" "
+        "spiType=\"{}\">\n",
+        e.length, radius(e.kappa0), radius(e.kappa1), e.kappa0 + e.kappa1 > 0.0 ? "ccw" : "cw",
+        kind);
+    point("Start", e.start);
+    point("PI", tangents_meet(e));
+    point("End", e.end);
+    put("        </Spiral>\n");
+  }
+
+  /// One Spiral from the start of the first element to the end of the last.
+  void transition(const PlacedTransition& t, const RoadElement& first, const RoadElement& last) {
+    // in the order of Transition; the format calls Helmert's (Schramm's) law biquadratic
+    static constexpr std::array kSpiralKinds = {"clothoid", "bloss", "sinusoid", "cosine",
+                                                "biquadratic"};
+    RoadElement whole = first;
+    whole.end = last.end;
+    whole.kappa0 = t.kappa0 / ratio_;
+    whole.kappa1 = t.kappa1 / ratio_;
+    whole.length = t.length * ratio_;  // turns as a clothoid does: by half of both curvatures
+    spiral(whole, kSpiralKinds[static_cast<std::size_t>(t.kind)]);
+  }
+
+  /// A PVI at both ends, and where grades meet one with its curve; a corner none.
+  void profile(const VerticalProfile& profile, const std::string& name) {
+    put("      <Profile name=\"{0}\">\n        <ProfAlign name=\"{0}\">\n", name);
+    const auto place = [&](const char* opening, const char* kind, Vec2 at) {
+      put("          <{}>{} {}</{}>\n", opening, ratio_ * at.x, ratio_ * at.y, kind);
+    };
+    place("PVI", "PVI", {profile.elements.front().station, profile.elements.front().height});
+    for (const ProfileElement& e : profile.elements) {
+      if (e.kind == ProfileKind::kGrade) continue;
+      const bool arc = profile.curves == ProfileCurves::kArcs;
+      const std::string opening = arc ? fmt::format("CircCurve length=\"{}\" radius=\"{}\"",
+                                                    ratio_ * e.length, ratio_ * std::abs(e.radius))
+                                      : fmt::format("ParaCurve length=\"{}\"", ratio_ * e.length);
+      place(opening.c_str(), arc ? "CircCurve" : "ParaCurve", grades_meet(e, profile.curves));
+    }
+    place("PVI", "PVI", {profile.end_station, profile.end_height});
+    put("        </ProfAlign>\n      </Profile>\n");
   }
 
   [[nodiscard]] std::string units() const {
@@ -156,7 +206,7 @@ class LandXmlWriter {
 
   const std::vector<RoadLine>& lines_;
   std::string_view unit_;  ///< one of the format's
-  double first_station_;   ///< in that
+  double ratio_;           ///< of these in one of the contour
   const LandXmlOptions& options_;
   std::string out_;
 };
@@ -178,7 +228,7 @@ Result<std::string> landxml_text(const Contour& contour, const LandXmlOptions& o
   OBVID_TRY(lines);
   const auto ratio = unit_ratio(contour.units, known, "road formats");
   OBVID_TRY(ratio);
-  return LandXmlWriter(*lines, unit, *ratio * options.first_station, options).run();
+  return LandXmlWriter(*lines, unit, *ratio, options).run();
 }
 
 }  // namespace obvid

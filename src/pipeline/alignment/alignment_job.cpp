@@ -4,22 +4,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "alignment/heights.h"
+#include "alignment/profile_table.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/io/internal/json_text.h"
+#include "obvid/picture/internal/alignment_svg.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/element_table.h"
 
 namespace obvid {
 namespace {
 
-Result<std::vector<double>> tolerances_of(const PointSeries& series, const AlignmentJob& job) {
+Result<std::vector<double>> tolerances_of(const PointSeries& series, const AlignmentJob& job,
+                                          std::vector<std::string>& remarks) {
   if (job.noise && !(*job.noise > 0.0 && std::isfinite(*job.noise))) {
     return fail({ErrorCode::kBadOption, "the tolerance must be a positive length", "noise",
                  "give it in the units of the points"});
   }
   const double rounding = std::max(series.rounding.x, series.rounding.y);
-  const double all = job.noise.value_or(rounding);
+  double all = job.noise.value_or(rounding);
+  if (job.noise_from_scatter) {
+    const auto seen =
+        pipeline_detail::estimated_noise(series.points, series.units, "--noise auto", remarks);
+    OBVID_TRY(seen);
+    all = *seen;
+  }
   std::vector<double> out(series.points.size(), all);
   for (std::size_t i = 0; i < series.fixed.size(); ++i) {
     if (series.fixed[i].tolerance) out[i] = *series.fixed[i].tolerance;
@@ -39,21 +51,64 @@ Piece piece_of(const AlignmentElement& e, Vec2 end) {
       return LinePiece{a.point, end};
     case AlignmentKind::kArc:
       return ArcPiece{a.point, end, a.theta, a.kappa, e.length};
-    case AlignmentKind::kClothoid:
+    default:
       break;
   }
   return ClothoidPiece{a.point, end, a.theta, a.kappa, e.kappa1, e.length};
 }
 
-DrawnCurve curve_of(const Alignment& alignment, const std::string& name) {
+constexpr int kDrawnSteps = 32;  ///< of a curvature that is not linear
+
+/// Of a tolerance: how near clothoids stay to a transition of another kind.
+constexpr double kNearTransition = 1e-3;
+
+/// An element that is no piece, as clothoids.
+void add_transition(const AlignmentElement& e, Vec2 end, double tolerance, DrawnCurve& curve,
+                    std::vector<PlacedTransition>& placed) {
+  const Transition kind = transition_of(e.kind);
+  auto pieces = clothoids_along(kind, e.start, e.kappa1, e.length, tolerance);
+  pieces.back().end = end;
+  placed.push_back({curve.pieces.size(), pieces.size(), kind, e.start.kappa, e.kappa1, e.length});
+  curve.pieces.insert(curve.pieces.end(), pieces.begin(), pieces.end());
+}
+
+DrawnCurve curve_of(const Alignment& alignment, const std::string& name, double tolerance,
+                    std::vector<PlacedTransition>& placed) {
   DrawnCurve out;
   out.label = name;
   for (std::size_t k = 0; k < alignment.elements.size(); ++k) {
     const bool last = k + 1 == alignment.elements.size();
-    out.pieces.push_back(piece_of(alignment.elements[k],
-                                  (last ? alignment.end : alignment.elements[k + 1].start).point));
+    const AlignmentElement& e = alignment.elements[k];
+    const Vec2 end = (last ? alignment.end : alignment.elements[k + 1].start).point;
+    if (transition_of(e.kind) == Transition::kClothoid) {
+      out.pieces.push_back(piece_of(e, end));
+    } else {
+      add_transition(e, end, tolerance, out, placed);
+    }
   }
   return out;
+}
+
+/// What was asked for and is not there, and what files without such curves have.
+void tell_transitions(const Alignment& alignment, Transition wanted, double near,
+                      const Units& units, std::vector<std::string>& remarks) {
+  if (wanted == Transition::kClothoid) return;
+  std::size_t kept = 0, placed = 0;
+  for (const AlignmentElement& e : alignment.elements) {
+    if (e.kind == AlignmentKind::kClothoid) ++kept;
+    if (transition_of(e.kind) == wanted) ++placed;
+  }
+  if (kept > 0) {
+    remarks.push_back(fmt::format(
+        "{} still: no transition of kind {} takes the place within the tolerance",
+        kept == 1 ? "one is a clothoid" : fmt::format("{} are clothoids", kept), name_of(wanted)));
+  }
+  if (placed > 0) {
+    remarks.push_back(fmt::format(
+        "transitions of kind {} are clothoids within {} {} of them in pictures and files but "
+        "LandXML, and there where they pass an inflection",
+        name_of(wanted), significant(near, 3), units.text()));
+  }
 }
 
 Result<std::optional<SpeedLimit>> speed_limit(const Units& units,
@@ -72,34 +127,105 @@ Result<std::optional<SpeedLimit>> speed_limit(const Units& units,
 
 Result<AlignmentReport> alignment_report(const PointSeries& series, const AlignmentJob& job,
                                          const RunContext& run) {
-  const auto tolerance = tolerances_of(series, job);
-  if (!tolerance) return fail(tolerance.error());
+  AlignmentReport out;
+  const auto tolerance = tolerances_of(series, job, out.remarks);
+  OBVID_TRY(tolerance);
   const auto limit = speed_limit(series.units, job.acceleration);
   OBVID_TRY(limit);
   AlignmentOptions limits;
   limits.least_length = job.least_length;
   limits.least_radius = job.least_radius;
+  limits.transitions = job.transitions;
   auto alignment = fit_alignment(series.points, *tolerance, limits, run);
   if (!alignment) return fail(alignment.error());
   for (AlignmentElement& e : alignment->elements) e.station += job.first_station;
   for (AlignmentDeviation& d : alignment->deviations) d.station += job.first_station;
-  AlignmentReport out;
+  auto profile = pipeline_detail::profile_report(series, *alignment, job, out.remarks, run);
+  OBVID_TRY(profile);
+  out.profile = std::move(*profile);
   out.name = series.name;
   out.units = series.units;
   out.tolerance = *std::max_element(tolerance->begin(), tolerance->end());
-  CurveAudit audited = audit(curve_of(*alignment, series.name), series.units);
+  const double near = kNearTransition * *std::min_element(tolerance->begin(), tolerance->end());
+  CurveAudit audited =
+      audit(curve_of(*alignment, series.name, near, out.transitions), series.units);
+  tell_transitions(*alignment, job.transitions, near, series.units, out.remarks);
   out.stored = {std::move(audited.contour), std::nullopt, std::move(audited.certificate)};
   out.alignment = std::move(*alignment);
   out.limit = *limit;
   return out;
 }
 
+std::string kinds_text(const Alignment& alignment) {
+  std::array<std::size_t, 7> count{};
+  for (const auto& e : alignment.elements) ++count[static_cast<std::size_t>(e.kind)];
+  std::string out =
+      fmt::format("{}, {}, {}", counted(count[0], "line", "lines"),
+                  counted(count[1], "arc", "arcs"), counted(count[2], "clothoid", "clothoids"));
+  for (std::size_t k = 3; k < count.size(); ++k) {
+    if (count[k] == 0) continue;
+    out += fmt::format(", {} {}", count[k], to_string(static_cast<AlignmentKind>(k)));
+  }
+  return out;
+}
+
+std::string alignment_verdict(const AlignmentReport& report) {
+  return fmt::format("{}; all points within {} {}", kinds_text(report.alignment),
+                     significant(report.tolerance, 3), report.units.text());
+}
+
+std::string alignment_picture(const AlignmentReport& report) {
+  AlignmentDiagram diagram;
+  for (const AlignmentElement& e : report.alignment.elements) {
+    AlignmentDiagram::Part part{e.station, e.length, "", {}};
+    const Transition law = transition_of(e.kind);
+    const int steps = law == Transition::kClothoid ? 1 : kDrawnSteps;
+    for (int k = 0; k <= steps; ++k) {
+      const double share = transition_share(law, static_cast<double>(k) / steps);
+      part.curvatures.push_back(e.start.kappa + (e.kappa1 - e.start.kappa) * share);
+    }
+    const double parameter = clothoid_parameter(e);
+    if (e.kind == AlignmentKind::kArc) {
+      part.label = "R " + significant(1.0 / e.start.kappa, 4);
+    } else if (parameter > 0.0) {
+      part.label = "A " + significant(parameter, 4);
+    } else if (law != Transition::kClothoid) {
+      part.label = name_of(law);
+    }
+    diagram.parts.push_back(std::move(part));
+  }
+  if (report.limit) {
+    constexpr double kKmhPerMs = 3.6;
+    diagram.speed_scale = kKmhPerMs * std::sqrt(report.limit->acceleration * report.limit->metres);
+  }
+  if (report.profile) {
+    diagram.profile = report.profile->profile;
+    diagram.heights = report.profile->heights;
+  }
+  return alignment_svg(report.stored, {report.name, alignment_verdict(report)}, diagram);
+}
+
 std::string deviations_csv(const AlignmentReport& report, const std::vector<Vec2>& points) {
-  std::string out = "station,offset,x,y\n";
+  std::string out =
+      report.profile ? "station,offset,x,y,height,height_offset\n" : "station,offset,x,y\n";
+  const bool beside = report.profile && report.profile->of_points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const AlignmentDeviation& d = report.alignment.deviations[i];
-    out += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}\n", d.station, d.offset, points[i].x,
+    out += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}", d.station, d.offset, points[i].x,
                        points[i].y);
+    if (beside) {
+      out += fmt::format(",{:.17g},{:.17g}", report.profile->heights[i].y,
+                         report.profile->profile.offsets[i]);
+    } else if (report.profile) {
+      out += ",,";
+    }
+    out += '\n';
+  }
+  if (!report.profile || beside) return out;
+  for (std::size_t i = 0; i < report.profile->heights.size(); ++i) {
+    const Vec2 at = report.profile->heights[i];
+    out +=
+        fmt::format("{:.17g},,,,{:.17g},{:.17g}\n", at.x, at.y, report.profile->profile.offsets[i]);
   }
   return out;
 }
@@ -118,7 +244,17 @@ std::string alignment_json(const AlignmentReport& report) {
   for (const AlignmentDeviation& d : alignment.deviations) {
     json.begin_object().pair("station", d.station).pair("offset", d.offset).end_object();
   }
-  json.end_array().end_object();
+  json.end_array();
+  if (report.profile) {
+    json.key("profile");
+    pipeline_detail::add_profile(json, *report.profile);
+  }
+  if (!report.remarks.empty()) {
+    json.key("remarks").begin_array();
+    for (const std::string& remark : report.remarks) json.value(remark);
+    json.end_array();
+  }
+  json.end_object();
   return json.take();
 }
 

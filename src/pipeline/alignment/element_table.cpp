@@ -96,12 +96,14 @@ void add_elements(JsonText& json, const std::vector<AlignmentElement>& elements,
 }
 
 const char* to_string(AlignmentKind kind) {
-  static constexpr std::array kNames = {"line", "arc", "clothoid"};
+  static constexpr std::array kNames = {"line", "arc",    "clothoid", "bloss",
+                                        "sine", "cosine", "helmert"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 double clothoid_parameter(const AlignmentElement& element) {
   const double change = std::abs(element.kappa1 - element.start.kappa);
+  if (element.kind != AlignmentKind::kClothoid) return 0.0;
   return change > 0.0 ? std::sqrt(element.length / change) : 0.0;
 }
 

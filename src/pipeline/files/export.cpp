@@ -294,6 +294,9 @@ Result<Exported> contour_as_gcode(const ContourExport& e) {
 Result<Exported> contour_as_opendrive(const ContourExport& e) {
   OpenDriveOptions road;
   road.name = e.options.name;
+  road.first_station = e.options.first_station;
+  road.profile = e.options.profile;
+  road.tolerance = e.tolerance;
   return with_units(notes_of(e, UnitRule::kRoad, "OpenDRIVE files", "m"),
                     [&] { return one_text(opendrive_text(e.contour, road)); });
 }
@@ -301,6 +304,8 @@ Result<Exported> contour_as_opendrive(const ContourExport& e) {
 Result<Exported> contour_as_landxml(const ContourExport& e) {
   LandXmlOptions road;
   road.name = e.options.name;
+  road.profile = e.options.profile;
+  road.transitions = e.options.transitions;
   road.first_station = e.options.first_station;
   return with_units(
       notes_of(e, UnitRule::kRoad, "LandXML files", landxml_unit(e.contour.units.name)),

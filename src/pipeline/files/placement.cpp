@@ -64,6 +64,7 @@ class Placing {
     if (data.theta) data.theta = heading(*data.theta);
     if (data.kappa) data.kappa = kappa(*data.kappa);
     if (data.tolerance) data.tolerance = length(*data.tolerance);
+    if (data.height) data.height = length(*data.height);
     if (data.thetas) data.thetas = range(heading(data.thetas->low), heading(data.thetas->high));
     if (data.kappas) data.kappas = range(kappa(data.kappas->low), kappa(data.kappas->high));
   }
@@ -111,6 +112,7 @@ void place(const Placement& placement, PointSeries& series) {
   for (FixedData& fixed : series.fixed) placing.fixed(fixed);
   for (KeptPiece& kept : series.kept) kept.piece = std::visit(placing, kept.piece);
   series.rounding = placing.rounding(series.rounding);
+  series.height_rounding = placing.length(series.height_rounding);
 }
 
 void place(const Placement& placement, SpaceSeries& series) {

@@ -164,6 +164,14 @@ std::vector<Job> jobs() {
          const int code = obvid_surface_check(h.surface, "{\"samples\": 12}", run, &text, nullptr);
          return taken(text) + code_text(code);
        }},
+      {"alignment",
+       [](const Handles& h, const obvid_run* run) {
+         obvid_files* files = nullptr;
+         char* text = nullptr;
+         const int code = obvid_alignment(h.points, nullptr, "{\"noise\": 0.5}", run, nullptr,
+                                          &files, &text, nullptr);
+         return told(files) + taken(text) + code_text(code);
+       }},
       {"cut",
        [](const Handles& h, const obvid_run* run) {
          obvid_files* files = nullptr;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "obvid/alignment/profile.h"
+#include "obvid/alignment/transition.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 #include "obvid/exchange/drawing.h"
@@ -11,9 +15,9 @@
 namespace obvid {
 
 /// The CoordGeom of alignments, parcels and plan features of a LandXML file (1.0 to 2.0), one curve
-/// each, with its name and first station: Line, Curve and clothoid Spiral exactly, x east and y north (the file has northing first);
-/// IrregularLine as lines and as a series of points. Units are those of the file; metres
-/// are assumed, with a warning, where it names none.
+/// each, with its name and first station: Line, Curve and clothoid Spiral exactly, x east and y
+/// north (the file has northing first); IrregularLine as lines and as a series of points. Units are
+/// those of the file; metres are assumed, with a warning, where it names none.
 ///
 /// A Curve has the stated radius and is placed by its start and end (from 1 rad on, by its centre);
 /// a Spiral has the stated length and radii and points where start and end want it. Where they end
@@ -31,6 +35,11 @@ struct LandXmlOptions {
   std::string date = "1970-01-01";  ///< the format wants one; the same input gives the same bytes
   std::string time = "00:00:00";
   double first_station = 0.0;  ///< of the start, units of the contour
+  std::optional<VerticalProfile>
+      profile{};  ///< of heights, stations as from `first_station`, units of the
+                  ///< contour: a ProfAlign of PVI, ParaCurve and CircCurve
+  std::vector<PlacedTransition> transitions{};  ///< written as a Spiral of their kind each, but for
+                                                ///< those through an inflection
 };
 
 /// The unit of a LandXML file for lengths in `unit`: itself where the format knows it (mm, cm, m,
@@ -38,10 +47,10 @@ struct LandXmlOptions {
 [[nodiscard]] std::string_view landxml_unit(std::string_view unit);
 
 /// A LandXML 1.2 file with the contour as one Alignment in its unit, or in the next one that the
-/// format knows: Line, Curve and clothoid Spiral elements. Exactly; spirals through an inflection and what turns by
-/// more than a right angle are cut into parts, because the format has one direction of rotation for
-/// each, and tangents that must meet. Errors: those of `road_lines` (other pieces than lines, arcs
-/// and clothoids: E310).
+/// format knows: Line, Curve and clothoid Spiral elements. Exactly; spirals through an inflection
+/// and what turns by more than a right angle are cut into parts, because the format has one
+/// direction of rotation for each, and tangents that must meet. Errors: those of `road_lines`
+/// (other pieces than lines, arcs and clothoids: E310).
 [[nodiscard]] Result<std::string> landxml_text(const Contour& contour,
                                                const LandXmlOptions& options = {});
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once  // reentrant: docs/threads.md
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "obvid/curve/pieces.h"
+#include "obvid/geom/element.h"
+
+namespace obvid {
+
+/// How curvature goes from one value to another along a transition, by the share u of its length:
+/// kappa0 + (kappa1 - kappa0) f(u).
+enum class Transition {
+  kClothoid,  ///< u
+  kBloss,     ///< 3 u^2 - 2 u^3
+  kSine,      ///< u - sin(2 pi u)/(2 pi): Klein's
+  kCosine,    ///< (1 - cos(pi u))/2
+  kHelmert,   ///< 2 u^2 up to the middle, 1 - 2 (1 - u)^2 behind it: Schramm's
+};
+
+/// A transition of which a contour has clothoids: pieces [first_piece, first_piece + pieces).
+struct PlacedTransition {
+  std::size_t first_piece = 0, pieces = 0;
+  Transition kind = Transition::kClothoid;
+  double kappa0 = 0.0, kappa1 = 0.0;  ///< curvatures at its ends, 1/unit
+  double length = 0.0;                ///< units
+};
+
+/// "clothoid", "bloss", "sine", "cosine", "helmert".
+[[nodiscard]] std::string_view name_of(Transition kind);
+[[nodiscard]] std::optional<Transition> transition_named(std::string_view name);
+
+/// f(u), and its integral from 0 to u; u in [0, 1]. The integral to 1 is 1/2 for all of them.
+[[nodiscard]] double transition_share(Transition kind, double u);
+[[nodiscard]] double transition_turn(Transition kind, double u);
+
+/// The element at `s` behind `start` on a transition of this length from the curvature of `start`
+/// to `kappa1`; beyond its ends curvature stays as it is there. By Gauss's rule on parts that turn
+/// little: error below 1e-13 of the length.
+[[nodiscard]] Element transition_at(Transition kind, const Element& start, double kappa1,
+                                    double length, double s);
+
+/// Clothoids with common tangents through places of a transition, within `tolerance` of it (units):
+/// for what has no other curves. As few of equal length as do, a power of two; the ends are exact.
+[[nodiscard]] std::vector<ClothoidPiece> clothoids_along(Transition kind, const Element& start,
+                                                         double kappa1, double length,
+                                                         double tolerance);
+
+}  // namespace obvid

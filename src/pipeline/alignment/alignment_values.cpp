@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/internal/alignment_values.h"
+
+#include <cmath>
+#include <optional>
+
+#include "obvid/pipeline/internal/job_values.h"
+
+namespace obvid {
+namespace {
+
+Result<void> take_tolerance(const std::string& typed, const char* option, const char* hint,
+                            std::optional<double>& length, bool& from_scatter) {
+  if (typed.empty() || typed == "rounding") return {};
+  if (typed == "auto") {
+    from_scatter = true;
+    return {};
+  }
+  const auto number = typed_number(typed);
+  if (!number || !std::isfinite(*number) || !(*number > 0.0)) {
+    return fail(
+        bad_option("the tolerance must be a positive length, rounding or auto", option, hint));
+  }
+  length = number;
+  return {};
+}
+
+}  // namespace
+
+Result<void> set_alignment(const AlignmentValues& typed, AlignmentJob& job) {
+  OBVID_TRY(take_tolerance(typed.noise, "--noise", "give it in the units of the points", job.noise,
+                           job.noise_from_scatter));
+  OBVID_TRY(take_tolerance(typed.profile_noise, "--profile-noise",
+                           "give it in the units of the points", job.profile_noise,
+                           job.profile_noise_from_scatter));
+  if (!typed.transitions.empty()) {
+    const auto kind = transition_named(typed.transitions);
+    if (!kind) {
+      return fail(bad_option("transitions are of another kind than " + typed.transitions,
+                             "--transitions", "name clothoid, bloss, sine, cosine or helmert"));
+    }
+    job.transitions = *kind;
+  }
+  if (typed.profile_curves.empty() || typed.profile_curves == "parabolas") return {};
+  if (typed.profile_curves != "arcs") {
+    return fail(bad_option("vertical curves are parabolas or arcs", "--profile-curves",
+                           "name one of them"));
+  }
+  job.profile.curves = ProfileCurves::kArcs;
+  return {};
+}
+
+}  // namespace obvid

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "alignment/heights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "obvid/core/files.h"
+#include "obvid/core/internal/figures.h"
+#include "obvid/io/read_points.h"
+#include "obvid/series/internal/scatter.h"
+
+namespace obvid {
+
+Result<StationHeights> parse_heights(std::string_view text, std::string_view name) {
+  PointListOptions list;
+  list.two = TwoPoints::kDo;
+  list.columns = {0, 1};
+  auto series = parse_points(text, name, list);
+  OBVID_TRY(series);
+  StationHeights out;
+  out.points = std::move(series->points);
+  out.rounding = series->rounding.y;
+  out.warnings = std::move(series->warnings);
+  for (std::size_t i = 1; i < out.points.size(); ++i) {
+    if (out.points[i].x > out.points[i - 1].x) continue;
+    return error(ErrorCode::kChordReversal, "stations of a profile must ascend")
+        .where(std::string(name))
+        .hint("give station and height in the first two columns, sorted by station")
+        .point(static_cast<std::ptrdiff_t>(i))
+        .value(out.points[i].x);
+  }
+  return out;
+}
+
+Result<StationHeights> read_heights(const std::string& path) {
+  const auto text = read_file(path);
+  OBVID_TRY(text);
+  return parse_heights(*text, path);
+}
+
+ImportOptions with_heights(ImportOptions import) {
+  import.list.heights = true;
+  return import;
+}
+
+namespace pipeline_detail {
+namespace {
+
+/// Heights of the points at the stations of their feet, in their order.
+Result<ProfileReport> heights_of_points(const PointSeries& series, const Alignment& alignment) {
+  ProfileReport out;
+  out.of_points = true;
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    if (i < series.fixed.size() && series.fixed[i].height) {
+      out.heights.push_back({alignment.deviations[i].station, *series.fixed[i].height});
+      continue;
+    }
+    return error(ErrorCode::kBadOption, "a point has no height, but others have")
+        .where("z")
+        .hint("fill the column, leave it out, or give heights by --profile")
+        .point(static_cast<std::ptrdiff_t>(i));
+  }
+  return out;
+}
+
+Result<double> height_tolerance(const std::vector<Vec2>& heights, double rounding,
+                                const Units& units, const AlignmentJob& job,
+                                std::vector<std::string>& remarks) {
+  if (job.profile_noise_from_scatter) {
+    return estimated_noise(heights, units, "--profile-noise auto", remarks);
+  }
+  const double tolerance = job.profile_noise.value_or(rounding);
+  if (tolerance > 0.0 && std::isfinite(tolerance)) return tolerance;
+  return error(ErrorCode::kBadOption, "a profile needs a tolerance")
+      .where("--profile-noise")
+      .hint("say how far it may pass the heights")
+      .value(tolerance);
+}
+
+}  // namespace
+
+Result<double> estimated_noise(const std::vector<Vec2>& points, const Units& units,
+                               const char* option, std::vector<std::string>& remarks) {
+  auto seen = scatter_of(points);
+  if (!seen) {
+    seen.error().where = option;
+    return fail(seen.error());
+  }
+  remarks.push_back(fmt::format(
+      "{}: points may be {} {} off, {} times their scatter of {} about cubics through four "
+      "neighbours each (median of {} points)",
+      option, significant(seen->bound, 4), units.text(), significant(seen->bound_factor, 3),
+      significant(seen->deviation, 4), seen->places));
+  return seen->bound;
+}
+
+Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
+                                                    const Alignment& alignment,
+                                                    const AlignmentJob& job,
+                                                    std::vector<std::string>& remarks,
+                                                    const RunContext& run) {
+  const bool any = std::any_of(series.fixed.begin(), series.fixed.end(),
+                               [](const FixedData& f) { return f.height.has_value(); });
+  if (!job.heights && !any) return std::optional<ProfileReport>();
+  ProfileReport out;
+  double rounding = series.height_rounding;
+  if (job.heights) {
+    out.heights = job.heights->points;
+    rounding = job.heights->rounding;
+  } else {
+    auto own = heights_of_points(series, alignment);
+    OBVID_TRY(own);
+    out = std::move(*own);
+  }
+  // feet of neighbours may lie the other way round where points scatter along
+  std::vector<std::size_t> order(out.heights.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return out.heights[a].x < out.heights[b].x;
+  });
+  std::vector<Vec2> ascending;
+  for (const std::size_t i : order) ascending.push_back(out.heights[i]);
+  const auto tolerance = height_tolerance(ascending, rounding, series.units, job, remarks);
+  OBVID_TRY(tolerance);
+  out.tolerance = *tolerance;
+  auto profile =
+      fit_profile(ascending, std::vector<double>(ascending.size(), *tolerance), job.profile, run);
+  OBVID_TRY(profile);
+  std::vector<double> offsets(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) offsets[order[k]] = profile->offsets[k];
+  profile->offsets = std::move(offsets);
+  out.profile = std::move(*profile);
+  return std::optional(std::move(out));
+}
+
+}  // namespace pipeline_detail
+}  // namespace obvid

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "alignment/profile_table.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace obvid {
+
+const char* to_string(ProfileKind kind) {
+  static constexpr std::array kNames = {"grade", "crest", "sag"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string profile_csv(const VerticalProfile& profile) {
+  std::string out =
+      "kind,station,length,height,grade_start_percent,grade_end_percent,radius,pvi_station,"
+      "pvi_height\n";
+  for (const ProfileElement& e : profile.elements) {
+    out += fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", to_string(e.kind), e.station,
+                       e.length, e.height, 100.0 * e.grade0, 100.0 * e.grade1);
+    if (e.kind == ProfileKind::kGrade) {
+      out += ",,,\n";
+      continue;
+    }
+    const Vec2 meeting = grades_meet(e, profile.curves);
+    out += fmt::format(",{:.17g},{:.17g},{:.17g}\n", e.radius, meeting.x, meeting.y);
+  }
+  return out;
+}
+
+namespace pipeline_detail {
+
+void add_profile(JsonText& json, const ProfileReport& report) {
+  const VerticalProfile& profile = report.profile;
+  json.begin_object();
+  json.pair("curves", profile.curves == ProfileCurves::kArcs ? "arcs" : "parabolas");
+  json.pair("tolerance", report.tolerance).pair("largest_share", profile.largest_share);
+  json.pair("rms", profile.rms);
+  json.pair("end_station", profile.end_station).pair("end_height", profile.end_height);
+  json.key("elements").begin_array();
+  for (const ProfileElement& e : profile.elements) {
+    json.begin_object().pair("kind", to_string(e.kind)).pair("station", e.station);
+    json.pair("length", e.length).pair("height", e.height);
+    json.pair("grade_start", e.grade0).pair("grade_end", e.grade1);
+    if (e.kind != ProfileKind::kGrade) {
+      const Vec2 meeting = grades_meet(e, profile.curves);
+      json.pair("radius", e.radius);
+      json.pair("pvi_station", meeting.x).pair("pvi_height", meeting.y);
+    }
+    json.end_object();
+  }
+  json.end_array();
+  json.key("deviations").begin_array();
+  for (std::size_t i = 0; i < report.heights.size(); ++i) {
+    json.begin_object().pair("station", report.heights[i].x).pair("height", report.heights[i].y);
+    json.pair("offset", profile.offsets[i]).end_object();
+  }
+  json.end_array().end_object();
+}
+
+}  // namespace pipeline_detail
+}  // namespace obvid

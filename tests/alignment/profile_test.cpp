@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/alignment/profile.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace obvid {
+namespace {
+
+/// Grades between points of intersection, rounded by parabolas of given lengths.
+struct Corner {
+  double station, height, length;
+};
+const std::vector<Corner> kCorners = {{0, 100, 0},      {300, 106, 120},   {560, 95.6, 160},
+                                      {820, 100.8, 80}, {1100, 90.4, 200}, {1400, 97, 0}};
+
+/// Height by the textbook: y = y0 + g0 x + (g1 - g0) x^2 / 2L from the start of the curve on.
+double height_by_corners(const std::vector<Corner>& road, double s) {
+  for (std::size_t k = 1; k + 1 < road.size(); ++k) {
+    const Corner &a = road[k - 1], &b = road[k], &c = road[k + 1];
+    const double g0 = (b.height - a.height) / (b.station - a.station);
+    const double g1 = (c.height - b.height) / (c.station - b.station);
+    const double x = s - (b.station - 0.5 * b.length);
+    if (x < 0.0) return b.height + g0 * (s - b.station);
+    if (x > b.length) continue;
+    return b.height - 0.5 * b.length * g0 + g0 * x + (g1 - g0) * x * x / (2.0 * b.length);
+  }
+  const Corner &a = road[road.size() - 2], &b = road.back();
+  return b.height + (b.height - a.height) / (b.station - a.station) * (s - b.station);
+}
+
+std::vector<Vec2> levelled(double step, double sigma) {
+  std::vector<Vec2> out;
+  std::uint64_t state = 11;
+  for (int i = 0; i * step <= 1400.0; ++i) {
+    double noise = -6.0;  // of twelve numbers in [0, 1): nearly normal
+    for (int k = 0; k < 12; ++k) {
+      state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+      noise += static_cast<double>(state >> 11) * 0x1p-53;
+    }
+    out.push_back({i * step, height_by_corners(kCorners, i * step) + sigma * noise});
+  }
+  return out;
+}
+
+void expect_road(const VerticalProfile& found, double least_length_off, double grade_off) {
+  ASSERT_EQ(found.elements.size(), 9U);
+  for (std::size_t k = 0; k < 9; ++k) {
+    const ProfileElement& e = found.elements[k];
+    const Corner &a = kCorners[k / 2], &b = kCorners[k / 2 + 1];
+    const double grade = (b.height - a.height) / (b.station - a.station);
+    if (k % 2 == 0) {
+      EXPECT_EQ(e.kind, ProfileKind::kGrade) << k;
+      EXPECT_EQ(e.grade0, e.grade1);
+      EXPECT_NEAR(e.grade0, grade, grade_off) << k;
+      continue;
+    }
+    const Corner& c = kCorners[k / 2 + 2];
+    const double next = (c.height - b.height) / (c.station - b.station);
+    EXPECT_EQ(e.kind, next > grade ? ProfileKind::kSag : ProfileKind::kCrest) << k;
+    EXPECT_NEAR(e.length, b.length, least_length_off) << k;
+    EXPECT_NEAR(e.radius, b.length / (next - grade), std::abs(e.radius) * least_length_off / 50.0);
+    const Vec2 meeting = grades_meet(e, found.curves);
+    EXPECT_NEAR(meeting.x, b.station, least_length_off);
+    EXPECT_NEAR(meeting.y, b.height, 0.05 * least_length_off);
+  }
+}
+
+TEST(Profile, FindsGradesAndParabolasOfARoadWithoutNoise) {
+  const auto points = levelled(10.0, 0.0);
+  const auto found = fit_profile(points, std::vector<double>(points.size(), 1e-4));
+  ASSERT_TRUE(found) << found.error().what;
+  expect_road(*found, 0.2, 1e-6);
+  EXPECT_LE(found->largest_share, 1.0);
+}
+
+TEST(Profile, FindsGradesAndParabolasThroughThreeMillimetresOfNoise) {
+  const auto points = levelled(5.0, 0.003);
+  const auto found = fit_profile(points, std::vector<double>(points.size(), 0.012));
+  ASSERT_TRUE(found) << found.error().what;
+  expect_road(*found, 8.0, 2e-4);
+  EXPECT_LE(found->largest_share, 1.0);
+  EXPECT_NEAR(found->rms, 0.003, 0.0006);
+}
+
+TEST(Profile, OffsetsAreThoseOfTheHeightsByItsOwnElements) {
+  const auto points = levelled(5.0, 0.003);
+  const auto found = fit_profile(points, std::vector<double>(points.size(), 0.012));
+  ASSERT_TRUE(found);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(points[i].y - profile_at(*found, points[i].x).height, found->offsets[i], 1e-10);
+  }
+}
+
+TEST(Profile, GradesAndHeightsAreContinuous) {
+  const auto points = levelled(5.0, 0.003);
+  for (const auto curves : {ProfileCurves::kParabolas, ProfileCurves::kArcs}) {
+    const auto found =
+        fit_profile(points, std::vector<double>(points.size(), 0.012), {curves, 0.0});
+    ASSERT_TRUE(found);
+    for (std::size_t k = 0; k + 1 < found->elements.size(); ++k) {
+      const ProfileElement &e = found->elements[k], &next = found->elements[k + 1];
+      EXPECT_NEAR(e.station + e.length, next.station, 1e-9);
+      EXPECT_NEAR(e.grade1, next.grade0, 1e-12);
+      EXPECT_NEAR(profile_at(*found, next.station - 1e-9).height, next.height, 1e-9);
+    }
+  }
+}
+
+TEST(Profile, FindsArcsWhereTheyAreAsked) {
+  // a grade of 4 % into a crest of radius 1000 m and on with -4 %; over so wide an arc a parabola
+  // would be 1.6e-4 m off
+  const double theta = std::atan(0.04), half = 1000.0 * std::sin(theta);
+  std::vector<Vec2> points;
+  for (int i = -30; i <= 30; ++i) {
+    const double s = 5.0 * i;
+    const double top = std::sqrt(1e6 - std::min(s * s, half * half)) - 1000.0;
+    points.push_back({s, top - 0.04 * std::max(std::abs(s) - half, 0.0)});
+  }
+  const auto found =
+      fit_profile(points, std::vector<double>(points.size(), 1e-4), {ProfileCurves::kArcs, 0.0});
+  ASSERT_TRUE(found) << found.error().what;
+  ASSERT_EQ(found->elements.size(), 3U);
+  const ProfileElement& arc = found->elements[1];
+  EXPECT_EQ(arc.kind, ProfileKind::kCrest);
+  EXPECT_NEAR(arc.radius, -1000.0, 0.1);
+  EXPECT_NEAR(arc.station, -half, 0.05);
+  EXPECT_NEAR(arc.length, 2.0 * half, 0.05);
+  EXPECT_NEAR(found->elements[2].grade0, -0.04, 1e-6);
+  EXPECT_NEAR(profile_at(*found, 3.0).height, std::sqrt(1e6 - 9.0) - 1000.0, 2e-6);
+  EXPECT_NEAR(grades_meet(arc, found->curves).y, 0.04 * half + std::sqrt(1e6 - half * half) - 1000,
+              1e-4);
+}
+
+TEST(Profile, KeepsLeastLengths) {
+  const auto points = levelled(5.0, 0.003);
+  const std::vector<double> all(points.size(), 0.5);
+  const auto made = fit_profile(points, all, {ProfileCurves::kParabolas, 130.0});
+  ASSERT_TRUE(made) << made.error().what;
+  for (const ProfileElement& e : made->elements) EXPECT_GE(e.length, 130.0 * (1 - 1e-9));
+}
+
+TEST(Profile, TheSameElementsWhereverTheyLieAndInWhateverUnit) {
+  const auto points = levelled(5.0, 0.003);
+  for (const double scale : {1e-9, 1e9}) {
+    std::vector<Vec2> moved;
+    for (const Vec2 p : points) moved.push_back(scale * (p + Vec2{1e4, 500.0}));
+    const auto found = fit_profile(moved, std::vector<double>(points.size(), scale * 0.012));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->elements.size(), 9U);
+  }
+}
+
+TEST(Profile, ALevelLineIsOneGrade) {
+  const auto found = fit_profile({{0, 5}, {1, 5}, {2, 5}}, {1e-3, 1e-3, 1e-3});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->elements.size(), 1U);
+  EXPECT_EQ(found->elements[0].kind, ProfileKind::kGrade);
+  EXPECT_NEAR(found->elements[0].grade0, 0.0, 1e-9);
+}
+
+TEST(Profile, RefusesStationsThatDoNotAscend) {
+  const auto found = fit_profile({{0, 1}, {2, 1}, {2, 3}}, {0.1, 0.1, 0.1});
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kChordReversal);
+  EXPECT_EQ(found.error().index, 2);
+}
+
+}  // namespace
+}  // namespace obvid

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/alignment/transition.h"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "obvid/alignment/alignment.h"
+
+namespace obvid {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// The laws as textbooks print them.
+struct Law {
+  Transition kind;
+  AlignmentKind element;
+  std::function<double(double)> share;
+};
+const std::vector<Law> kLaws = {
+    {Transition::kBloss, AlignmentKind::kBloss, [](double u) { return 3 * u * u - 2 * u * u * u; }},
+    {Transition::kSine, AlignmentKind::kSine,
+     [](double u) { return u - std::sin(2 * kPi * u) / (2 * kPi); }},
+    {Transition::kCosine, AlignmentKind::kCosine,
+     [](double u) { return (1 - std::cos(kPi * u)) / 2; }},
+    {Transition::kHelmert, AlignmentKind::kHelmert,
+     [](double u) { return u < 0.5 ? 2 * u * u : -1 + 4 * u - 2 * u * u; }}};
+
+/// Walks along a curvature by the middle rule on slices of a millimetre's order: the heading is
+/// exact to the square of a slice, the place too.
+class Walk {
+ public:
+  void along(double length, const std::function<double(double)>& kappa, double step,
+             std::vector<Vec2>& out) {
+    const int slices = static_cast<int>(std::lround(length / kSlice));
+    const double h = length / slices;
+    for (int i = 0; i < slices; ++i) {
+      if (s_ >= next_ - 0.5 * h) {
+        out.push_back(at_);
+        next_ += step;
+      }
+      const double k0 = kappa(i * h), k1 = kappa((i + 0.5) * h), k2 = kappa((i + 1) * h);
+      const double middle = theta_ + h / 24 * (5 * k0 + 8 * k1 - k2);
+      const double end = theta_ + h / 6 * (k0 + 4 * k1 + k2);
+      const auto simpson = [&](auto f) { return h / 6 * (f(theta_) + 4 * f(middle) + f(end)); };
+      at_ = at_ + Vec2{simpson([](double a) { return std::cos(a); }),
+                       simpson([](double a) { return std::sin(a); })};
+      theta_ = end;
+      s_ += h;
+    }
+  }
+  [[nodiscard]] Vec2 at() const { return at_; }
+  [[nodiscard]] double theta() const { return theta_; }
+
+ private:
+  static constexpr double kSlice = 0.02;
+  Vec2 at_{};
+  double theta_ = 0.0, s_ = 0.0, next_ = 0.0;
+};
+
+TEST(Transition, PlacesAreThoseOfTheLawIntegrated) {
+  for (const Law& law : kLaws) {
+    for (const double kappa0 : {0.0, -1 / 400.0}) {
+      const double kappa1 = 1 / 90.0, length = 120.0;
+      for (const double part : {0.3, 0.5, 1.0}) {
+        Walk walk;
+        std::vector<Vec2> unused;
+        walk.along(
+            part * length,
+            [&](double s) { return kappa0 + (kappa1 - kappa0) * law.share(s / length); }, 1e9,
+            unused);
+        const Element end =
+            transition_at(law.kind, {{}, 0.0, kappa0}, kappa1, length, part * length);
+        EXPECT_NEAR(end.point.x, walk.at().x, 1e-10) << name_of(law.kind) << part;
+        EXPECT_NEAR(end.point.y, walk.at().y, 1e-10) << name_of(law.kind) << part;
+        EXPECT_NEAR(end.theta, walk.theta(), 1e-12);
+        EXPECT_NEAR(end.kappa, kappa0 + (kappa1 - kappa0) * law.share(part), 1e-15);
+      }
+    }
+  }
+}
+
+TEST(Transition, TurnsHalfOfTheChangeOverItsLength) {
+  for (const Law& law : kLaws) {
+    EXPECT_NEAR(transition_turn(law.kind, 1.0), 0.5, 1e-15);
+    EXPECT_EQ(transition_turn(law.kind, 0.0), 0.0);
+    EXPECT_NEAR(transition_share(law.kind, 1.0), 1.0, 1e-15);
+    EXPECT_EQ(transition_named(name_of(law.kind)), law.kind);
+  }
+}
+
+TEST(Transition, ClothoidsAlongItStayWithinTheTolerance) {
+  for (const Law& law : kLaws) {
+    const Element start{{5.0, 7.0}, 0.4, 0.0};
+    const double kappa1 = 1 / 300.0, length = 100.0;
+    const auto pieces = clothoids_along(law.kind, start, kappa1, length, 1e-6);
+    EXPECT_LE(pieces.size(), 64U);
+    double s = 0.0;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      for (const double t : {0.1, 0.35, 0.6, 0.85}) {
+        const Vec2 p = evaluate(pieces[k], t).point;
+        const Element near =
+            transition_at(law.kind, start, kappa1, length, s + t * pieces[k].length);
+        EXPECT_NEAR(cross(unit_at(near.theta), p - near.point), 0.0, 1.2e-6);
+      }
+      s += pieces[k].length;
+      if (k > 0) EXPECT_EQ(pieces[k].start, pieces[k - 1].end);
+    }
+    EXPECT_NEAR(s, length, 1e-6);
+  }
+}
+
+TEST(Alignment, FindsTransitionsOfOtherKindsBetweenLinesAndArcs) {
+  for (const Law& law : kLaws) {
+    std::vector<Vec2> points;
+    Walk walk;
+    const auto straight = [](double) { return 0.0; };
+    const double arc = 1 / 320.0;
+    walk.along(150, straight, 5, points);
+    walk.along(
+        90, [&](double s) { return arc * law.share(s / 90); }, 5, points);
+    walk.along(
+        160, [&](double) { return arc; }, 5, points);
+    walk.along(
+        70, [&](double s) { return arc * law.share(1 - s / 70); }, 5, points);
+    walk.along(120, straight, 5, points);
+    points.push_back(walk.at());
+    for (const double tolerance : {1e-3, 4e-3, 8e-3}) {
+      AlignmentOptions options;
+      options.transitions = law.kind;
+      const auto found =
+          fit_alignment(points, std::vector<double>(points.size(), tolerance), options);
+      ASSERT_TRUE(found) << found.error().what;
+      EXPECT_EQ(found->elements.size(), 5U) << name_of(law.kind) << tolerance;
+      if (found->elements.size() != 5) continue;
+      EXPECT_EQ(found->elements[0].kind, AlignmentKind::kLine);
+      EXPECT_EQ(found->elements[1].kind, law.element);
+      EXPECT_EQ(found->elements[2].kind, AlignmentKind::kArc);
+      EXPECT_EQ(found->elements[3].kind, law.element);
+      EXPECT_LE(found->largest_share, 1.0);
+      EXPECT_NEAR(found->elements[1].length, 90.0, 5.0);
+      EXPECT_NEAR(found->elements[3].length, 70.0, 5.0);
+      EXPECT_NEAR(1 / found->elements[2].start.kappa, 320.0, 1.0);
+      for (std::size_t k = 1; k < 5; ++k) EXPECT_FALSE(found->elements[k].step);
+    }
+  }
+}
+
+TEST(Alignment, ATransitionAloneIsOneElementOfItsKind) {
+  for (const Law& law : kLaws) {
+    std::vector<Vec2> points;
+    Walk walk;
+    walk.along(
+        100, [&](double s) { return law.share(s / 100) / 300; }, 1, points);
+    points.push_back(walk.at());
+    AlignmentOptions options;
+    options.transitions = law.kind;
+    const auto found = fit_alignment(points, std::vector<double>(points.size(), 1e-4), options);
+    ASSERT_TRUE(found) << found.error().what;
+    ASSERT_EQ(found->elements.size(), 1U) << name_of(law.kind);
+    EXPECT_EQ(found->elements[0].kind, law.element);
+    EXPECT_NEAR(found->elements[0].kappa1, 1 / 300.0, 1e-6);
+  }
+}
+
+/// Length, x and y of a file of the public data set; one of its sources has parentheses.
+std::vector<Vec2> curve_of_file(const std::filesystem::path& path) {
+  std::vector<Vec2> out;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || std::isdigit(static_cast<unsigned char>(line[0])) == 0) continue;
+    for (char& c : line) {
+      if (c == '(' || c == ')') c = ' ';
+    }
+    std::istringstream row(line);
+    double s = 0.0;
+    Vec2 p;
+    if (row >> s >> p.x >> p.y) out.push_back(p);
+  }
+  return out;
+}
+
+/// Curvature that a name like expert_BlossCurve_100.0_-1000_inf_1_Meter states there.
+double stated_curvature(const std::string& name, int field) {
+  std::istringstream words(name);
+  std::string word;
+  for (int i = 0; i <= field; ++i) std::getline(words, word, '_');
+  return 1.0 / std::stod(word);
+}
+
+TEST(TransitionPublicFiles, EachIsOneElementWithItsRadii) {
+  const std::filesystem::path folder =
+      std::filesystem::path(OBVID_SHARED_DATA) / "rail_transition_curves";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    AlignmentOptions options;
+    if (name.find("_BlossCurve_") != std::string::npos) options.transitions = Transition::kBloss;
+    if (name.find("_SineCurve_") != std::string::npos) options.transitions = Transition::kSine;
+    if (options.transitions == Transition::kClothoid) continue;
+    const std::vector<Vec2> points = curve_of_file(entry.path());
+    ASSERT_GT(points.size(), 50U) << name;
+    const auto found = fit_alignment(points, std::vector<double>(points.size(), 1e-4), options);
+    ASSERT_TRUE(found) << name << found.error().what;
+    ASSERT_EQ(found->elements.size(), 1U) << name;
+    const AlignmentElement& e = found->elements[0];
+    EXPECT_EQ(transition_of(e.kind), options.transitions) << name;
+    EXPECT_NEAR(e.length, 100.0, 1e-3) << name;
+    EXPECT_NEAR(e.start.kappa, stated_curvature(name, 3), 1e-6) << name;
+    EXPECT_NEAR(e.kappa1, stated_curvature(name, 4), 1e-6) << name;
+    ++count;
+  }
+  EXPECT_GT(count, 0);
+}
+
+}  // namespace
+}  // namespace obvid
