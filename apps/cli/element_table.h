@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/element_table.h"
 
 namespace obvid {
@@ -14,8 +13,5 @@ namespace obvid {
 /// of `size`; speeds where there is a limit.
 [[nodiscard]] std::string elements_text(const std::vector<AlignmentElement>& elements, double size,
                                         const std::optional<SpeedLimit>& limit = {});
-
-/// Grades and vertical curves with stations, lengths, heights, grades, radii and K values.
-[[nodiscard]] std::string profile_text(const VerticalProfile& profile, double size);
 
 }  // namespace obvid

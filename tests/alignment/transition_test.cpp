@@ -113,7 +113,9 @@ TEST(Transition, ClothoidsAlongItStayWithinTheTolerance) {
         EXPECT_NEAR(cross(unit_at(near.theta), p - near.point), 0.0, 1.2e-6);
       }
       s += pieces[k].length;
-      if (k > 0) EXPECT_EQ(pieces[k].start, pieces[k - 1].end);
+      if (k > 0) {
+        EXPECT_EQ(pieces[k].start, pieces[k - 1].end);
+      }
     }
     EXPECT_NEAR(s, length, 1e-6);
   }
