@@ -7,6 +7,7 @@
 #include "obvid/core/result.h"
 #include "obvid/core/units.h"
 #include "obvid/geom/vec3.h"
+#include "obvid/pipeline/compare_curves.h"
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
@@ -24,6 +25,8 @@ struct Request {
   ExportOptions formats;
   std::string profile;  ///< what "for" chose, in words
   CutJob cut;
+  CurvesJob curves;
+  std::optional<double> enlarge;  ///< of the picture of several curves
   std::optional<Units> units;
 };
 
@@ -37,6 +40,7 @@ struct Known {
   bool formats = false;       ///< of files
   bool points = false;        ///< columns, skip, scale, rotate, move, mirror
   bool cut = false;           ///< of `obvid cut`
+  bool curves = false;        ///< align, enlarge
 };
 
 /// Reads a JSON object with the names of the command line; NULL and "" are no options. Errors: E308

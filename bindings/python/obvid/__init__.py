@@ -25,6 +25,7 @@ from .jobs import (
     Source,
     analyse,
     compare,
+    compare_curves,
     fit,
     fit_many,
     fit_space,
@@ -58,7 +59,7 @@ __all__ = [
     "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "SpaceCurve",
     "SpaceSamples", "SpaceVerification", "Suggestion", "Surface", "SurfaceSamples", "Table", "Toolpath",
     "UsageError", "Verification",
-    "__version__", "analyse", "compare", "cut", "fit", "fit_many", "fit_space", "read", "read_contour",
+    "__version__", "analyse", "compare", "compare_curves", "cut", "fit", "fit_many", "fit_space", "read", "read_contour",
     "read_space", "read_surface", "read_text", "region", "skin", "suggest", "surface", "toolpath",
     "verify", "why_not", "worksheet",
 ]  # fmt: skip

@@ -164,6 +164,14 @@ std::vector<Job> jobs() {
          const int code = obvid_surface_check(h.surface, "{\"samples\": 12}", run, &text, nullptr);
          return taken(text) + code_text(code);
        }},
+      {"compare_curves",
+       [](const Handles& h, const obvid_run* run) {
+         const obvid_input* inputs[] = {h.points, h.points};
+         obvid_files* files = nullptr;
+         char* text = nullptr;
+         const int code = obvid_compare_curves(inputs, 2, nullptr, run, &files, &text, nullptr);
+         return told(files) + taken(text) + code_text(code);
+       }},
       {"cut",
        [](const Handles& h, const obvid_run* run) {
          obvid_files* files = nullptr;
