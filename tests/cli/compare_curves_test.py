@@ -93,48 +93,48 @@ class Curves(unittest.TestCase):
         return out[::-1] if back else out
 
     def test_a_larger_circle_is_as_far_everywhere(self):
-        self.write("a.txt", self.circle(2.0))
+        self.write("a.txt", self.circle(2.0), 5)
         for back in (False, True):
-            self.write("b.txt", self.circle(2.25, 47, back=back))
+            self.write("b.txt", self.circle(2.25, 47, back=back), 5)
             found = self.report("a.txt", "b.txt", "--closed", "--noise", "rounding")
             self.assertEqual(found["positive"], "outward")
             one = found["as_they_lie"][0]
-            self.assertAlmostEqual(one["largest"]["deviation"], 0.25, delta=1e-6)
-            self.assertAlmostEqual(one["root_mean_square"], 0.25, delta=1e-6)
+            self.assertAlmostEqual(one["largest"]["deviation"], 0.25, delta=3e-5)
+            self.assertAlmostEqual(one["root_mean_square"], 0.25, delta=3e-5)
             self.assertAlmostEqual(one["measured"], 1.0, delta=1e-9)
-            self.assertAlmostEqual(found["curves"][0]["length"], 4 * math.pi, delta=1e-5)
+            self.assertAlmostEqual(found["curves"][0]["length"], 4 * math.pi, delta=2e-4)
             for row in self.places("a.txt", "b.txt", "--closed", "--noise", "rounding"):
-                self.assertAlmostEqual(float(row["deviation of b.txt"]), 0.25, delta=1e-6)
+                self.assertAlmostEqual(float(row["deviation of b.txt"]), 0.25, delta=3e-5)
         found = self.report("b.txt", "a.txt", "--closed", "--noise", "rounding")
-        self.assertAlmostEqual(found["as_they_lie"][0]["largest"]["deviation"], -0.25, delta=1e-6)
+        self.assertAlmostEqual(found["as_they_lie"][0]["largest"]["deviation"], -0.25, delta=3e-5)
 
     def test_left_of_an_open_arc_is_positive_and_its_overhang_is_not_measured(self):
-        self.write("a.txt", self.circle(2.0, part=0.2))
-        self.write("b.txt", self.circle(1.9, part=0.1))
+        self.write("a.txt", self.circle(2.0, 21, part=0.2), digits=5)
+        self.write("b.txt", self.circle(1.9, 15, part=0.1), digits=5)
         found = self.report("a.txt", "b.txt", "--noise", "rounding")
         self.assertEqual(found["positive"], "left")
         one = found["as_they_lie"][0]
-        self.assertAlmostEqual(one["largest"]["deviation"], 0.1, delta=1e-6)
+        self.assertAlmostEqual(one["largest"]["deviation"], 0.1, delta=2e-5)
         self.assertAlmostEqual(one["measured"], 0.5, delta=2e-3)
 
     def test_an_ellipse_from_a_circle(self):
         """Along the radii of a circle around its middle the ellipse is at ab / root(...)."""
         a, b, r = 2.2, 1.9, 2.0
-        self.write("a.txt", self.circle(r, 60))
+        self.write("a.txt", self.circle(r, 60), 5)
         self.write("b.txt", [(3 + a * math.cos(v), b * math.sin(v))
-                             for v in (2 * math.pi * k / 120 for k in range(120))])
+                             for v in (2 * math.pi * k / 120 for k in range(120))], 5)
         rows = self.places("a.txt", "b.txt", "--closed", "--noise", "rounding")
         self.assertGreaterEqual(len(rows), 2000)
         squares = 0.0
         for row in rows:
             v = math.atan2(float(row["y"]), float(row["x"]) - 3)
             wanted = a * b / math.hypot(b * math.cos(v), a * math.sin(v)) - r
-            self.assertAlmostEqual(float(row["deviation of b.txt"]), wanted, delta=2e-5)
+            self.assertAlmostEqual(float(row["deviation of b.txt"]), wanted, delta=5e-5)
             squares += wanted**2 / len(rows)
         one = self.report("a.txt", "b.txt", "--closed", "--noise", "rounding")["as_they_lie"][0]
-        self.assertAlmostEqual(one["largest"]["deviation"], 0.2, delta=1e-5)
+        self.assertAlmostEqual(one["largest"]["deviation"], 0.2, delta=5e-5)
         self.assertAlmostEqual(abs(one["largest"]["x"] - 3), 2.0, delta=1e-3)
-        self.assertAlmostEqual(one["root_mean_square"], math.sqrt(squares), delta=1e-5)
+        self.assertAlmostEqual(one["root_mean_square"], math.sqrt(squares), delta=5e-5)
 
     def test_naca_sections_are_apart_as_their_closed_forms(self):
         thin, thick = Section(0.12, 0.02), Section(0.15, 0.03)
@@ -147,7 +147,7 @@ class Curves(unittest.TestCase):
             if not 0.01 < x < 0.98:
                 continue  # there the closed forms cross at the nose and at the edge
             sign = 1 if row["side"] == "upper" else -1
-            self.assertAlmostEqual(y, thin.height(x, sign), delta=2e-7)
+            self.assertAlmostEqual(y, thin.height(x, sign), delta=1e-6)
             step = 1e-6
             slope = (thin.height(x + step, sign) - thin.height(x - step, sign)) / (2 * step)
             size = math.hypot(1, slope)
@@ -165,9 +165,9 @@ class Curves(unittest.TestCase):
         for curve, t in zip(found["curves"], (0.12, 0.15)):
             foil = curve["airfoil"]
             self.assertAlmostEqual(foil["thickness"], t, delta=2e-4 * t)
-            self.assertAlmostEqual(foil["leading_edge_radius"], 1.1019 * t * t, delta=2e-4)
+            self.assertAlmostEqual(foil["leading_edge_radius"], 1.1019 * t * t, delta=0.012 * 1.1019 * t * t)
             self.assertAlmostEqual(foil["camber"], 0, delta=1e-7)
-            self.assertEqual(curve["points"], 201)
+            self.assertEqual(curve["points"], 200)
         self.assertAlmostEqual(found["as_they_lie"][0]["largest"]["deviation"], 0.015, delta=2e-4)
 
     def test_one_chord_takes_scale_turn_and_move_away(self):
@@ -192,7 +192,7 @@ class Curves(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
         found = self.report("a.json", "a.dxf", "a.dat", "--units", "mm", "--noise", "rounding")
         self.assertEqual([c["formed"] for c in found["curves"]], [False, False, True])
-        self.assertEqual(found["curves"][0]["points"], 201)
+        self.assertEqual(found["curves"][0]["points"], 200)  # the first one is given twice
         self.assertEqual(found["curves"][0]["vertices"], found["curves"][2]["vertices"])
         for one in found["as_they_lie"]:
             self.assertLess(abs(one["largest"]["deviation"]), 2e-6)

@@ -23,7 +23,10 @@ SideOfPoints side_of(const std::vector<Vec2>& points, std::size_t nose, std::siz
   for (std::size_t k = 1, i = nose; k < n; ++k) {
     if (!closed && ((step == 1 && i + 1 == n) || (step != 1 && i == 0))) break;
     i = (i + step) % n;
-    if (!(points[i].x > out.back().x)) break;
+    const Vec2 step_to = points[i] - out.back();
+    if (!(step_to.x > 0.0)) break;
+    // across the base of a blunt edge
+    if (out.back().x > kMostOfChord && std::abs(step_to.y) > step_to.x) break;
     out.push_back(points[i]);
   }
   return out;

@@ -30,7 +30,7 @@ constexpr double kDeviationPlotHead = 34.0;     // px
 constexpr double kLineApart = 22.0;             // of lines of text, px
 constexpr double kToothApart = 4.0;             // px
 constexpr std::size_t kStepsDrawn = 24;         // of a piece
-constexpr double kThinStep = 0.3;               // px: shorter steps are left out
+constexpr double kOverlayThin = 0.3;            // px: shorter steps are left out
 constexpr std::array kOverlayColours = {"up", "down", "even"};
 
 /// Colour of a curve that is compared, and dashes where colours are used again.
@@ -95,7 +95,7 @@ void draw_true_curve(PictureCanvas& canvas, const Overlay& overlay, std::size_t 
   bool open = false;
   along_curve(overlay.compared.curves[curve].contour, [&](Vec2 p) {
     const Vec2 at = view(overlay.placed(curve, p));
-    open ? path.thin_line(at, kThinStep) : path.move(at);
+    open ? path.thin_line(at, kOverlayThin) : path.move(at);
     open = true;
   });
   const std::string style = curve == 0 ? "class=\"curve plain\"" : style_of("graph", curve);
@@ -114,7 +114,7 @@ void draw_enlarged(PictureCanvas& canvas, const Overlay& overlay, const CurveDev
       continue;
     }
     const Vec2 foot = view(place.point), tip = view(overlay.tip(place));
-    open ? envelope.thin_line(tip, kThinStep) : envelope.move(tip);
+    open ? envelope.thin_line(tip, kOverlayThin) : envelope.move(tip);
     open = true;
     if (toothed && norm(foot - last) < kToothApart) continue;
     teeth.move(foot);
@@ -189,7 +189,7 @@ void draw_deviation_graphs(PictureCanvas& canvas, const PictureFrame& frame, con
         continue;
       }
       const Vec2 at{frame.px_x(x_of(place)), frame.px_y(unit * *place.deviation)};
-      open ? path.thin_line(at, kThinStep) : path.move(at);
+      open ? path.thin_line(at, kOverlayThin) : path.move(at);
       open = true;
     }
     if (!path.empty()) {
@@ -221,7 +221,7 @@ double draw_deviation_plots(PictureCanvas& canvas, const Overlay& overlay, doubl
     const bool upper = k == 0;
     const char* side = !foil ? "" : upper ? "Upper side: deviation" : "Lower side: deviation";
     canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title",
-                 fmt::format("{} {}, {} positive", foil ? side : "Deviation,", of, positive));
+                 fmt::format("{}, {}, {} positive", foil ? side : "Deviation", of, positive));
     draw_grid(canvas, frame, !foil || !upper);
     if (foil) {
       draw_deviation_graphs(

@@ -239,6 +239,17 @@ std::string nose_text(const AirfoilFigures& f) {
                            kFairNose * f.chord);
 }
 
+/// The input's points from trailing edge to trailing edge: where a closed contour begins there, its
+/// first point ends the list, too.
+std::vector<Vec2> points_around(const Contour& contour, const AirfoilFigures& f) {
+  std::vector<Vec2> out = contour.points;
+  if (!contour.closed || out.empty()) return out;
+  const double x = dot(out.front() - f.leading_edge, unit_at(f.turn)) / f.chord;
+  constexpr double kAftOf = 0.5;
+  if (x > kAftOf) out.push_back(out.front());
+  return out;
+}
+
 /// What the input says without a curve, beside the figures of the contour.
 std::string points_text(const AirfoilPointFigures& f) {
   return fmt::format(
@@ -277,7 +288,7 @@ Result<Exported> airfoil_file(const ContourExport& e) {
                   100.0 * f.nose_radius, 100.0 * f.trailing_thickness,
                   f.trailing_angle * 180.0 / std::numbers::pi, f.chord, e.contour.units.text()));
   if (const std::string told = nose_text(f); !told.empty()) out.warnings.push_back(told);
-  if (const auto input = airfoil_point_figures(e.contour.points, f)) {
+  if (const auto input = airfoil_point_figures(points_around(e.contour, f), f)) {
     out.remarks.push_back(points_text(*input));
   }
   return out;

@@ -126,9 +126,9 @@ Result<CurveInput> formed_curve(const PointSeries& series, const FitJob& job,
   out.curve.name = series.name;
   out.curve.formed = true;
   out.curve.proved = made->certificate.proved;
-  out.curve.points = series.points.size();
   out.curve.vertices = made->certificate.vertices;
   out.curve.contour = std::move(made->contour);
+  out.curve.points = out.curve.contour.points.size();
   out.warnings = std::move(made->warnings);
   return out;
 }
@@ -167,20 +167,6 @@ Result<CurveInput> parse_curve(const std::string& text, const std::string& name,
                          [&] { return parse_series(text, name, how.import); },
                          [&] { return Result<std::string>(text); }};
   return curve_from(source, how, run);
-}
-
-Result<CurvesJob> curves_job(const std::string& align) {
-  if (align.empty() || align == "chord") return CurvesJob{!align.empty()};
-  return error(ErrorCode::kBadOption, "unknown choice '" + align + "'")
-      .where("--align")
-      .hint("one of chord");
-}
-
-Result<void> check_enlarge(const std::optional<double>& enlarge) {
-  if (!enlarge || (*enlarge > 0.0 && std::isfinite(*enlarge))) return {};
-  return error(ErrorCode::kBadOption, "a positive factor is expected")
-      .where("--enlarge")
-      .hint("for example 50");
 }
 
 Result<CurveComparison> compare_curves(std::vector<ComparedCurve> curves, const CurvesJob& job,

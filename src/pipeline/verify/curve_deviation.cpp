@@ -14,7 +14,7 @@ namespace {
 constexpr double kPlacesWanted = 2000.0;   // along the first curve
 constexpr std::size_t kLeastOfPiece = 4;   // places on each piece of it
 constexpr std::size_t kManyPieces = 5000;  // then one on each
-constexpr std::size_t kStepsOfPiece = 16;  // of the other curve, between which it is looked for
+constexpr std::size_t kStepsOfOther = 16;  // of the other curve, between which it is looked for
 constexpr std::size_t kVotes = 64;         // places that say which way the other curve runs
 constexpr int kCrossingSteps = 100;
 constexpr int kLargestSteps = 80;  // golden section: more than doubles have
@@ -27,10 +27,10 @@ class OtherCurve {
   explicit OtherCurve(std::span<const Piece> pieces) : pieces_(pieces) {
     for (const Piece& piece : pieces) {
       Near near;
-      for (std::size_t k = 0; k <= kStepsOfPiece; ++k) near.at[k] = evaluate(piece, t_of(k)).point;
-      near.middle = near.at[kStepsOfPiece / 2];
+      for (std::size_t k = 0; k <= kStepsOfOther; ++k) near.at[k] = evaluate(piece, t_of(k)).point;
+      near.middle = near.at[kStepsOfOther / 2];
       double apart = 0.0;
-      for (std::size_t k = 0; k <= kStepsOfPiece; ++k) {
+      for (std::size_t k = 0; k <= kStepsOfOther; ++k) {
         near.reach = std::max(near.reach, norm(near.at[k] - near.middle));
         if (k > 0) apart = std::max(apart, norm(near.at[k] - near.at[k - 1]));
       }
@@ -45,7 +45,7 @@ class OtherCurve {
     for (const auto& place : places) {
       double nearest = std::numeric_limits<double>::infinity(), vote = 0.0;
       for (const Near& near : near_) {
-        for (std::size_t k = 0; k < kStepsOfPiece; ++k) {
+        for (std::size_t k = 0; k < kStepsOfOther; ++k) {
           const double away = norm(near.at[k] - place.point);
           if (!(away < nearest)) continue;
           nearest = away;
@@ -70,7 +70,7 @@ class OtherCurve {
       const Near& near = near_[i];
       if (std::abs(dot(near.middle - from.point, along)) > near.reach) continue;
       double before = dot(near.at[0] - from.point, along);
-      for (std::size_t k = 1; k <= kStepsOfPiece; ++k) {
+      for (std::size_t k = 1; k <= kStepsOfOther; ++k) {
         const double now = dot(near.at[k] - from.point, along);
         if (before <= 0.0 && now > 0.0) offer(crossing(i, k, from.point, along));
         before = now;
@@ -81,12 +81,12 @@ class OtherCurve {
 
  private:
   struct Near {
-    std::array<Vec2, kStepsOfPiece + 1> at{};
+    std::array<Vec2, kStepsOfOther + 1> at{};
     Vec2 middle;
     double reach = 0.0;  // nothing of the piece is farther from its middle
   };
   static double t_of(std::size_t k) {
-    return static_cast<double>(k) / static_cast<double>(kStepsOfPiece);
+    return static_cast<double>(k) / static_cast<double>(kStepsOfOther);
   }
   [[nodiscard]] Vec2 crossing(std::size_t piece, std::size_t step, Vec2 p, Vec2 along) const {
     double a = t_of(step - 1), b = t_of(step);
