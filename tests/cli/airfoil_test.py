@@ -180,6 +180,24 @@ class Airfoils(unittest.TestCase):
         shown = float(re.search(r"apart: radius ([\d.]+) %", text).group(1))
         self.assertAlmostEqual(shown, 100 * radius, delta=2e-3)
 
+    def test_a_nose_that_is_no_fair_one_is_warned_of(self):
+        tip = [(x, y) for x, y in points(0) if x > 0.004]
+        half_way = len(tip) // 2
+        tip.insert(half_way, (-0.01, 0.0))  # sticks out: a corner, or curvature that turns back
+        (self.folder / "a.dat").write_text("tip\n" + "".join(f"{x:.6f} {y:.6f}\n" for x, y in tip))
+        self.write("fair.dat")
+        for name, told in (("a.dat", True), ("fair.dat", False)):
+            code, text = self.run_it("fit", name, "--noise", "rounding", "-o", "b.dat", "--open")
+            self.assertEqual(code, 0, text)
+            self.assertEqual("warning: b.dat: the nose" in text, told, text)
+        _, text = self.run_it("fit", "a.dat", "--noise", "rounding", "--corner-at",
+                              str(half_way + 1), "--open", "-o", "b.dat")
+        turn = float(re.search(r"the nose has a corner of ([\d.]+) degrees", text).group(1))
+        self.assertGreater(turn, 20)
+        _, text = self.run_it("fit", "a.dat", "--noise", "rounding", "--no-corners", "--open", "-o",
+                              "b.dat")
+        self.assertNotIn("has a corner", text)
+
     def test_unit_chord_is_undone_by_what_is_printed(self):
         self.write("a.dat")
         place = ["--scale", "250", "--rotate", "20", "--move", "3,4"]

@@ -17,7 +17,9 @@ constexpr std::size_t kLooks = 32;  // of a piece, where a largest or a first on
 constexpr int kNarrowings = 200;    // more than doubles have
 constexpr double kCorner = 1e-6;    // rad: no corner below, as in samples
 constexpr double kGolden = 0.6180339887498949;
-constexpr double kNoseReach = 0.01;  // chords around the leading edge
+constexpr std::size_t kMostCorners = 3;  // of a base, and of a kink at the nose
+constexpr double kLongestBase = 0.2;     // of the whole length
+constexpr double kNoseReach = 0.01;      // chords around the leading edge
 constexpr double kNoseWindow = 4.0;  // of it in arc length: a nose that is bent sharply is longer
 constexpr double kBeside = 1e-6;     // of a look
 constexpr double kSameBend = 1e-3;   // of the largest curvature: what counts as turning back
@@ -102,29 +104,40 @@ double Airfoil::place_of(bool upper, double x) const {
 
 std::size_t Airfoil::looks() const { return kLooks * path_.pieces().size(); }
 
-/// Corners of the closed contour; false where they do not tell the trailing edge.
+/// Corners of the closed contour tell the trailing edge: two that lie near each other have the base
+/// between them, else the sharpest one is it (the other may be a kink of the nose). False where
+/// they do not tell.
 bool Airfoil::open_at_corner() {
-  std::vector<double> corners;
+  std::vector<double> corners, turns;
   const double all = path_.length();
   for (std::size_t k = 0; k < path_.pieces().size(); ++k) {
     const Vec2 in = path_.at(k == 0 ? all : path_.joint(k), true).tangent;
     const Vec2 out = path_.at(path_.joint(k), false).tangent;
-    if (std::abs(std::atan2(across(in, out), product(in, out))) > kCorner) {
-      corners.push_back(path_.joint(k));
-    }
+    const double turn = std::abs(std::atan2(across(in, out), product(in, out)));
+    if (!(turn > kCorner)) continue;
+    corners.push_back(path_.joint(k));
+    turns.push_back(turn);
   }
-  if (corners.empty() || corners.size() > 2) return false;
+  const std::size_t n = corners.size();
+  if (n == 0 || n > kMostCorners) return false;
   wraps_ = true;
-  from_ = corners.front();
-  to_ = from_ + all;
-  if (corners.size() == 1) return true;
-  const double first = corners[1] - corners[0];
-  if (first < 0.5 * all) {
-    from_ = corners[1];  // the base runs from the first to the second
-    to_ = corners[0] + all;
-  } else {
-    to_ = corners[1];
+  const auto to_next = [&](std::size_t k) {
+    const double gap = corners[(k + 1) % n] - corners[k];
+    return gap > 0.0 ? gap : gap + all;
+  };
+  std::size_t base = 0;
+  for (std::size_t k = 1; k < n; ++k) {
+    if (to_next(k) < to_next(base)) base = k;
   }
+  if (n > 1 && to_next(base) < kLongestBase * all) {
+    from_ = corners[(base + 1) % n];
+    to_ = from_ + all - to_next(base);
+    return true;
+  }
+  if (n > 2) return false;
+  const std::size_t edge = n == 2 && turns[1] > turns[0] ? 1 : 0;
+  from_ = corners[edge];
+  to_ = from_ + all;
   return true;
 }
 

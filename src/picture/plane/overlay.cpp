@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "obvid/core/internal/figures.h"
+#include "obvid/curve/internal/flatten.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/picture/internal/overlay_svg.h"
 #include "plane/axis.h"
@@ -29,8 +30,9 @@ constexpr double kDeviationPlotHeight = 170.0;  // px
 constexpr double kDeviationPlotHead = 34.0;     // px
 constexpr double kLineApart = 22.0;             // of lines of text, px
 constexpr double kToothApart = 4.0;             // px
-constexpr std::size_t kStepsDrawn = 24;         // of a piece
-constexpr double kOverlayThin = 0.3;            // px: shorter steps are left out
+constexpr int kFewestDrawn = 2, kMostDrawn = 400;  // of a piece
+constexpr double kDrawnChord = 5e-5;               // of the size: a twentieth of a px
+constexpr double kOverlayThin = 0.3;               // px: shorter steps are left out
 constexpr std::array kOverlayColours = {"up", "down", "even"};
 
 /// Colour of a curve that is compared, and dashes where colours are used again.
@@ -68,19 +70,30 @@ double largest_of(const std::vector<CurveDeviation>& deviations) {
   return out;
 }
 
+/// Points along a curve, with chords within `tolerance` of it.
 template <class Visit>
-void along_curve(const Contour& contour, const Visit& visit) {
+void along_curve(const Contour& contour, double tolerance, const Visit& visit) {
   for (const Piece& piece : contour.pieces) {
-    for (std::size_t k = 0; k <= kStepsDrawn; ++k) {
-      visit(evaluate(piece, static_cast<double>(k) / static_cast<double>(kStepsDrawn)).point);
-    }
+    const int steps = chord_steps(piece, tolerance, kFewestDrawn, kMostDrawn);
+    for (int k = 0; k <= steps; ++k) visit(evaluate(piece, double(k) / steps).point);
   }
+}
+
+/// Largest distance of a chord from its curve, a small part of a px of the picture.
+double drawn_tolerance(const Contour& contour) {
+  Box2 box;
+  for (const Piece& piece : contour.pieces) {
+    for (const double t : {0.0, 0.5, 1.0}) box.add(evaluate(piece, t).point);
+  }
+  return kDrawnChord * box.diagonal();
 }
 
 Box2 box_of(const Overlay& overlay, bool with_deviations) {
   Box2 box;
   for (std::size_t k = 0; k < overlay.compared.curves.size(); ++k) {
-    along_curve(overlay.compared.curves[k].contour, [&](Vec2 p) { box.add(overlay.placed(k, p)); });
+    along_curve(overlay.compared.curves[k].contour,
+                drawn_tolerance(overlay.compared.curves[k].contour),
+                [&](Vec2 p) { box.add(overlay.placed(k, p)); });
   }
   if (!with_deviations) return box;
   for (const CurveDeviation& one : overlay.deviations) {
@@ -93,11 +106,12 @@ void draw_true_curve(PictureCanvas& canvas, const Overlay& overlay, std::size_t 
                      const PictureView& view) {
   PicturePath path;
   bool open = false;
-  along_curve(overlay.compared.curves[curve].contour, [&](Vec2 p) {
-    const Vec2 at = view(overlay.placed(curve, p));
-    open ? path.thin_line(at, kOverlayThin) : path.move(at);
-    open = true;
-  });
+  along_curve(overlay.compared.curves[curve].contour,
+              drawn_tolerance(overlay.compared.curves[curve].contour), [&](Vec2 p) {
+                const Vec2 at = view(overlay.placed(curve, p));
+                open ? path.thin_line(at, kOverlayThin) : path.move(at);
+                open = true;
+              });
   const std::string style = curve == 0 ? "class=\"curve plain\"" : style_of("graph", curve);
   canvas.add("<path {} d=\"{}\"/>\n", style, path.text());
 }

@@ -58,7 +58,7 @@ Result<Exported> with_units(Result<UnitNotes> notes, const Make& make) {
   Result<Exported> out = make();
   if (!out) return out;
   for (std::string& one : notes->remarks) out->remarks.push_back(std::move(one));
-  out->warnings = std::move(notes->warnings);
+  out->warnings.insert(out->warnings.end(), notes->warnings.begin(), notes->warnings.end());
   return out;
 }
 
@@ -225,18 +225,16 @@ std::string rounded_text(const RoundedEdge& edge) {
 
 /// What a fair nose has not; empty for one.
 std::string nose_text(const AirfoilFigures& f) {
-  std::string out;
   if (f.nose_corner > 0.0) {
-    out = fmt::format("the nose has a corner of {:.2f} degrees",
-                      f.nose_corner * 180.0 / std::numbers::pi);
+    return fmt::format(
+        "the nose has a corner of {:.2f} degrees; `obvid fit` with --open --no-corners rounds it",
+        f.nose_corner * 180.0 / std::numbers::pi);
   }
-  if (f.nose_turns > 1) {
-    out += out.empty() ? "the nose is wavy" : "";
-    out += fmt::format(": the curvature turns back {} times within 1 % of the chord", f.nose_turns);
-  }
-  if (out.empty()) return out;
-  return out + fmt::format("; `obvid fit` with a larger --noise, such as {:.2g}, may make it fair",
-                           kFairNose * f.chord);
+  if (f.nose_turns < 2) return "";
+  return fmt::format(
+      "the nose is wavy: the curvature turns back {} times within 1 % of the chord; `obvid fit` "
+      "with a larger --noise, such as {:.2g}, may make it fair",
+      f.nose_turns, kFairNose * f.chord);
 }
 
 /// The input's points from trailing edge to trailing edge: where a closed contour begins there, its
