@@ -72,13 +72,14 @@ JobOptions known_options() {
         "rotate",          "move",          "mirror"}) {
     out.job.push_back({name});
   }
-  for (const char* name : {"convex", "primitives", "closed", "open", "no-corners", "unordered",
-                           "drop-outliers"}) {
+  for (const char* name :
+       {"convex", "primitives", "closed", "open", "no-corners", "unordered", "drop-outliers"}) {
     out.job.push_back({name, true});
   }
   for (const char* name :
        {"output-tolerance", "for", "controller", "motion", "feed", "samples", "sample-step",
-        "airfoil", "spacing", "trailing-edge", "svg", "plot", "curvature-range", "step", "dxf", "face"}) {
+        "airfoil", "spacing", "trailing-edge", "trailing-edge-form", "svg", "plot",
+        "curvature-range", "step", "dxf", "face"}) {
     out.files.push_back({name});
   }
   out.files.push_back({"unit-chord", true});

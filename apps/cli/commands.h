@@ -17,6 +17,8 @@ int run(const FitOptions& options);
 int run(const AnalyseOptions& options);
 int run(const RegionOptions& options);
 int run(const CompareOptions& options);
+/// The same of several inputs.
+int compare_several(const CompareOptions& options);
 int run(const ConvertOptions& options);
 int run(const VerifyOptions& options);
 int run(const ExplainOptions& options);

@@ -171,6 +171,7 @@ Result<Maker> maker_of(const std::string& path, const ShownCurvatures& shown) {
 }  // namespace
 
 int run(const CompareOptions& options) {
+  if (!options.inputs.empty()) return compare_several(options);
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
   }

@@ -50,6 +50,7 @@ struct Raw {
   VerifyOptions verify;
   ExplainOptions explain;
   std::string carrier = "spiral";
+  std::string align;
   TypedValues typed;
   bool no_progress = false;
   TypedConstruction construction;  ///< its `prefer` is that of region
@@ -240,6 +241,12 @@ void add_formats(CLI::App& command, FormatValues& values) {
       ->type_name("T")
       ->group(group);
   command
+      .add_option("--trailing-edge-form", values.trailing_form,
+                  "A thick trailing edge in .dat is blunt, or round: an arc of that diameter which "
+                  "touches both sides [blunt]")
+      ->type_name("NAME")
+      ->group(group);
+  command
       .add_flag("--unit-chord", values.unit_chord,
                 ".dat with the leading edge at 0, 0 and the trailing edge at 1, 0; how to undo it "
                 "is printed")
@@ -393,10 +400,28 @@ void add_region(CLI::App& app, Raw& raw) {
 
 void add_compare(CLI::App& app, Raw& raw) {
   CLI::App& compare = *app.add_subcommand(
-      "compare", "All curve families side by side: pieces, errors, vertices, continuity, time");
-  compare.add_option("INPUT", raw.compare.input, kInputHelp);
+      "compare",
+      "All curve families side by side: pieces, errors, vertices, continuity, time; or several "
+      "curves over each other: how far they are apart");
+  compare
+      .add_option("INPUT", raw.inputs,
+                  "File with the points, or - for standard input, which is read also where there "
+                  "is no name; several files (points, drawings, contours) are laid over each other "
+                  "and measured from the first")
+      ->type_name("");
   add_output(compare, raw.compare.outputs, raw.format,
-             "File to write: .svg stacked curvature plots, .csv or .json the table");
+             "File to write: .svg stacked curvature plots, .csv or .json the table; of several "
+             "files the curves with their deviations enlarged, .csv the deviation at every place");
+  compare
+      .add_option("--align", raw.align,
+                  "Of several airfoils: chord: measure them also after each has the chord of the "
+                  "first [none: as they lie]")
+      ->type_name("NAME");
+  compare
+      .add_option("--enlarge", raw.compare.enlarge,
+                  "Of several files: deviations in the picture so many times as large [a round "
+                  "number that shows them]")
+      ->type_name("F");
   compare
       .add_option(
           "--continuity", raw.typed.continuity,
@@ -415,8 +440,10 @@ void add_compare(CLI::App& app, Raw& raw) {
   compare.add_flag("-q,--quiet", raw.compare.quiet, "No table and no progress bar");
   compare.add_flag("--no-progress", raw.no_progress, "No progress bar");
   compare.footer(with_exit_codes(
-      "Example: obvid compare points.csv -o carriers.svg\n\nThe first row, spiral, is what the "
-      "others are measured against."));
+      "Examples:\n"
+      "  obvid compare points.csv -o carriers.svg\n"
+      "  obvid compare old.dat new.dat --noise rounding --align chord -o deviation.svg\n\n"
+      "Of one file the first row, spiral, is what the others are measured against."));
 }
 
 void add_convert(CLI::App& app, Raw& raw) {
@@ -600,6 +627,27 @@ Result<Command> checked_fit(Raw& raw) {
   return Command{raw.fit};
 }
 
+/// What of the options is for several inputs, and what is for one.
+Result<void> set_curves(Raw& raw) {
+  CompareOptions& options = raw.compare;
+  if (options.inputs.empty() && !raw.align.empty()) {
+    return fail(bad_option("one input has nothing to be aligned with", "--align",
+                           "name another file, or leave it out"));
+  }
+  if (options.inputs.empty() && options.enlarge) {
+    return fail(bad_option("one input has no deviations from another", "--enlarge",
+                           "name another file, or leave it out"));
+  }
+  if (!options.inputs.empty() && raw.formats.curvature_range) {
+    return fail(bad_option("the picture of several inputs has no curvatures", "--curvature-range",
+                           "name one file, or leave it out"));
+  }
+  const auto job = curves_job(raw.align);
+  OBVID_TRY(job);
+  options.curves = *job;
+  return check_enlarge(options.enlarge);
+}
+
 Result<Command> checked_compare(Raw& raw) {
   const Result<void> done =
       set_job(raw)
@@ -607,7 +655,8 @@ Result<Command> checked_compare(Raw& raw) {
           .and_then([&] { return set_shown(raw.formats, raw.compare.shown); })
           .and_then([&] { return set_units(raw.units, raw.compare.units); })
           .and_then([&] { return settle_streams(raw.compare, raw.format, raw.compare.csv); })
-          .and_then([&] { return need(raw.compare.input, "compare", "a file with points"); });
+          .and_then([&] { return set_inputs(raw, raw.compare, "compare", "a file with points"); })
+          .and_then([&] { return set_curves(raw); });
   OBVID_TRY(done);
   raw.compare.job = raw.fit.job;
   allow_two_points(raw.fit.job, raw.compare.import);

@@ -10,6 +10,7 @@
 #include "cut_options.h"
 #include "nurbs_options.h"
 #include "obvid/core/result.h"
+#include "obvid/pipeline/compare_curves.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
@@ -83,6 +84,9 @@ struct RegionOptions {
 
 struct CompareOptions {
   std::string input;
+  std::vector<std::string> inputs;  ///< several: laid over each other
+  CurvesJob curves;
+  std::optional<double> enlarge;  ///< of their picture
   ShownCurvatures shown;
   ImportOptions import;
   std::vector<std::string> outputs;

@@ -85,6 +85,8 @@ OBVID_LATER(Result<std::string> opendrive_text(const Contour&, const OpenDriveOp
 OBVID_LATER(Result<SvgDrawing> svg_drawing(const Contour&, const SvgDrawingOptions&))
 OBVID_LATER(Result<std::string> samples_csv(const Contour&, const SampleOptions&))
 OBVID_LATER(Result<AirfoilText> airfoil_text(const Contour&, const AirfoilOptions&))
+OBVID_LATER(std::optional<AirfoilPointFigures> airfoil_point_figures(std::span<const Vec2>,
+                                                                     const AirfoilFigures&))
 OBVID_LATER(Result<std::string> obj_text(const Contour&, const SampleOptions&))
 OBVID_LATER(Result<std::string> ply_text(const Contour&, const SampleOptions&))
 OBVID_LATER(Result<std::vector<SldcrvFile>> sldcrv_files(const Contour&, const SampleOptions&))

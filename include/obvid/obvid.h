@@ -127,6 +127,12 @@ OBVID_API int obvid_worksheet(const obvid_input* input, const char* options, con
 /* All curve families side by side. */
 OBVID_API int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
+/* Curves laid over each other: points are formed, contour files and curves of drawings are taken as
+ * they are. How far all are from the first one; `files`: a picture (suffix ".svg") and the deviation
+ * at every place (".csv"); NULL: not wanted. Remarks are the warnings of the inputs. */
+OBVID_API int obvid_compare_curves(const obvid_input* const* inputs, size_t count,
+                                   const char* options, const obvid_run* run, obvid_files** files,
+                                   char** report, obvid_error** error);
 /* The contour of a contour file, or a curve of a drawing as it is drawn. */
 OBVID_API int obvid_stored(const obvid_input* input, const char* options, const obvid_run* run,
                            obvid_contour** contour, obvid_error** error);

@@ -11,6 +11,7 @@
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/analyse.h"
+#include "obvid/pipeline/compare_curves.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/internal/construction_values.h"
@@ -27,6 +28,7 @@ namespace {
 constexpr Known kForming{.fit = true, .construction = true, .import = true};
 constexpr Known kWorksheet{.fit = true, .construction = true, .worksheet = true, .import = true};
 constexpr Known kFitting{.fit = true, .import = true};
+constexpr Known kOverlaying{.fit = true, .import = true, .curves = true};
 constexpr Known kImporting{.import = true};
 constexpr Known kCutting{.import = true, .cut = true};
 constexpr Known kAligning{.import = true, .alignment = true};
@@ -63,6 +65,19 @@ Result<StationHeights> heights_of(const obvid_input& input) {
 
 Result<Drawing> drawing_of(const obvid_input& input) {
   return input.by_path ? read_drawing(input.name) : parse_drawing(input.text, input.name);
+}
+
+/// One of several curves that are laid over each other.
+Result<CurveInput> curve_of(const obvid_input& input, const Request& request,
+                            const RunContext& run) {
+  const ReadCurveOptions how{request.import, request.job, request.units};
+  if (input.points || input.space) {
+    const Result<PointSeries> series = series_of(input, request, true);
+    OBVID_TRY(series);
+    return formed_curve(*series, request.job, run);
+  }
+  return input.by_path ? read_curve(input.name, how, run)
+                       : parse_curve(input.text, input.name, how, run);
 }
 
 void hand_out_text(const std::string& text, char** out) {
@@ -356,6 +371,38 @@ int obvid_compare(const obvid_input* input, const char* options, const obvid_run
         return compare_carriers(series, request.job, context_of(run))
             .map([&](const Comparison& found) { return comparison_json(series, found); });
       });
+}
+
+int obvid_compare_curves(const obvid_input* const* inputs, size_t count, const char* options,
+                         const obvid_run* run, obvid_files** files, char** report,
+                         obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kOverlaying);
+    OBVID_TRY(request);
+    std::vector<ComparedCurve> curves;
+    auto out = std::make_unique<obvid_files>();
+    for (size_t i = 0; i < count; ++i) {
+      if (inputs[i] == nullptr) {
+        return fail({ErrorCode::kUsage, "an input is NULL", std::to_string(i), ""});
+      }
+      auto one = curve_of(*inputs[i], *request, context_of(run));
+      OBVID_TRY(one);
+      const std::string& name = inputs[i]->name;
+      if (!name.empty()) one->curve.name = std::filesystem::path(name).filename().string();
+      for (const std::string& told : one->warnings) {
+        out->remarks.push_back(one->curve.name + ": " + told);
+      }
+      curves.push_back(std::move(one->curve));
+    }
+    const auto made = compare_curves(std::move(curves), request->curves, context_of(run));
+    OBVID_TRY(made);
+    hand_out_text(curves_json(*made), report);
+    if (files == nullptr) return {};
+    out->files.push_back({".svg", curves_svg(*made, request->enlarge)});
+    out->files.push_back({".csv", curves_csv(*made)});
+    *files = out.release();
+    return {};
+  });
 }
 
 int obvid_stored(const obvid_input* input, const char* options, const obvid_run* run,

@@ -25,6 +25,7 @@ struct Written {
   std::optional<double> tolerance;
   CutValues cut;
   AlignmentValues alignment;
+  std::string align;
   std::optional<std::string> units;
 };
 
@@ -73,6 +74,9 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"rotate", number(f.rotate_deg)},
                 {"move", text(f.move)},
                 {"mirror", text(f.mirror)}});
+  }
+  if (known.curves) {
+    all.insert({{"align", text(w.align)}, {"enlarge", number(out.enlarge)}});
   }
   if (known.cut) {
     CutOptions& plan = out.cut.plan;
@@ -124,6 +128,7 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"airfoil", text(f.airfoil)},
                 {"spacing", text(f.spacing)},
                 {"trailing-edge", number(f.trailing_edge)},
+                {"trailing-edge-form", text(f.trailing_form)},
                 {"unit-chord", flag(f.unit_chord)},
                 {"svg", text(f.svg)},
                 {"plot", text(f.plot)},
@@ -167,6 +172,10 @@ Result<void> check(Written& w, const Known& known, Request& out) {
         const auto along = direction_named(w.along);
         OBVID_TRY(along);
         out.along = *along;
+        const auto curves = curves_job(w.align);
+        OBVID_TRY(curves);
+        out.curves = *curves;
+        OBVID_TRY(check_enlarge(out.enlarge));
         if (!w.units) return {};
         return given_units(*w.units, "units").map([&](Units given) { out.units = given; });
       });

@@ -8,6 +8,7 @@
 #include "obvid/core/units.h"
 #include "obvid/geom/vec3.h"
 #include "obvid/pipeline/alignment_job.h"
+#include "obvid/pipeline/compare_curves.h"
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
@@ -26,6 +27,8 @@ struct Request {
   std::string profile;  ///< what "for" chose, in words
   CutJob cut;
   AlignmentJob alignment;
+  CurvesJob curves;
+  std::optional<double> enlarge;  ///< of the picture of several curves
   std::optional<Units> units;
 };
 
@@ -40,6 +43,7 @@ struct Known {
   bool points = false;        ///< columns, skip, scale, rotate, move, mirror
   bool cut = false;           ///< of `obvid cut`
   bool alignment = false;     ///< of `obvid alignment`
+  bool curves = false;        ///< align, enlarge
 };
 
 /// Reads a JSON object with the names of the command line; NULL and "" are no options. Errors: E308

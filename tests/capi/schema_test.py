@@ -263,6 +263,7 @@ class Options(unittest.TestCase):
         yield "surface_export", lambda o: c.call(lib.obvid_surface_export, surface, b"stl", o, None, ref(out))
         yield "surface_check", lambda o: c.call(lib.obvid_surface_check, surface, o, None, ref(text))
         yield "alignment", lambda o: c.call(lib.obvid_alignment, points, None, o, None, None, ref(out), ref(text))
+        yield "compare_curves", lambda o: c.call(lib.obvid_compare_curves, inputs, C.c_size_t(1), o, None, ref(out), ref(text))
         yield "cut", lambda o: c.call(lib.obvid_cut, inputs, C.c_size_t(1), o, None, ref(out), ref(text))
         yield "surface_toolpath", lambda o: c.call(lib.obvid_surface_toolpath, surface, o, None, ref(out), ref(text))
 
@@ -286,13 +287,13 @@ class Options(unittest.TestCase):
                     ("surface", "check"): names_of("surface_check"),
                     ("cut",): names_of("cut"), ("alignment",): names_of("alignment"),
                     ("toolpath",): names_of("surface_toolpath") | names_of("surface_export"),
-                    ("region",): names_of("region"), ("compare",): names_of("compare") | names_of("export"),
+                    ("region",): names_of("region"), ("compare",): names_of("compare_curves") | names_of("export"),
                     ("analyse",): names_of("analyse") | names_of("export"), ("verify",): set()}
         every = set()
         for command, known in commands.items():
             with self.subTest(command=command):
                 self.assertEqual(typed(*command) - known, set())
-        for command in [("fit",), ("region",), ("convert",), ("toolpath",), ("cut",), ("alignment",),
+        for command in [("fit",), ("region",), ("compare",), ("convert",), ("toolpath",), ("cut",), ("alignment",),
                         ("surface", "check")] + [
                 ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "offset")]:
             every |= typed(*command)

@@ -114,6 +114,90 @@ class Airfoils(unittest.TestCase):
         for x, y in rows[1:]:
             self.assertLess(abs(abs(y) - half(x) - 0.002 * x * x), 1e-5)
 
+    def test_a_round_trailing_edge_touches_both_sides(self):
+        self.write("a.dat")
+        self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json", "-q")
+        thick = 0.01
+        r = 0.5 * thick
+        # how far the sides of the closed form move apart: until a circle around 1 - r touches both
+
+        def nearest(more):
+            return min(math.hypot(x - 1 + r, half(x) + 0.5 * more * x * x)
+                       for x in (1 - 2 * r * k / 20000 for k in range(20001)))
+        more = root(lambda m: nearest(m) - r, 0.5 * thick, 1.5 * thick)
+        for spacing in ("cosine", "curvature"):
+            code, text = self.run_it("convert", "a.json", "-o", "b.dat", "--trailing-edge",
+                                     str(thick), "--trailing-edge-form", "round", "--spacing",
+                                     spacing, "--samples", "201")
+            self.assertEqual(code, 0, text)
+            touch = [float(v) / 100 for v in re.search(
+                r"touches the upper side at ([\d.]+) % and the lower one at ([\d.]+) %",
+                text).groups()]
+            on_arc = int(re.search(r"(\d+) points on it", text).group(1))
+            read = numbers(self.folder / "b.dat")
+            self.assertEqual(len(read), 201)
+            self.assertEqual(read[0], read[-1])
+            self.assertAlmostEqual(read[0][0], 1.0, delta=1e-8)
+            self.assertAlmostEqual(read[0][1], 0.0, delta=1e-6)
+            found = 0
+            for x, y in read:
+                if x > max(touch):
+                    self.assertAlmostEqual(math.hypot(x - 1 + r, y), r, delta=2e-8)
+                    found += 1
+                else:
+                    self.assertAlmostEqual(abs(y), half(x) + 0.5 * more * x * x, delta=1e-6)
+            self.assertEqual(found - 1, on_arc)  # the end of the chord is there twice
+            self.assertGreater(on_arc, 4)
+            # G1: at the touching point the side runs across the radius
+            for x in touch:
+                along = slope(x) + more * x
+                radius = (half(x) + 0.5 * more * x * x) / (x - 1 + r)
+                self.assertAlmostEqual(math.atan(along) - math.atan(-1 / radius), 0, delta=2e-3)
+
+    def test_a_round_edge_needs_a_thickness_and_room(self):
+        self.write("a.dat")
+        self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json", "-q")
+        for more in ([], ["--trailing-edge", "0"]):
+            code, text = self.run_it("convert", "a.json", "-o", "b.dat", "--trailing-edge-form",
+                                     "round", *more)
+            self.assertEqual(code, 2, text)
+            self.assertIn("E203", text)
+            self.assertFalse((self.folder / "b.dat").exists())
+
+    def test_figures_of_the_input_are_those_of_its_points(self):
+        self.write("a.dat")
+        _, text = self.run_it("fit", "a.dat", "--noise", "1e-4", "-o", "b.dat")
+        found = re.search(r"input, straight lines between its points, same chord: thickness "
+                          r"([\d.]+) % at ([\d.]+) %", text)
+        thick, at = (float(g) for g in found.groups())
+        x = [0.5 * (1 - math.cos(math.pi * k / 120)) for k in range(121)]
+        best = max(x, key=half)
+        self.assertAlmostEqual(thick, 200 * half(best), delta=2e-3)  # the chord turns by rounding
+        self.assertAlmostEqual(at, 100 * best, delta=0.02)
+        first = (x[1], half(x[1]))
+        # circle through 0, 0 and both neighbours
+        radius = (first[0]**2 + first[1]**2) / (2 * first[0])
+        shown = float(re.search(r"apart: radius ([\d.]+) %", text).group(1))
+        self.assertAlmostEqual(shown, 100 * radius, delta=2e-3)
+
+    def test_a_nose_that_is_no_fair_one_is_warned_of(self):
+        tip = [(x, y) for x, y in points(0) if x > 0.004]
+        half_way = len(tip) // 2
+        tip.insert(half_way, (-0.01, 0.0))  # sticks out: a corner, or curvature that turns back
+        (self.folder / "a.dat").write_text("tip\n" + "".join(f"{x:.6f} {y:.6f}\n" for x, y in tip))
+        self.write("fair.dat")
+        for name, told in (("a.dat", True), ("fair.dat", False)):
+            code, text = self.run_it("fit", name, "--noise", "rounding", "-o", "b.dat", "--open")
+            self.assertEqual(code, 0, text)
+            self.assertEqual("warning: b.dat: the nose" in text, told, text)
+        _, text = self.run_it("fit", "a.dat", "--noise", "rounding", "--corner-at",
+                              str(half_way + 1), "--open", "-o", "b.dat")
+        turn = float(re.search(r"the nose has a corner of ([\d.]+) degrees", text).group(1))
+        self.assertGreater(turn, 20)
+        _, text = self.run_it("fit", "a.dat", "--noise", "rounding", "--no-corners", "--open", "-o",
+                              "b.dat")
+        self.assertNotIn("has a corner", text)
+
     def test_unit_chord_is_undone_by_what_is_printed(self):
         self.write("a.dat")
         place = ["--scale", "250", "--rotate", "20", "--move", "3,4"]

@@ -210,6 +210,20 @@ class AgainstTheProgram(unittest.TestCase):
         theirs = json.loads(program("fit", SERIES, "--suggest", "--json")[0])
         self.assertEqual([r.tolerance for r in table], [r["tolerance"] for r in theirs["rows"]])
 
+    def test_curves_over_each_other_are_those_of_the_program(self):
+        paths = [os.path.join(SOURCES, "examples", name) for name in ("naca2412.dat", "wing_template.dat")]
+        with tempfile.TemporaryDirectory() as folder:
+            picture = os.path.join(folder, "a.svg")
+            ours = obvid.compare_curves(paths, picture, noise="rounding", align="chord", enlarge=20)
+            typed = ("compare", *paths, "--noise", "rounding", "--align", "chord")
+            self.assertEqual(ours, json.loads(program(*typed, "--json")[0]))
+            with open(picture, encoding="utf-8") as file:
+                self.assertIn("enlarged 20 times", file.read())
+            with self.assertRaises(ValueError):
+                obvid.compare_curves(paths, os.path.join(folder, "a.step"), noise="rounding")
+        with self.assertRaises(obvid.UsageError):
+            obvid.compare_curves(paths[:1], noise="rounding")
+
     def test_constructions_are_those_of_the_program(self):
         path = os.path.join(SOURCES, "examples/paper_series10.csv")
         ours = obvid.region(path, construction="arcs", insert=[8], prefer="centre")

@@ -26,6 +26,7 @@ from .jobs import (
     Source,
     analyse,
     compare,
+    compare_curves,
     fit,
     fit_many,
     fit_space,
@@ -59,7 +60,7 @@ __all__ = [
     "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "SpaceCurve",
     "SpaceSamples", "SpaceVerification", "Suggestion", "Surface", "SurfaceSamples", "Table", "Toolpath",
     "UsageError", "Verification",
-    "__version__", "alignment", "analyse", "compare", "cut", "fit", "fit_many", "fit_space", "read", "read_contour",
+    "__version__", "alignment", "analyse", "compare", "compare_curves", "cut", "fit", "fit_many", "fit_space", "read", "read_contour",
     "read_space", "read_surface", "read_text", "region", "skin", "suggest", "surface", "toolpath",
     "verify", "why_not", "worksheet",
 ]  # fmt: skip

@@ -102,6 +102,7 @@ def _load() -> C.CDLL:
         "obvid_surface_check": (C.c_int, [handle, text, run, out, error]),
         "obvid_surface_export": (C.c_int, [handle, text, text, run, out, error]),
         "obvid_alignment": (C.c_int, [handle, handle, text, run, out, out, out, error]),
+        "obvid_compare_curves": (C.c_int, [handle, size, text, run, out, out, error]),
         "obvid_cut": (C.c_int, [handle, size, text, run, out, out, error]),
         "obvid_surface_toolpath": (C.c_int, [handle, text, run, out, out, error]),
         "obvid_surface_patches": (size, [handle]),

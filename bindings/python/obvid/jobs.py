@@ -226,7 +226,8 @@ def _fit_options(
     options: Dict[str, Any] = {
         name.replace("_", "-"): o.get(name)
         for name in ("along", "carrier", "noise", "tolerance", "corner_angle", "units", "curve", "drawing",
-                     "chord_tolerance", "prefer", "continuity", "construction", "fixation")
+                     "chord_tolerance", "prefer", "continuity", "construction", "fixation",
+                     "align", "enlarge")
     }  # fmt: skip
     options.update(_placing(o))
     options["convex"] = True if o.get("convex") else None
@@ -483,6 +484,45 @@ def compare(points: Points, **options: Any) -> List[CarrierRow]:
     watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
     source = _prepared(points, options)
     return carrier_rows(_report("compare", source, _fit_options(source, options), watched))
+
+
+def compare_curves(
+    curves: Sequence[Points],
+    path: Union[None, str, "os.PathLike[str]"] = None,
+    **options: Any,
+) -> Dict[str, Any]:
+    """Several curves laid over each other: how far they are from the first one, along its normals.
+    Points are formed with options of `fit`; contour files and curves of drawings are taken as they
+    are. ``align="chord"``: airfoils are compared on one chord, too. `path`: a picture (.svg,
+    ``enlarge=50``) or a table of all places (.csv).
+
+    >>> import math, obvid
+    >>> circle = lambda r: [(r * math.cos(k / 5), r * math.sin(k / 5)) for k in range(16)]
+    >>> found = obvid.compare_curves([circle(2), circle(2.25)], noise=1e-9)
+    >>> round(found["as_they_lie"][0]["root_mean_square"], 6)
+    0.25
+    """
+    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    sources = [_source(one) for one in curves]
+    if not sources:
+        raise ValueError("two curves at least are laid over each other")
+    handles = (C.c_void_p * len(sources))(*(one._handle for one in sources))
+    text = _fit_options(sources[0], options, ("align", "enlarge"))
+    files, said, error = C.c_void_p(), C.c_void_p(), C.POINTER(ErrorStruct)()
+    with Run(watched["progress"], watched["cancelled"]) as run:
+        if lib.obvid_compare_curves(
+            handles, len(sources), text, run, C.byref(files), C.byref(said), C.byref(error)
+        ):
+            raise raise_error(error)
+    made, _ = taken_files(files)
+    if path is not None:
+        target = pathlib.Path(path)
+        kinds = {suffix: data for suffix, data in made}
+        if target.suffix not in kinds:
+            raise ValueError(f"{target}: a comparison of curves is written as {', '.join(kinds)}")
+        target.write_bytes(kinds[target.suffix])
+    values: Dict[str, Any] = json.loads(taken_text(said) or "{}")
+    return values
 
 
 def suggest(points: Points, **options: Any) -> List[Suggestion]:

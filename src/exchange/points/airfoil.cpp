@@ -4,261 +4,144 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "obvid/core/internal/format_into.h"
-#include "obvid/curve/internal/contour_path.h"
+#include "points/airfoil_shape.h"
 
 namespace obvid {
 namespace {
 
 constexpr std::size_t kFewestPoints = 5, kMostPoints = 100'000;  // points that are written
-constexpr std::size_t kLooks = 32;  // of a piece, where a largest or a first one is sought
-constexpr int kHalvings = 200;      // more than doubles have
-constexpr double kCorner = 1e-6;    // rad: no corner below, as in samples
-constexpr double kFinest = 1e-8;    // of the chord: a unit of the last digit is no larger
-constexpr double kGolden = 0.6180339887498949;
+constexpr double kFinest = 1e-8;  // of the chord: a unit of the last digit is no larger
 
-double product(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-double across(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-
-/// Place in [a, b] at which a function that changes its sign there does so.
-template <class Function>
-double crossing(double a, double b, const Function& f) {
-  const bool rises = f(b) > 0.0;
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = 0.5 * (a + b);
-    if (!(middle > a && middle < b)) break;
-    ((f(middle) > 0.0) == rises ? b : a) = middle;
-  }
-  return 0.5 * (a + b);
-}
-
-/// Place of the largest value near the middle of [a, b].
-template <class Function>
-double highest(double a, double b, const Function& f) {
-  double c = b - kGolden * (b - a), d = a + kGolden * (b - a);
-  double at_c = f(c), at_d = f(d);
-  for (int k = 0; k < kHalvings && c < d; ++k) {
-    if (at_c >= at_d) {
-      b = d, d = c, at_d = at_c;
-      c = b - kGolden * (b - a), at_c = f(c);
-    } else {
-      a = c, c = d, at_c = at_d;
-      d = a + kGolden * (b - a), at_d = f(d);
-    }
-  }
-  return 0.5 * (a + b);
-}
-
-/// The contour from one end of its trailing edge around to the other, upper side first.
-class Airfoil {
+/// The sides as they are written, along the chord: moved apart by an amount times (x / chord)^2,
+/// and ended by an arc where the edge is round. Places are arc lengths from the leading edge, of
+/// the sides before they are moved.
+class WrittenSides {
  public:
-  static Result<Airfoil> of(const Contour& contour) {
-    if (contour.pieces.empty()) return error(ErrorCode::kNothingThere, "there is no airfoil");
-    auto path = ContourPath::without_cusps(contour.pieces);
-    OBVID_TRY(path);
-    Airfoil out(std::move(*path));
-    out.to_ = out.path_.length();
-    if (contour.closed && !out.open_at_corner()) {
-      return error(
-                 ErrorCode::kNothingThere,
-                 "the closed contour has no trailing edge: one corner, or two with a base between")
-          .hint("fit the airfoil with --open, or name its corner by --corner-at");
-    }
-    OBVID_TRY(out.measure_chord());
-    return out;
+  explicit WrittenSides(const Airfoil& foil, double more) : foil_(foil), more_(more) {
+    for (const bool upper : {true, false}) side(upper).ends = foil.side_length(upper);
   }
+  /// Moved so that an arc of this radius touches both sides and reaches to the end of the chord.
+  /// Error: E203 where none does.
+  [[nodiscard]] static Result<WrittenSides> rounded(const Airfoil& foil, double radius);
 
-  /// Arc length along the sides is counted from the upper end of the trailing edge.
-  [[nodiscard]] double length() const { return to_ - from_; }
-  [[nodiscard]] double nose() const { return nose_; }
-  [[nodiscard]] ContourPath::Place at(double s) const {
-    double along = reversed_ ? to_ - s : from_ + s;
-    const double all = path_.length();
-    const bool end = s >= length();
-    // the last place belongs to the piece that ends there
-    bool before = end != reversed_;
-    while (along > all || (along == all && !before)) {
-      if (along == all && !wraps_) break;
-      along -= all;
-    }
-    if (along <= 0.0 && before && wraps_) along += all;
-    ContourPath::Place place = path_.at(std::clamp(along, 0.0, all), before);
-    if (reversed_) place.tangent = -1.0 * place.tangent, place.kappa = -place.kappa;
-    return place;
-  }
-  /// Along the chord from the leading edge and to the left of it, units.
-  [[nodiscard]] Vec2 local(Vec2 p) const {
-    const Vec2 d = p - leading_;
-    return {product(along_, d), across(along_, d)};
-  }
-  [[nodiscard]] Vec2 back(Vec2 q) const {
-    return leading_ + q.x * along_ + q.y * Vec2{-along_.y, along_.x};
-  }
-  [[nodiscard]] double chord() const { return chord_; }
-  [[nodiscard]] Vec2 leading() const { return leading_; }
-  [[nodiscard]] Vec2 along() const { return along_; }
+  [[nodiscard]] double more() const { return more_; }
+  [[nodiscard]] bool is_round() const { return radius_ > 0.0; }
+  /// x at which the arc begins, and where along the side.
+  [[nodiscard]] double arc_from(bool upper) const { return foil_.x_on(upper, side(upper).ends); }
+  [[nodiscard]] double arc_place(bool upper) const { return side(upper).ends; }
 
-  /// Arc length on a side from the leading edge, to its end.
-  [[nodiscard]] double side_length(bool upper) const { return upper ? nose_ : length() - nose_; }
-  [[nodiscard]] ContourPath::Place on_side(bool upper, double s) const {
-    return at(upper ? nose_ - s : nose_ + s);
+  [[nodiscard]] double length(bool upper) const {
+    return side(upper).ends + radius_ * std::abs(side(upper).turn);
   }
-  [[nodiscard]] double x_on(bool upper, double s) const { return local(on_side(upper, s).point).x; }
-  /// Whether x rises all along a side.
-  [[nodiscard]] bool runs_along(bool upper) const {
-    double before = 0.0;
-    const std::size_t n = looks();
-    for (std::size_t k = 1; k <= n; ++k) {
-      const double x =
-          x_on(upper, side_length(upper) * static_cast<double>(k) / static_cast<double>(n));
-      if (!(x > before)) return false;
-      before = x;
-    }
-    return true;
+  [[nodiscard]] Vec2 point(bool upper, double s) const;
+  [[nodiscard]] double x_on(bool upper, double s) const { return point(upper, s).x; }
+  [[nodiscard]] double kappa(bool upper, double s) const {
+    return s > side(upper).ends ? 1.0 / radius_ : std::abs(foil_.on_side(upper, s).kappa);
   }
-  /// Height of a side at x, which must run along.
-  [[nodiscard]] double height(bool upper, double x) const {
-    return local(on_side(upper, place_of(upper, x)).point).y;
-  }
-  [[nodiscard]] double place_of(bool upper, double x) const {
-    const double end = side_length(upper);
-    if (!(x > 0.0)) return 0.0;
-    if (!(x < x_on(upper, end))) return end;
-    return crossing(0.0, end, [&](double s) { return x_on(upper, s) - x; });
-  }
-  [[nodiscard]] std::size_t looks() const { return kLooks * path_.pieces().size(); }
+  [[nodiscard]] double place_of(bool upper, double x) const;
+  [[nodiscard]] std::size_t looks() const { return foil_.looks(); }
 
  private:
-  explicit Airfoil(ContourPath path) : path_(std::move(path)) {}
+  struct Side {
+    double ends = 0.0;  ///< where the arc begins, else the end of the side
+    double turn = 0.0;  ///< of the arc, rad: direction from its centre to where it begins
+  };
+  [[nodiscard]] Side& side(bool upper) { return sides_[upper ? 0 : 1]; }
+  [[nodiscard]] const Side& side(bool upper) const { return sides_[upper ? 0 : 1]; }
 
-  /// Corners of the closed contour; false where they do not tell the trailing edge.
-  bool open_at_corner() {
-    std::vector<double> corners;
-    const double all = path_.length();
-    for (std::size_t k = 0; k < path_.pieces().size(); ++k) {
-      const Vec2 in = path_.at(k == 0 ? all : path_.joint(k), true).tangent;
-      const Vec2 out = path_.at(path_.joint(k), false).tangent;
-      if (std::abs(std::atan2(across(in, out), product(in, out))) > kCorner) {
-        corners.push_back(path_.joint(k));
-      }
-    }
-    if (corners.empty() || corners.size() > 2) return false;
-    wraps_ = true;
-    from_ = corners.front();
-    to_ = from_ + all;
-    if (corners.size() == 1) return true;
-    const double first = corners[1] - corners[0];
-    if (first < 0.5 * all) {
-      from_ = corners[1];  // the base runs from the first to the second
-      to_ = corners[0] + all;
-    } else {
-      to_ = corners[1];
-    }
-    return true;
-  }
-
-  Result<void> measure_chord() {
-    const Vec2 a = at(0.0).point, b = at(length()).point;
-    const Vec2 edge = 0.5 * (a + b);
-    const std::size_t n = looks();
-    const double step = length() / static_cast<double>(n);
-    double farthest = -1.0, area = 0.0;
-    std::size_t where = 0;
-    Vec2 before = a;
-    for (std::size_t k = 0; k <= n; ++k) {
-      const Vec2 p = at(static_cast<double>(k) * step).point;
-      area += across(before - edge, p - edge);
-      before = p;
-      const Vec2 d = p - edge;
-      if (product(d, d) > farthest) farthest = product(d, d), where = k;
-    }
-    if (area == 0.0 || where == 0 || where == n) {
-      return error(ErrorCode::kNothingThere, "the contour is no airfoil: it goes around nothing");
-    }
-    const auto receding = [&](double s) {
-      const auto place = at(s);
-      return product(place.point - edge, place.tangent);
-    };
-    nose_ = crossing(static_cast<double>(where - 1) * step, static_cast<double>(where + 1) * step,
-                     receding);
-    if (area < 0.0) {
-      nose_ = length() - nose_;
-      reversed_ = true;
-    }
-    leading_ = at(nose_).point;
-    const Vec2 d = edge - leading_;
-    chord_ = std::hypot(d.x, d.y);
-    along_ = {d.x / chord_, d.y / chord_};
-    return {};
-  }
-
-  ContourPath path_;
-  double from_ = 0.0, to_ = 0.0;
-  bool wraps_ = false, reversed_ = false;
-  double nose_ = 0.0, chord_ = 0.0;
-  Vec2 leading_{}, along_{};
+  const Airfoil& foil_;
+  double more_ = 0.0;  ///< of the trailing edge, units
+  double radius_ = 0.0;
+  Vec2 centre_{};
+  std::array<Side, 2> sides_{};
 };
 
-AirfoilFigures figures_of(const Airfoil& foil) {
-  AirfoilFigures out;
-  const double c = foil.chord();
-  out.chord = c;
-  out.turn = std::atan2(foil.along().y, foil.along().x);
-  out.leading_edge = foil.leading();
-  const auto thickness = [&](double x) { return foil.height(true, x) - foil.height(false, x); };
-  const auto camber = [&](double x) {
-    return 0.5 * (foil.height(true, x) + foil.height(false, x));
-  };
-  constexpr int kPlaces = 200;
-  const auto place = [&](int k) { return c * std::clamp(k, 0, kPlaces) / kPlaces; };
-  int thick = 0, high = 0;
-  double most = -1.0, highest_camber = -1.0;
-  for (int k = 0; k <= kPlaces; ++k) {
-    const double t = thickness(place(k));
-    const double h = std::abs(camber(place(k)));
-    if (t > most) {
-      most = t;
-      thick = k;
-    }
-    if (h > highest_camber) {
-      highest_camber = h;
-      high = k;
-    }
+Vec2 WrittenSides::point(bool upper, double s) const {
+  const Side& on = side(upper);
+  if (is_round() && s > on.ends) {
+    const double left = 1.0 - (s - on.ends) / (radius_ * std::abs(on.turn));
+    const double a = on.turn * std::max(left, 0.0);
+    return centre_ + radius_ * Vec2{std::cos(a), std::sin(a)};
   }
-  const double sign = camber(place(high)) < 0.0 ? -1.0 : 1.0;
-  const double at = highest(place(thick - 1), place(thick + 1), thickness);
-  const double top =
-      highest(place(high - 1), place(high + 1), [&](double x) { return sign * camber(x); });
-  out.thickness = thickness(at) / c;
-  out.thickness_at = at / c;
-  out.camber = camber(top) / c;
-  out.camber_at = top / c;
-  out.nose_radius = 1.0 / std::abs(foil.at(foil.nose()).kappa) / c;
-  const auto first = foil.at(0.0), last = foil.at(foil.length());
-  const Vec2 gap = first.point - last.point;
-  out.trailing_thickness = std::hypot(gap.x, gap.y) / c;
-  const Vec2 upper = -1.0 * first.tangent, lower = last.tangent;  // both towards the edge
-  out.trailing_angle = std::atan2(across(upper, lower), product(upper, lower));
-  return out;
+  Vec2 q = foil_.local(foil_.on_side(upper, s).point);
+  const double x = q.x / foil_.chord();
+  q.y += (upper ? 0.5 : -0.5) * more_ * x * x;
+  return q;
+}
+
+double WrittenSides::place_of(bool upper, double x) const {
+  const double end = length(upper);
+  if (!(x > 0.0)) return 0.0;
+  if (!(x < x_on(upper, end))) return end;
+  return sign_change(0.0, end, [&](double s) { return x_on(upper, s) - x; });
+}
+
+Result<WrittenSides> WrittenSides::rounded(const Airfoil& foil, double radius) {
+  constexpr int kSteps = 200;         // each gains some digits: the sides are nearly straight there
+  constexpr double kSettled = 1e-15;  // of the chord
+  const double c = foil.chord();
+  WrittenSides out(foil, 0.0);
+  out.radius_ = radius;
+  out.centre_.x = c - radius;
+  // slopes of the moved sides where the arc touches them, and x there
+  std::array<double, 2> slope{}, x{out.centre_.x, out.centre_.x};
+  const auto no_room = [&] {
+    return error(ErrorCode::kBadOption, "no arc of this diameter touches both sides")
+        .where("--trailing-edge-form")
+        .hint("choose a thinner --trailing-edge")
+        .value(2.0 * radius / c);
+  };
+  for (int k = 0; k < kSteps; ++k) {
+    std::array<double, 2> y{}, up{};  // heights before the sides are moved; of the normals
+    for (const bool upper : {true, false}) {
+      const std::size_t i = upper ? 0 : 1;
+      if (!(x[i] > 0.0)) return no_room();
+      const auto place = foil.on_side(upper, foil.place_of(upper, x[i]));
+      const Vec2 tangent = foil.local(foil.leading() + place.tangent);
+      y[i] = foil.local(place.point).y;
+      const double moved = (upper ? 1.0 : -1.0) * out.more_ * x[i] / (c * c);
+      slope[i] = tangent.y / tangent.x + moved;
+      if (!std::isfinite(slope[i])) return no_room();
+      up[i] = 1.0 / std::sqrt(1.0 + slope[i] * slope[i]);
+    }
+    const double before = out.more_;
+    const double squares = (x[0] * x[0] + x[1] * x[1]) / (c * c);
+    out.more_ = 2.0 * (radius * (up[0] + up[1]) - (y[0] - y[1])) / squares;
+    const double top = y[0] + 0.5 * out.more_ * x[0] * x[0] / (c * c);
+    out.centre_.y = top - radius * up[0];
+    x = {out.centre_.x - radius * slope[0] * up[0], out.centre_.x + radius * slope[1] * up[1]};
+    if (k == 0 || std::abs(out.more_ - before) > kSettled * c) continue;
+    for (const bool upper : {true, false}) {
+      const std::size_t i = upper ? 0 : 1;
+      out.side(upper).ends = foil.place_of(upper, x[i]);
+      const Vec2 to = out.point(upper, out.side(upper).ends) - out.centre_;
+      out.side(upper).turn = std::atan2(to.y, to.x);
+    }
+    return out;
+  }
+  return no_room();
 }
 
 /// Arc lengths from the leading edge along a side in m steps, both ends among them.
-std::vector<double> places(const Airfoil& foil, bool upper, std::size_t m, AirfoilSpacing spacing) {
-  const double end = foil.side_length(upper), all = static_cast<double>(m);
+std::vector<double> places(const WrittenSides& sides, bool upper, std::size_t m,
+                           AirfoilSpacing spacing) {
+  const double end = sides.length(upper), all = static_cast<double>(m);
   std::vector<double> out;
   std::vector<double> sums;
-  const std::size_t looks = foil.looks();
+  const std::size_t looks = sides.looks();
   const double step = end / static_cast<double>(looks);
   if (spacing == AirfoilSpacing::kCurvature) {
     sums.push_back(0.0);
     for (std::size_t k = 0; k < looks; ++k) {
       const double s = (static_cast<double>(k) + 0.5) * step;
-      sums.push_back(sums.back() + std::sqrt(std::abs(foil.on_side(upper, s).kappa)) * step);
+      sums.push_back(sums.back() + std::sqrt(sides.kappa(upper, s)) * step);
     }
     const double sum = sums.back();
     for (std::size_t k = 0; k <= looks; ++k) {
@@ -274,7 +157,7 @@ std::vector<double> places(const Airfoil& foil, bool upper, std::size_t m, Airfo
       out.push_back(part * end);
     } else if (spacing == AirfoilSpacing::kCosine) {
       const double x = 0.5 * (1.0 - std::cos(std::numbers::pi * part));
-      out.push_back(foil.place_of(upper, x * foil.x_on(upper, end)));
+      out.push_back(sides.place_of(upper, x * sides.x_on(upper, end)));
     } else {
       const auto above = std::upper_bound(sums.begin(), sums.end(), part);
       const auto i = static_cast<std::size_t>(above - sums.begin()) - 1;
@@ -282,6 +165,37 @@ std::vector<double> places(const Airfoil& foil, bool upper, std::size_t m, Airfo
     }
   }
   return out;
+}
+
+/// The sides as the options ask for them. Errors: E203.
+Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options,
+                              const AirfoilFigures& figures) {
+  const double c = foil.chord();
+  const Vec2 a = foil.local(foil.at(0.0).point), b = foil.local(foil.at(foil.length()).point);
+  const double thick = options.trailing_thickness.value_or(figures.trailing_thickness);
+  const bool round = options.trailing_form == TrailingEdgeForm::kRound;
+  if (round && !(thick > 0.0)) {
+    return error(ErrorCode::kBadOption, "a round trailing edge has a thickness")
+        .where("--trailing-edge-form")
+        .hint("give --trailing-edge too, for example 0.002");
+  }
+  const double more = options.trailing_thickness ? thick * c - (a.y - b.y) : 0.0;
+  Result<WrittenSides> sides =
+      round ? WrittenSides::rounded(foil, 0.5 * thick * c) : WrittenSides(foil, more);
+  OBVID_TRY(sides);
+  if (!(sides->more() < 0.0)) return sides;
+  constexpr int kPlaces = 1000;
+  for (int k = 1; k < kPlaces; ++k) {
+    const double x = c * k / kPlaces;
+    if (round && x > std::min(sides->arc_from(true), sides->arc_from(false))) break;
+    const double moved = sides->more() * (x / c) * (x / c);
+    if (foil.height(true, x) - foil.height(false, x) + moved > 0.0) continue;
+    return error(ErrorCode::kBadOption,
+                 fmt::format("with this trailing edge the sides cross at {:.3f} chords", x / c))
+        .hint("choose a thicker one")
+        .value(thick);
+  }
+  return sides;
 }
 
 }  // namespace
@@ -292,54 +206,28 @@ Result<AirfoilText> airfoil_text(const Contour& contour, const AirfoilOptions& o
         .hint("for example 161")
         .value(static_cast<double>(options.count));
   }
-  const auto made = Airfoil::of(contour);
+  const auto made = airfoil_of(contour);
   OBVID_TRY(made);
   const Airfoil& foil = *made;
-  for (const bool upper : {true, false}) {
-    if (foil.runs_along(upper)) continue;
-    return error(ErrorCode::kNothingThere,
-                 fmt::format("the {} side folds back along the chord: no airfoil",
-                             upper ? "upper" : "lower"))
-        .hint("write .csv samples");
-  }
   AirfoilText out;
-  out.figures = figures_of(foil);
+  out.figures = foil.figures();
   const double c = foil.chord();
-  double more = 0.0;  // of the trailing edge
-  if (options.trailing_thickness) {
-    const Vec2 a = foil.local(foil.at(0.0).point), b = foil.local(foil.at(foil.length()).point);
-    more = *options.trailing_thickness * c - (a.y - b.y);
-  }
-  const auto moved = [&](bool upper, double s) {
-    const Vec2 p = foil.on_side(upper, s).point;
-    if (more == 0.0) return p;
-    Vec2 q = foil.local(p);
-    q.y += (upper ? 0.5 : -0.5) * more * (q.x / c) * (q.x / c);
-    return foil.back(q);
-  };
-  if (more < 0.0) {
-    constexpr int kPlaces = 1000;
-    for (int k = 1; k < kPlaces; ++k) {
-      const double x = c * k / kPlaces;
-      if (foil.height(true, x) - foil.height(false, x) + more * (x / c) * (x / c) > 0.0) continue;
-      return error(ErrorCode::kBadOption,
-                   fmt::format("with this trailing edge the sides cross at {:.3f} chords", x / c))
-          .hint("choose a thicker one")
-          .value(*options.trailing_thickness);
-    }
+  const auto written = sides_of(foil, options, out.figures);
+  OBVID_TRY(written);
+  if (written->is_round()) {
+    const double thick = options.trailing_thickness.value_or(out.figures.trailing_thickness);
+    out.rounded = {thick, written->arc_from(true) / c, written->arc_from(false) / c, 0};
   }
   const std::size_t below = (options.count - 1) / 2, above = options.count - 1 - below;
   std::vector<Vec2> sides[2];
   for (const bool upper : {true, false}) {
-    for (const double s : places(foil, upper, upper ? above : below, options.spacing)) {
-      Vec2 p = moved(upper, s);
-      if (options.unit_chord) {
-        const Vec2 q = foil.local(p);
-        p = {q.x / c, q.y / c};
-      }
-      sides[upper ? 0 : 1].push_back(p);
+    for (const double s : places(*written, upper, upper ? above : below, options.spacing)) {
+      const Vec2 q = written->point(upper, s);
+      sides[upper ? 0 : 1].push_back(options.unit_chord ? Vec2{q.x / c, q.y / c} : foil.back(q));
+      if (out.rounded && s >= written->arc_place(upper)) ++out.rounded->points;
     }
   }
+  if (out.rounded) --out.rounded->points;  // both sides end at the same one
   out.upper = sides[0].size();
   out.lower = sides[1].size();
   const double size = options.unit_chord ? 1.0 : c;

@@ -13,6 +13,7 @@
 #include "files/file_units.h"
 #include "files/format_writers.h"
 #include "obvid/contour/bsplines/nurbs_of.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/exchange/internal/points/solidworks.h"
 #include "obvid/exchange/internal/road/landxml.h"
 #include "obvid/exchange/internal/road/opendrive.h"
@@ -32,6 +33,7 @@ double at_most(double bound) { return printable(bound); }
 /// Tolerance of curves that a format cannot hold, of the size.
 constexpr double kExportTolerance = 1e-6;
 constexpr double kDefaultForArcs = 2e-5;
+constexpr double kFairNose = 1e-4;       // chords: a tolerance that is advised for noses
 constexpr double kLeastForGcode = 2e-3;  // mm: what the printed digits keep well
 
 Exported one_file(std::string text) { return {{{"", std::move(text)}}, {}, {}}; }
@@ -56,7 +58,7 @@ Result<Exported> with_units(Result<UnitNotes> notes, const Make& make) {
   Result<Exported> out = make();
   if (!out) return out;
   for (std::string& one : notes->remarks) out->remarks.push_back(std::move(one));
-  out->warnings = std::move(notes->warnings);
+  out->warnings.insert(out->warnings.end(), notes->warnings.begin(), notes->warnings.end());
   return out;
 }
 
@@ -205,10 +207,55 @@ std::string unit_chord_remark(const AirfoilFigures& f) {
       0.0 - turn, f.chord, turn, f.leading_edge.x, f.leading_edge.y);
 }
 
-std::string camber_text(const AirfoilFigures& f) {
+template <class Figures>
+std::string camber_text(const Figures& f) {
   constexpr double kPrinted = 0.0005;  // %: less prints as nothing, and has no place
   if (std::abs(100.0 * f.camber) < kPrinted) return "camber 0.000 %";
   return fmt::format("camber {:.3f} % at {:.2f} %", 100.0 * f.camber, 100.0 * f.camber_at);
+}
+
+std::string rounded_text(const RoundedEdge& edge) {
+  return fmt::format(
+      "trailing edge of the file round: an arc of diameter {:.4f} chords to the end of the chord "
+      "touches the upper side at {:.3f} % and the lower one at {:.3f} %, {} on it; the "
+      "sides were moved apart for it by an amount times (x/chord)^2",
+      edge.diameter, 100.0 * edge.upper_from, 100.0 * edge.lower_from,
+      counted(edge.points, "point", "points"));
+}
+
+/// What a fair nose has not; empty for one.
+std::string nose_text(const AirfoilFigures& f) {
+  if (f.nose_corner > 0.0) {
+    return fmt::format(
+        "the nose has a corner of {:.2f} degrees; `obvid fit` with --open --no-corners rounds it",
+        f.nose_corner * 180.0 / std::numbers::pi);
+  }
+  if (f.nose_turns < 2) return "";
+  return fmt::format(
+      "the nose is wavy: the curvature turns back {} times within 1 % of the chord; `obvid fit` "
+      "with a larger --noise, such as {:.2g}, may make it fair",
+      f.nose_turns, kFairNose * f.chord);
+}
+
+/// The input's points from trailing edge to trailing edge: where a closed contour begins there, its
+/// first point ends the list, too.
+std::vector<Vec2> points_around(const Contour& contour, const AirfoilFigures& f) {
+  std::vector<Vec2> out = contour.points;
+  if (!contour.closed || out.empty()) return out;
+  const double x = dot(out.front() - f.leading_edge, unit_at(f.turn)) / f.chord;
+  constexpr double kAftOf = 0.5;
+  if (x > kAftOf) out.push_back(out.front());
+  return out;
+}
+
+/// What the input says without a curve, beside the figures of the contour.
+std::string points_text(const AirfoilPointFigures& f) {
+  return fmt::format(
+      "input, straight lines between its points, same chord: thickness {:.3f} % at {:.2f} %, {}, "
+      "trailing edge {:.3f} % thick; circle through the three points at the nose, up to {:.3f} % "
+      "apart: radius {:.3f} %",
+      100.0 * f.thickness, 100.0 * f.thickness_at, camber_text(f), 100.0 * f.trailing_thickness,
+      100.0 * f.nose_gap, 100.0 * f.nose_radius);
 }
 
 Result<Exported> airfoil_file(const ContourExport& e) {
@@ -222,7 +269,9 @@ Result<Exported> airfoil_file(const ContourExport& e) {
   out.remarks.push_back(fmt::format("{} points, {} on the upper and {} on the lower side",
                                     write.count, made->upper, made->lower));
   if (write.unit_chord) out.remarks.push_back(unit_chord_remark(f));
-  if (write.trailing_thickness) {
+  if (made->rounded) {
+    out.remarks.push_back(rounded_text(*made->rounded));
+  } else if (write.trailing_thickness) {
     out.remarks.push_back(
         fmt::format("trailing edge of the file {:.4f} chords thick: sides moved apart by the "
                     "difference times (x/chord)^2",
@@ -236,6 +285,10 @@ Result<Exported> airfoil_file(const ContourExport& e) {
                   "degrees; % of the chord {:.6g} {}",
                   100.0 * f.nose_radius, 100.0 * f.trailing_thickness,
                   f.trailing_angle * 180.0 / std::numbers::pi, f.chord, e.contour.units.text()));
+  if (const std::string told = nose_text(f); !told.empty()) out.warnings.push_back(told);
+  if (const auto input = airfoil_point_figures(points_around(e.contour, f), f)) {
+    out.remarks.push_back(points_text(*input));
+  }
   return out;
 }
 

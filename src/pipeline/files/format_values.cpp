@@ -140,6 +140,9 @@ constexpr std::array kSpacings = {std::pair{"cosine", AirfoilSpacing::kCosine},
                                   std::pair{"curvature", AirfoilSpacing::kCurvature},
                                   std::pair{"uniform", AirfoilSpacing::kUniform}};
 
+constexpr std::array kTrailingForms = {std::pair{"blunt", TrailingEdgeForm::kBlunt},
+                                       std::pair{"round", TrailingEdgeForm::kRound}};
+
 constexpr std::array kPlots = {std::pair{"curvature", PicturePlots{}},
                                std::pair{"slope", PicturePlots{.slope = true}},
                                std::pair{"deviations", PicturePlots{.deviations = true}}};
@@ -225,6 +228,10 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
           [&] { return choose(typed.airfoil, kAirfoils, "--airfoil", options.airfoil.layout); })
       .and_then(
           [&] { return choose(typed.spacing, kSpacings, "--spacing", options.airfoil.spacing); })
+      .and_then([&] {
+        return choose(typed.trailing_form, kTrailingForms, "--trailing-edge-form",
+                      options.airfoil.trailing_form);
+      })
       .and_then([&] { return choose(typed.svg, kSvg, "--svg", options.drawing); })
       .and_then([&] { return set_plots(typed, options.plots); })
       .and_then([&] { return choose(typed.motion, kMotions, "--motion", options.motion); });
@@ -259,6 +266,7 @@ std::vector<std::string> idle_options(const FormatValues& typed,
   look(typed.airfoil.has_value(), foil, "--airfoil", ".dat");
   look(typed.spacing.has_value(), foil, "--spacing", ".dat");
   look(typed.trailing_edge.has_value(), foil, "--trailing-edge", ".dat");
+  look(typed.trailing_form.has_value(), foil, "--trailing-edge-form", ".dat");
   look(typed.unit_chord, foil, "--unit-chord", ".dat");
   look(typed.face_width.has_value(), written({kStep, kIges, kBrep}), "--face",
        "STEP, IGES or BREP file");

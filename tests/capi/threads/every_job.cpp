@@ -172,6 +172,14 @@ std::vector<Job> jobs() {
                                           &files, &text, nullptr);
          return told(files) + taken(text) + code_text(code);
        }},
+      {"compare_curves",
+       [](const Handles& h, const obvid_run* run) {
+         const obvid_input* inputs[] = {h.points, h.points};
+         obvid_files* files = nullptr;
+         char* text = nullptr;
+         const int code = obvid_compare_curves(inputs, 2, nullptr, run, &files, &text, nullptr);
+         return told(files) + taken(text) + code_text(code);
+       }},
       {"cut",
        [](const Handles& h, const obvid_run* run) {
          obvid_files* files = nullptr;

@@ -35,6 +35,7 @@ struct FormatValues {
   std::optional<double> sample_step;
   std::optional<std::string> airfoil, spacing;
   std::optional<double> trailing_edge;  ///< thickness, chords
+  std::optional<std::string> trailing_form;
   bool unit_chord = false;
   std::optional<std::string> svg;
   std::optional<std::string> plot;

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
+#include "obvid/report/airfoil_figures.h"
 
 namespace obvid {
 
@@ -22,27 +24,27 @@ enum class AirfoilSpacing {
   kUniform,    ///< equal arc lengths
 };
 
+/// How a trailing edge that is not sharp ends.
+enum class TrailingEdgeForm {
+  kBlunt,  ///< where the sides end
+  kRound,  ///< by an arc that both sides touch
+};
+
 struct AirfoilOptions {
   std::string name = "airfoil";  ///< first line of the file
   AirfoilLayout layout = AirfoilLayout::kSelig;
   AirfoilSpacing spacing = AirfoilSpacing::kCosine;
   std::size_t count = 161;                   ///< points around; the leading edge counts once
   std::optional<double> trailing_thickness;  ///< chords, 0 closes it [as the contour has it]
-  bool unit_chord = false;                   ///< leading edge to 0, 0, trailing edge to 1, 0
+  TrailingEdgeForm trailing_form = TrailingEdgeForm::kBlunt;
+  bool unit_chord = false;  ///< leading edge to 0, 0, trailing edge to 1, 0
 };
 
-/// Figures of an airfoil. The chord goes from the middle of the trailing edge to the point of the
-/// contour farthest from it, the leading edge; x along it from the leading edge. Thickness and
-/// camber are measured normal to the chord (not to the camber line). All but angles in chords.
-struct AirfoilFigures {
-  double chord = 0.0;  ///< units of the contour
-  double turn = 0.0;   ///< rad: of the direction from leading to trailing edge
-  Vec2 leading_edge;   ///< units of the contour
-  double thickness = 0.0, thickness_at = 0.0;
-  double camber = 0.0, camber_at = 0.0;  ///< of the largest amount, with its sign
-  double nose_radius = 0.0;              ///< of the contour at its leading edge
-  double trailing_thickness = 0.0;       ///< distance of both ends
-  double trailing_angle = 0.0;           ///< rad, between the tangents of both sides at the ends
+/// The arc that ends a round trailing edge; x along the chord, all in chords.
+struct RoundedEdge {
+  double diameter = 0.0;
+  double upper_from = 0.0, lower_from = 0.0;  ///< x at which it touches the sides
+  std::size_t points = 0;                     ///< of the file between these, both ends counted once
 };
 
 struct AirfoilText {
@@ -50,14 +52,27 @@ struct AirfoilText {
   AirfoilFigures figures;            ///< of the contour
   std::size_t upper = 0, lower = 0;  ///< points on each side, the leading edge on both
   double last_digit = 0.0;           ///< a unit of the last digit written, units of the file
+  std::optional<RoundedEdge> rounded{};
 };
 
-/// A list of points on the contour (with `trailing_thickness`: on the contour whose sides are moved
-/// apart by the difference times (x / chord)^2, which leaves the nose as it is). Closed contours
-/// need a trailing edge: one corner, or two with the base between them.
-/// Errors: E203 options out of range, or sides that would cross; E311 no trailing edge, or (cosine)
-/// a side that folds back along the chord.
+/// A list of points on the contour. With `trailing_thickness` on the contour whose sides are moved
+/// apart by an amount times (x / chord)^2, which leaves the nose as it is: that the ends are so far
+/// apart, or that an arc of this diameter touches both sides (G1) and reaches to the end of the
+/// chord, which stays as long as it was. A round edge without a thickness has that of the contour.
+/// The points of the arc follow the spacing of the sides. Closed contours need a trailing edge: one
+/// corner, or two with the base between them.
+/// Errors: E203 options out of range, sides that would cross, or no room for the arc; E311 no
+/// trailing edge, or a side that folds back along the chord.
 [[nodiscard]] Result<AirfoilText> airfoil_text(const Contour& contour,
                                                const AirfoilOptions& options);
+
+/// Figures of a contour that is an airfoil: both sides run along the chord, and its ends are no
+/// farther apart than half of it. Errors: E311.
+[[nodiscard]] Result<AirfoilFigures> airfoil_figures(const Contour& contour);
+
+/// What points in order around an airfoil say without any curve: straight lines between them,
+/// measured along the chord of `contour`. Nothing where they do not run along it on both sides.
+[[nodiscard]] std::optional<AirfoilPointFigures> airfoil_point_figures(
+    std::span<const Vec2> points, const AirfoilFigures& contour);
 
 }  // namespace obvid

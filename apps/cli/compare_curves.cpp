@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/pipeline/compare_curves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "obvid/core/files.h"
+#include "outputs.h"
+#include "table.h"
+#include "terminal.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+constexpr int kCurveDigits = 5;
+
+std::string percent(double chords, int decimals) {
+  return fmt::format("{:.{}f}", 100.0 * chords, decimals);
+}
+
+std::string verdict_of(const ComparedCurve& curve) {
+  if (!curve.formed) return "as drawn";
+  return curve.proved ? "proved" : "NOT proved";
+}
+
+std::string curves_table(const CurveComparison& compared) {
+  Table table;
+  table.column("curve", Table::Align::kLeft);
+  table.column("points");
+  table.column("length");
+  table.column("vertices");
+  if (compared.airfoils) {
+    table.column("chord");
+    table.column("thickness\n%");
+    table.column("at\n%");
+    table.column("camber\n%");
+    table.column("at\n%");
+    table.column("nose\nradius %");
+    table.column("trailing\nedge %");
+  }
+  table.column("contour", Table::Align::kLeft);
+  for (const ComparedCurve& curve : compared.curves) {
+    std::vector<std::string> row = {curve.name,
+                                    curve.points > 0 ? std::to_string(curve.points) : "-",
+                                    significant(curve.length, kCurveDigits),
+                                    curve.counted ? std::to_string(curve.vertices) : "-"};
+    if (compared.airfoils) {
+      const AirfoilFigures& f = *curve.airfoil;
+      row.push_back(significant(f.chord, kCurveDigits));
+      for (const double one : {f.thickness, f.thickness_at, f.camber, f.camber_at, f.nose_radius,
+                               f.trailing_thickness}) {
+        row.push_back(percent(one, 3));
+      }
+    }
+    row.push_back(verdict_of(curve));
+    table.row(std::move(row));
+  }
+  return table.text();
+}
+
+/// `unit`: what deviations are multiplied by.
+void add_rows(Table& table, const CurveComparison& compared,
+              const std::vector<CurveDeviation>& deviations, const char* how, double unit) {
+  for (const CurveDeviation& one : deviations) {
+    std::vector<std::string> row = {compared.curves[one.curve].name, how};
+    if (one.largest) {
+      const DeviationPlace& at = *one.largest;
+      row.push_back(significant(unit * *at.deviation, kCurveDigits));
+      row.push_back(coordinate(at.point.x, compared.curves.front().length));
+      row.push_back(coordinate(at.point.y, compared.curves.front().length));
+      if (compared.airfoils) {
+        row.push_back(at.upper ? "upper" : "lower");
+        row.push_back(percent(at.along.value_or(0.0), 2));
+      }
+      row.push_back(significant(unit * one.root_mean_square, kCurveDigits));
+    } else {
+      row.insert(row.end(), compared.airfoils ? 6 : 4, "-");
+    }
+    row.push_back(percent(one.measured, 1));
+    table.row(std::move(row));
+  }
+}
+
+std::string deviations_table(const CurveComparison& compared) {
+  const ComparedCurve& first = compared.curves.front();
+  Table table;
+  table.column("deviation of", Table::Align::kLeft);
+  table.column("", Table::Align::kLeft);
+  table.column("largest");
+  table.column("at x");
+  table.column("at y");
+  if (compared.airfoils) {
+    table.column("side", Table::Align::kLeft);
+    table.column("at %\nof chord");
+  }
+  table.column("root mean\nsquare");
+  table.column("measured\n%");
+  const std::string units = compared.units.text();
+  add_rows(table, compared, compared.as_they_lie, ("as it lies, " + units).c_str(), 1.0);
+  if (!compared.on_one_chord.empty()) {
+    add_rows(table, compared, compared.on_one_chord, "on one chord, % of it",
+             100.0 / first.airfoil->chord);
+  }
+  return fmt::format("from {}, along its normals, {} positive\n{}", first.name,
+                     compared.outward ? "outward" : "to the left", table.text());
+}
+
+/// What keeps the table from saying more.
+std::string curve_notes(const CurveComparison& compared) {
+  const auto is_airfoil = [](const ComparedCurve& curve) { return curve.airfoil.has_value(); };
+  std::string out;
+  if (!compared.airfoils &&
+      std::any_of(compared.curves.begin(), compared.curves.end(), is_airfoil)) {
+    for (const ComparedCurve& curve : compared.curves) {
+      if (!curve.airfoil) out += fmt::format("{}: {}\n", curve.name, curve.no_airfoil);
+    }
+  }
+  if (!compared.airfoils || !compared.on_one_chord.empty()) return out;
+  constexpr double kOneChord = 1e-3;  // chords that differ by more are told
+  const AirfoilFigures& first = *compared.curves.front().airfoil;
+  for (const ComparedCurve& curve : compared.curves) {
+    const double ratio = curve.airfoil->chord / first.chord;
+    if (std::abs(ratio - 1.0) <= kOneChord) continue;
+    out +=
+        fmt::format("the chord of {} is {} times that of {}; --align chord compares the shapes\n",
+                    curve.name, significant(ratio, 4), compared.curves.front().name);
+  }
+  return out;
+}
+
+std::string compared_text(const CurveComparison& compared) {
+  std::string out = fmt::format("lengths in {}\n", compared.units.text());
+  out += curves_table(compared) + "\n" + deviations_table(compared) + curve_notes(compared);
+  return out;
+}
+
+using CurvesMaker = std::function<std::string(const CurveComparison&)>;
+
+Result<CurvesMaker> curves_maker(const std::string& path, std::optional<double> enlarge) {
+  if (path.ends_with(".svg")) {
+    return CurvesMaker([enlarge](const CurveComparison& c) { return curves_svg(c, enlarge); });
+  }
+  if (path.ends_with(".json")) return CurvesMaker(&curves_json);
+  if (path.ends_with(".csv")) return CurvesMaker(&curves_csv);
+  return error(ErrorCode::kUnknownFormat, "no such format of a comparison")
+      .where(path)
+      .hint("possible are .svg (picture), .csv (every place) and .json (table)");
+}
+
+/// Files of one name keep their folders.
+void name_curves(const std::vector<std::string>& inputs, std::vector<ComparedCurve>& curves) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    curves[i].name = std::filesystem::path(inputs[i]).filename().string();
+  }
+  std::vector<std::string> names;
+  for (const ComparedCurve& curve : curves) names.push_back(curve.name);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (std::count(names.begin(), names.end(), names[i]) > 1) curves[i].name = inputs[i];
+  }
+}
+
+}  // namespace
+
+int compare_several(const CompareOptions& options) {
+  if (auto free = check_outputs(options.outputs, options.inputs); !free) {
+    return report(free.error());
+  }
+  std::vector<CurvesMaker> makers;
+  for (const std::string& path : options.outputs) {
+    const auto maker = curves_maker(path, options.enlarge);
+    if (!maker) return report(maker.error());
+    makers.push_back(*maker);
+  }
+  ProgressBar bar(options.progress);
+  std::vector<std::string> warnings;
+  const auto compared = [&]() -> Result<CurveComparison> {
+    const Interrupt interrupt;
+    const RunContext context(bar.progress(), [&interrupt] { return interrupt.asked(); });
+    std::vector<ComparedCurve> curves;
+    for (const std::string& path : options.inputs) {
+      auto read = read_curve(path, {options.import, options.job, options.units}, context);
+      OBVID_TRY(read);
+      for (const std::string& told : read->warnings) warnings.push_back(path + ": " + told);
+      curves.push_back(std::move(read->curve));
+    }
+    name_curves(options.inputs, curves);
+    return compare_curves(std::move(curves), options.curves, context);
+  }();
+  bar.clear();
+  warn(warnings);
+  if (!compared) return report(compared.error());
+  std::vector<Output> outputs;
+  for (std::size_t i = 0; i < makers.size(); ++i) {
+    outputs.push_back({options.outputs[i], {}, makers[i](*compared)});
+  }
+  const auto written = write_files(outputs, options.inputs.front());
+  if (!written) return report(written.error());
+  const bool for_programs = options.json || options.csv;
+  if (options.quiet && !for_programs) return 0;
+  std::string shown = options.json  ? curves_json(*compared)
+                      : options.csv ? curves_csv(*compared)
+                                    : compared_text(*compared);
+  if (!written->empty() && !for_programs) shown += "\nwritten  " + listed(*written) + "\n";
+  if (auto done = put(shown); !done) return report(done.error());
+  return 0;
+}
+
+}  // namespace obvid

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "points/airfoil_shape.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "obvid/exchange/internal/points/airfoil.h"
+
+namespace obvid {
+namespace {
+
+constexpr std::size_t kLooks = 32;  // of a piece, where a largest or a first one is sought
+constexpr int kNarrowings = 200;    // more than doubles have
+constexpr double kCorner = 1e-6;    // rad: no corner below, as in samples
+constexpr double kGolden = 0.6180339887498949;
+constexpr std::size_t kMostCorners = 3;  // of a base, and of a kink at the nose
+constexpr double kLongestBase = 0.2;     // of the whole length
+constexpr double kNoseReach = 0.01;      // chords around the leading edge
+constexpr double kNoseWindow = 4.0;  // of it in arc length: a nose that is bent sharply is longer
+constexpr double kBeside = 1e-6;     // of a look
+constexpr double kSameBend = 1e-3;   // of the largest curvature: what counts as turning back
+constexpr double kWidestEdge = 0.5;  // chords: beyond it is no airfoil
+
+double product(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+double across(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+
+/// Place of the largest value near the middle of [a, b].
+template <class Function>
+double highest(double a, double b, const Function& f) {
+  double c = b - kGolden * (b - a), d = a + kGolden * (b - a);
+  double at_c = f(c), at_d = f(d);
+  for (int k = 0; k < kNarrowings && c < d; ++k) {
+    if (at_c >= at_d) {
+      b = d, d = c, at_d = at_c;
+      c = b - kGolden * (b - a), at_c = f(c);
+    } else {
+      a = c, c = d, at_c = at_d;
+      d = a + kGolden * (b - a), at_d = f(d);
+    }
+  }
+  return 0.5 * (a + b);
+}
+
+}  // namespace
+
+Result<Airfoil> Airfoil::of(const Contour& contour) {
+  if (contour.pieces.empty()) return error(ErrorCode::kNothingThere, "there is no airfoil");
+  auto path = ContourPath::without_cusps(contour.pieces);
+  OBVID_TRY(path);
+  Airfoil out(std::move(*path));
+  out.to_ = out.path_.length();
+  if (contour.closed && !out.open_at_corner()) {
+    return error(ErrorCode::kNothingThere,
+                 "the closed contour has no trailing edge: one corner, or two with a base between")
+        .hint("fit the airfoil with --open, or name its corner by --corner-at");
+  }
+  OBVID_TRY(out.measure_chord());
+  return out;
+}
+
+ContourPath::Place Airfoil::at(double s) const {
+  double along = reversed_ ? to_ - s : from_ + s;
+  const double all = path_.length();
+  const bool end = s >= length();
+  // the last place belongs to the piece that ends there
+  bool before = end != reversed_;
+  while (along > all || (along == all && !before)) {
+    if (along == all && !wraps_) break;
+    along -= all;
+  }
+  if (along <= 0.0 && before && wraps_) along += all;
+  ContourPath::Place place = path_.at(std::clamp(along, 0.0, all), before);
+  if (reversed_) place.tangent = -1.0 * place.tangent, place.kappa = -place.kappa;
+  return place;
+}
+
+Vec2 Airfoil::local(Vec2 p) const {
+  const Vec2 d = p - leading_;
+  return {product(along_, d), across(along_, d)};
+}
+
+bool Airfoil::runs_along(bool upper) const {
+  double before = 0.0;
+  const std::size_t n = looks();
+  for (std::size_t k = 1; k <= n; ++k) {
+    const double x =
+        x_on(upper, side_length(upper) * static_cast<double>(k) / static_cast<double>(n));
+    if (!(x > before)) return false;
+    before = x;
+  }
+  return true;
+}
+
+double Airfoil::place_of(bool upper, double x) const {
+  const double end = side_length(upper);
+  if (!(x > 0.0)) return 0.0;
+  if (!(x < x_on(upper, end))) return end;
+  return sign_change(0.0, end, [&](double s) { return x_on(upper, s) - x; });
+}
+
+std::size_t Airfoil::looks() const { return kLooks * path_.pieces().size(); }
+
+/// Corners of the closed contour tell the trailing edge: two that lie near each other have the base
+/// between them, else the sharpest one is it (the other may be a kink of the nose). False where
+/// they do not tell.
+bool Airfoil::open_at_corner() {
+  std::vector<double> corners, turns;
+  const double all = path_.length();
+  for (std::size_t k = 0; k < path_.pieces().size(); ++k) {
+    const Vec2 in = path_.at(k == 0 ? all : path_.joint(k), true).tangent;
+    const Vec2 out = path_.at(path_.joint(k), false).tangent;
+    const double turn = std::abs(std::atan2(across(in, out), product(in, out)));
+    if (!(turn > kCorner)) continue;
+    corners.push_back(path_.joint(k));
+    turns.push_back(turn);
+  }
+  const std::size_t n = corners.size();
+  if (n == 0 || n > kMostCorners) return false;
+  wraps_ = true;
+  const auto to_next = [&](std::size_t k) {
+    const double gap = corners[(k + 1) % n] - corners[k];
+    return gap > 0.0 ? gap : gap + all;
+  };
+  std::size_t base = 0;
+  for (std::size_t k = 1; k < n; ++k) {
+    if (to_next(k) < to_next(base)) base = k;
+  }
+  if (n > 1 && to_next(base) < kLongestBase * all) {
+    from_ = corners[(base + 1) % n];
+    to_ = from_ + all - to_next(base);
+    return true;
+  }
+  if (n > 2) return false;
+  const std::size_t edge = n == 2 && turns[1] > turns[0] ? 1 : 0;
+  from_ = corners[edge];
+  to_ = from_ + all;
+  return true;
+}
+
+Result<void> Airfoil::measure_chord() {
+  const Vec2 a = at(0.0).point, b = at(length()).point;
+  const Vec2 edge = 0.5 * (a + b);
+  const std::size_t n = looks();
+  const double step = length() / static_cast<double>(n);
+  double farthest = -1.0, area = 0.0;
+  std::size_t where = 0;
+  Vec2 before = a;
+  for (std::size_t k = 0; k <= n; ++k) {
+    const Vec2 p = at(static_cast<double>(k) * step).point;
+    area += across(before - edge, p - edge);
+    before = p;
+    const Vec2 d = p - edge;
+    if (product(d, d) > farthest) farthest = product(d, d), where = k;
+  }
+  if (area == 0.0 || where == 0 || where == n) {
+    return error(ErrorCode::kNothingThere, "the contour is no airfoil: it goes around nothing");
+  }
+  const auto receding = [&](double s) {
+    const auto place = at(s);
+    return product(place.point - edge, place.tangent);
+  };
+  nose_ = sign_change(static_cast<double>(where - 1) * step, static_cast<double>(where + 1) * step,
+                      receding);
+  if (area < 0.0) {
+    nose_ = length() - nose_;
+    reversed_ = true;
+  }
+  leading_ = at(nose_).point;
+  const Vec2 d = edge - leading_;
+  chord_ = std::hypot(d.x, d.y);
+  along_ = {d.x / chord_, d.y / chord_};
+  return {};
+}
+
+AirfoilFigures Airfoil::figures() const {
+  AirfoilFigures out;
+  const double c = chord_;
+  out.chord = c;
+  out.turn = std::atan2(along_.y, along_.x);
+  out.leading_edge = leading_;
+  const auto thickness = [&](double x) { return height(true, x) - height(false, x); };
+  const auto camber = [&](double x) { return 0.5 * (height(true, x) + height(false, x)); };
+  constexpr int kPlaces = 200;
+  const auto place = [&](int k) { return c * std::clamp(k, 0, kPlaces) / kPlaces; };
+  int thick = 0, high = 0;
+  double most = -1.0, highest_camber = -1.0;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double t = thickness(place(k));
+    const double h = std::abs(camber(place(k)));
+    if (t > most) {
+      most = t;
+      thick = k;
+    }
+    if (h > highest_camber) {
+      highest_camber = h;
+      high = k;
+    }
+  }
+  const double sign = camber(place(high)) < 0.0 ? -1.0 : 1.0;
+  const double thickest = highest(place(thick - 1), place(thick + 1), thickness);
+  const double top =
+      highest(place(high - 1), place(high + 1), [&](double x) { return sign * camber(x); });
+  out.thickness = thickness(thickest) / c;
+  out.thickness_at = thickest / c;
+  out.camber = camber(top) / c;
+  out.camber_at = top / c;
+  out.nose_radius = 1.0 / std::abs(at(nose_).kappa) / c;
+  const auto first = at(0.0), last = at(length());
+  const Vec2 gap = first.point - last.point;
+  out.trailing_thickness = std::hypot(gap.x, gap.y) / c;
+  const Vec2 upper = -1.0 * first.tangent, lower = last.tangent;  // both towards the edge
+  out.trailing_angle = std::atan2(across(upper, lower), product(upper, lower));
+  look_at_nose(out);
+  return out;
+}
+
+/// Corners, and how often the curvature turns back, near the leading edge.
+void Airfoil::look_at_nose(AirfoilFigures& figures) const {
+  const double reach = kNoseReach * chord_;
+  const std::size_t n = looks();
+  const double from = std::max(nose_ - kNoseWindow * reach, 0.0);
+  const double to = std::min(nose_ + kNoseWindow * reach, length());
+  // each piece of the window by itself: its samples begin and end at its joints
+  std::vector<double> stops{from};
+  for (std::size_t k = 0; k <= path_.pieces().size(); ++k) {
+    double s = reversed_ ? to_ - path_.joint(k) : path_.joint(k) - from_;
+    if (wraps_ && s < 0.0) s += path_.length();
+    if (wraps_ && s > path_.length()) s -= path_.length();
+    if (s > from && s < to) stops.push_back(s);
+  }
+  stops.push_back(to);
+  std::sort(stops.begin(), stops.end());
+  const auto near = [&](Vec2 p) { return std::hypot(p.x - leading_.x, p.y - leading_.y) <= reach; };
+  // at a joint the places just before and behind it
+  const double beside = kBeside * (to - from) / static_cast<double>(n);
+  std::vector<double> kappas;
+  double largest = 0.0;
+  for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
+    const double a = stops[k] + beside, b = stops[k + 1] - beside;
+    if (!(a < b)) continue;
+    if (k > 0) {
+      const auto in = at(stops[k] - beside), out = at(stops[k] + beside);
+      const double turn =
+          std::abs(std::atan2(across(in.tangent, out.tangent), product(in.tangent, out.tangent)));
+      const double bent = 2.0 * beside * std::max(std::abs(in.kappa), std::abs(out.kappa));
+      if (near(in.point) && turn > kCorner + bent) {
+        figures.nose_corner = std::max(figures.nose_corner, turn);
+      }
+    }
+    for (std::size_t i = 0; i <= kLooks; ++i) {
+      const auto place = at(a + (b - a) * static_cast<double>(i) / kLooks);
+      if (!near(place.point)) continue;
+      kappas.push_back(place.kappa);
+      largest = std::max(largest, std::abs(place.kappa));
+    }
+  }
+  int way = 0;
+  double last = kappas.empty() ? 0.0 : kappas.front();
+  for (const double kappa : kappas) {
+    if (std::abs(kappa - last) <= kSameBend * largest) continue;
+    const int now = kappa > last ? 1 : -1;
+    if (way != 0 && now != way) ++figures.nose_turns;
+    way = now;
+    last = kappa;
+  }
+}
+
+Result<Airfoil> airfoil_of(const Contour& contour) {
+  auto made = Airfoil::of(contour);
+  OBVID_TRY(made);
+  for (const bool upper : {true, false}) {
+    if (made->runs_along(upper)) continue;
+    return error(ErrorCode::kNothingThere,
+                 fmt::format("the {} side folds back along the chord: no airfoil",
+                             upper ? "upper" : "lower"))
+        .hint("write .csv samples");
+  }
+  return made;
+}
+
+Result<AirfoilFigures> airfoil_figures(const Contour& contour) {
+  const auto foil = airfoil_of(contour);
+  OBVID_TRY(foil);
+  const AirfoilFigures out = foil->figures();
+  if (out.trailing_thickness < kWidestEdge) return out;
+  return error(ErrorCode::kNothingThere,
+               "the ends lie farther apart than half of the chord: no airfoil")
+      .value(out.trailing_thickness);
+}
+
+}  // namespace obvid

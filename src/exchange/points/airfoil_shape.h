@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+#include "obvid/core/result.h"
+#include "obvid/curve/contour.h"
+#include "obvid/curve/internal/contour_path.h"
+#include "obvid/report/airfoil_figures.h"
+
+namespace obvid {
+
+/// Place in [a, b] at which a function that changes its sign there does so.
+template <class Function>
+double sign_change(double a, double b, const Function& f) {
+  constexpr int kHalvings = 200;  // more than doubles have
+  const bool rises = f(b) > 0.0;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (a + b);
+    if (!(middle > a && middle < b)) break;
+    ((f(middle) > 0.0) == rises ? b : a) = middle;
+  }
+  return 0.5 * (a + b);
+}
+
+/// The contour from one end of its trailing edge around to the other, upper side first. The contour
+/// must live as long.
+class Airfoil {
+ public:
+  /// Errors: E311 no trailing edge, or nothing that it goes around; E402 a cusp.
+  [[nodiscard]] static Result<Airfoil> of(const Contour& contour);
+
+  /// Arc length along the sides is counted from the upper end of the trailing edge.
+  [[nodiscard]] double length() const { return to_ - from_; }
+  [[nodiscard]] double nose() const { return nose_; }
+  [[nodiscard]] ContourPath::Place at(double s) const;
+  /// Along the chord from the leading edge and to the left of it, units.
+  [[nodiscard]] Vec2 local(Vec2 p) const;
+  [[nodiscard]] Vec2 back(Vec2 q) const {
+    return leading_ + q.x * along_ + q.y * Vec2{-along_.y, along_.x};
+  }
+  [[nodiscard]] double chord() const { return chord_; }
+  [[nodiscard]] Vec2 leading() const { return leading_; }
+  [[nodiscard]] Vec2 along() const { return along_; }
+
+  /// Arc length on a side from the leading edge, to its end.
+  [[nodiscard]] double side_length(bool upper) const { return upper ? nose_ : length() - nose_; }
+  [[nodiscard]] ContourPath::Place on_side(bool upper, double s) const {
+    return at(upper ? nose_ - s : nose_ + s);
+  }
+  [[nodiscard]] double x_on(bool upper, double s) const { return local(on_side(upper, s).point).x; }
+  /// Whether x rises all along a side.
+  [[nodiscard]] bool runs_along(bool upper) const;
+  /// Height of a side at x, which must run along.
+  [[nodiscard]] double height(bool upper, double x) const {
+    return local(on_side(upper, place_of(upper, x)).point).y;
+  }
+  [[nodiscard]] double place_of(bool upper, double x) const;
+  /// Places of a side at which a largest or a first one is sought.
+  [[nodiscard]] std::size_t looks() const;
+  /// Of an airfoil whose sides run along.
+  [[nodiscard]] AirfoilFigures figures() const;
+
+ private:
+  explicit Airfoil(ContourPath path) : path_(std::move(path)) {}
+  bool open_at_corner();
+  Result<void> measure_chord();
+  void look_at_nose(AirfoilFigures& figures) const;
+
+  ContourPath path_;
+  double from_ = 0.0, to_ = 0.0;
+  bool wraps_ = false, reversed_ = false;
+  double nose_ = 0.0, chord_ = 0.0;
+  Vec2 leading_{}, along_{};
+};
+
+/// An airfoil both of whose sides run along the chord. Errors: those of `Airfoil::of`; E311 a side
+/// that folds back.
+[[nodiscard]] Result<Airfoil> airfoil_of(const Contour& contour);
+
+}  // namespace obvid
