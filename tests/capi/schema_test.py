@@ -212,6 +212,13 @@ class Reports(unittest.TestCase):
         self.holds("surface_toolpath", report_of(lambda: c.call(
             c.lib.obvid_surface_toolpath, handle, plan, None, C.byref(files), C.byref(out), report=out)))
 
+    def test_of_curves_over_each_other(self):
+        pair = (C.c_void_p * 2)(c.read(example("naca2412.dat")).value, c.read(example("wing_template.dat")).value)
+        for options in (b'{"noise": "rounding"}', b'{"noise": "rounding", "align": "chord"}'):
+            text = C.c_void_p()
+            self.holds("compare_curves", json.loads(c.call(c.lib.obvid_compare_curves, pair, C.c_size_t(2), options, None,
+                                                           None, C.byref(text), report=text)))
+
     def test_of_cutting(self):
         inputs = (C.c_void_p * 1)(c.read(example("plate.dxf")).value)
         files, out = C.c_void_p(), C.c_void_p()
