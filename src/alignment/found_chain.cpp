@@ -315,12 +315,7 @@ class Simplifier {
     const std::size_t behind = std::min(first + groups.size() + kBeside, next.size());
     const std::vector<Element> joints = chain_.joints();
     Window window = cut(next, feet, begin, behind, joints, behind + (chain_.size() - next.size()));
-    window.held.hopeless = kHopelessOffset;
-    if (!fits(window)) return false;
-    chain_ = std::move(next);
-    feet_ = std::move(feet);
-    put_back(window, chain_);
-    return true;
+    return accept(std::move(next), std::move(feet), std::move(window));
   }
 
   /// The longest run from element k on. `slow`: up to a clothoid that bends so little that it may
@@ -385,6 +380,11 @@ class Simplifier {
     const std::size_t first = k - std::min(k, kBeside);
     const std::size_t last = std::min(k + kBeside + 1, next.size());
     Window window = cut(next, feet, first, last, joints, last + count - 1);
+    return accept(std::move(next), std::move(feet), std::move(window));
+  }
+
+  /// Another chain in the place of this one, where its window can be fitted.
+  bool accept(Chain next, std::vector<Foot> feet, Window window) {
     window.held.hopeless = kHopelessOffset;
     if (!fits(window)) return false;
     chain_ = std::move(next);
@@ -414,12 +414,7 @@ class Simplifier {
     const std::size_t first = k - std::min(k, kBeside);
     const std::size_t last = std::min(k + kBeside + 1, next.size());
     Window window = cut(next, feet, first, last, joints, last + 1);
-    window.held.hopeless = kHopelessOffset;
-    if (!fits(window)) return false;
-    chain_ = std::move(next);
-    feet_ = std::move(feet);
-    put_back(window, chain_);
-    return true;
+    return accept(std::move(next), std::move(feet), std::move(window));
   }
 
   /// A condition at an element or at the joint before the next one.

@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "obvid/exchange/internal/points/airfoil.h"
+#include "obvid/numeric/internal/golden.h"
 
 namespace obvid {
 namespace {
 
-constexpr std::size_t kLooks = 32;  // of a piece, where a largest or a first one is sought
-constexpr int kNarrowings = 200;    // more than doubles have
-constexpr double kCorner = 1e-6;    // rad: no corner below, as in samples
-constexpr double kGolden = 0.6180339887498949;
+constexpr std::size_t kLooks = 32;       // of a piece, where a largest or a first one is sought
+constexpr double kCorner = 1e-6;         // rad: no corner below, as in samples
 constexpr std::size_t kMostCorners = 3;  // of a base, and of a kink at the nose
 constexpr double kLongestBase = 0.2;     // of the whole length
 constexpr double kNoseReach = 0.01;      // chords around the leading edge
@@ -27,23 +26,6 @@ constexpr double kWidestEdge = 0.5;  // chords: beyond it is no airfoil
 
 double product(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 double across(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-
-/// Place of the largest value near the middle of [a, b].
-template <class Function>
-double highest(double a, double b, const Function& f) {
-  double c = b - kGolden * (b - a), d = a + kGolden * (b - a);
-  double at_c = f(c), at_d = f(d);
-  for (int k = 0; k < kNarrowings && c < d; ++k) {
-    if (at_c >= at_d) {
-      b = d, d = c, at_d = at_c;
-      c = b - kGolden * (b - a), at_c = f(c);
-    } else {
-      a = c, c = d, at_c = at_d;
-      d = a + kGolden * (b - a), at_d = f(d);
-    }
-  }
-  return 0.5 * (a + b);
-}
 
 }  // namespace
 
@@ -201,9 +183,9 @@ AirfoilFigures Airfoil::figures() const {
     }
   }
   const double sign = camber(place(high)) < 0.0 ? -1.0 : 1.0;
-  const double thickest = highest(place(thick - 1), place(thick + 1), thickness);
+  const double thickest = highest_place(place(thick - 1), place(thick + 1), thickness);
   const double top =
-      highest(place(high - 1), place(high + 1), [&](double x) { return sign * camber(x); });
+      highest_place(place(high - 1), place(high + 1), [&](double x) { return sign * camber(x); });
   out.thickness = thickness(thickest) / c;
   out.thickness_at = thickest / c;
   out.camber = camber(top) / c;

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "obvid/numeric/internal/golden.h"
+
 namespace obvid::pipeline_detail {
 namespace {
 
@@ -17,8 +19,6 @@ constexpr std::size_t kManyPieces = 5000;  // then one on each
 constexpr std::size_t kStepsOfOther = 16;  // of the other curve, between which it is looked for
 constexpr std::size_t kVotes = 64;         // places that say which way the other curve runs
 constexpr int kCrossingSteps = 100;
-constexpr int kLargestSteps = 80;  // golden section: more than doubles have
-constexpr double kGoldenPart = 0.6180339887498949;
 constexpr std::size_t kPlacesBetweenQuestions = 64;
 
 /// Where normals of one curve meet another one.
@@ -156,18 +156,7 @@ class Measuring {
   /// Around a place, by amount.
   [[nodiscard]] DeviationPlace largest_between(double a, double b) const {
     const auto amount = [&](double s) { return std::abs(at({s, 0.0}).deviation.value_or(0.0)); };
-    double c = b - kGoldenPart * (b - a), d = a + kGoldenPart * (b - a);
-    double at_c = amount(c), at_d = amount(d);
-    for (int k = 0; k < kLargestSteps && c < d; ++k) {
-      if (at_c >= at_d) {
-        b = d, d = c, at_d = at_c;
-        c = b - kGoldenPart * (b - a), at_c = amount(c);
-      } else {
-        a = c, c = d, at_c = at_d;
-        d = a + kGoldenPart * (b - a), at_d = amount(d);
-      }
-    }
-    return at({0.5 * (a + b), 0.0});
+    return at({highest_place(a, b, amount), 0.0});
   }
 
  private:
