@@ -56,8 +56,8 @@ ERROR_LINE = re.compile(r"^obvid: error E([1-5]\d\d): \S.*$")
 KEYS = set("name args before edit stdin files data exit stdout stdout_has stdout_last stderr stderr_has "
            "stderr_count json svg contour contour_values untouched absent terminal env holds cad public "
            "stdout_lacks stderr_lacks cpu_seconds json_between program_box".split())
-TIMEOUT_S = 60
 SLOW = "--slow" in sys.argv
+TIMEOUT_S = 300 if SLOW else 60
 DATA = pathlib.Path(__file__).resolve().parent.parent / "data"
 
 
