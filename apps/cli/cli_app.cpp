@@ -61,26 +61,36 @@ void add_output(CLI::App& command, std::vector<std::string>& outputs, std::strin
       ->type_name("NAME");
 }
 
+namespace {
+
+template <class Value>
+void add_reading_option(CLI::App& command, const char* name, Value& value, const char* type,
+                        const char* help) {
+  command.add_option(name, value, help)->type_name(type)->group(kReadingGroup);
+}
+
+}  // namespace
+
 void add_placement(CLI::App& command, FormatValues& values) {
-  const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
-    command.add_option(name, value, help)->type_name(type)->group(kReadingGroup);
-  };
-  add("--mirror", values.mirror, "AXIS",
+  add_reading_option(
+      command, "--mirror", values.mirror, "AXIS",
       "Across the axis x (y changes its sign) or y; given headings and curvatures of the file go "
       "along, in options they are those of the result; then:");
-  add("--scale", values.scale, "F", "All lengths times F; the unit keeps its name; then:");
-  add("--rotate", values.rotate_deg, "DEG", "About the origin, degrees counter-clockwise; then:");
-  add("--move", values.move, "DX,DY", "By these lengths along x and y (and z: DX,DY,DZ)");
+  add_reading_option(command, "--scale", values.scale, "F",
+                     "All lengths times F; the unit keeps its name; then:");
+  add_reading_option(command, "--rotate", values.rotate_deg, "DEG",
+                     "About the origin, degrees counter-clockwise; then:");
+  add_reading_option(command, "--move", values.move, "DX,DY",
+                     "By these lengths along x and y (and z: DX,DY,DZ)");
 }
 
 void add_reading(CLI::App& command, FormatValues& values) {
-  const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
-    command.add_option(name, value, help)->type_name(type)->group(kReadingGroup);
-  };
-  add("--columns", values.columns, "X,Y",
+  add_reading_option(
+      command, "--columns", values.columns, "X,Y",
       "Columns of x and y in a list of points, counted from 1, whatever their names [as the names "
       "say; else 1,2]");
-  add("--skip", values.skip, "N", "Lines at the beginning that are not looked at [0]");
+  add_reading_option(command, "--skip", values.skip, "N",
+                     "Lines at the beginning that are not looked at [0]");
   add_placement(command, values);
 }
 

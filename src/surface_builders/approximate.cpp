@@ -217,39 +217,11 @@ class Approximation {
 
   /// False when there is nothing to remove.
   bool remove_least(std::size_t batch) {
-    struct Candidate {
-      double need;
-      bool along_u;
-      std::size_t knot;
-    };
-    std::vector<Candidate> all;
-    for (const bool u : {true, false}) {
-      const std::vector<double> need =
-          u ? along_u_.needs(rows_fitted_) : along_v_.needs(columns_fitted_);
-      for (std::size_t k = 0; k < need.size(); ++k) all.push_back({need[k], u, k});
-    }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.need < b.need; });
-    // neighbours stay: without one of them the other matters more
-    std::vector<char> taken_u(inner(along_u_) + 2, 0), taken_v(inner(along_v_) + 2, 0);
-    std::size_t taken = 0;
-    for (const Candidate& c : all) {
-      std::vector<char>& marks = c.along_u ? taken_u : taken_v;
-      if (taken == batch || marks[c.knot] || marks[c.knot + 2]) continue;
-      marks[c.knot + 1] = 1;
-      ++taken;
-    }
-    along_u_.remove(marked(taken_u));
-    along_v_.remove(marked(taken_v));
-    return taken > 0;
-  }
-
-  static std::vector<std::size_t> marked(const std::vector<char>& marks) {
-    std::vector<std::size_t> numbers;
-    for (std::size_t k = 1; k + 1 < marks.size(); ++k) {
-      if (marks[k]) numbers.push_back(k - 1);
-    }
-    return numbers;
+    const auto least =
+        least_needed({along_u_.needs(rows_fitted_), along_v_.needs(columns_fitted_)}, batch);
+    along_u_.remove(least[0]);
+    along_v_.remove(least[1]);
+    return !least[0].empty() || !least[1].empty();
   }
 
   static double threshold(double worst, double tolerance) {

@@ -348,4 +348,31 @@ void SplineLine::remove(const std::vector<std::size_t>& inner) {
   set_knots(std::move(knots));
 }
 
+std::vector<std::vector<std::size_t>> least_needed(const std::vector<std::vector<double>>& needs,
+                                                   std::size_t most) {
+  struct Candidate {
+    double need;
+    std::size_t line, knot;
+  };
+  std::vector<Candidate> all;
+  std::vector<std::vector<char>> taken;  // with a place before the first knot and behind the last
+  for (std::size_t line = 0; line < needs.size(); ++line) {
+    taken.emplace_back(needs[line].size() + 2, 0);
+    for (std::size_t k = 0; k < needs[line].size(); ++k) all.push_back({needs[line][k], line, k});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.need < b.need; });
+  std::vector<std::vector<std::size_t>> out(needs.size());
+  std::size_t count = 0;
+  for (const Candidate& c : all) {
+    std::vector<char>& marks = taken[c.line];
+    if (count == most || marks[c.knot] || marks[c.knot + 2]) continue;
+    marks[c.knot + 1] = 1;
+    out[c.line].push_back(c.knot);
+    ++count;
+  }
+  for (std::vector<std::size_t>& knots : out) std::sort(knots.begin(), knots.end());
+  return out;
+}
+
 }  // namespace obvid

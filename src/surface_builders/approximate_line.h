@@ -89,4 +89,10 @@ class SplineLine {
   std::vector<BasisValues> basis_;  ///< at each parameter
 };
 
+/// Of the inner knots of each line, by their `SplineLine::needs`: ascending numbers of those that
+/// are needed least, at most so many of all lines together. Of two neighbours one stays: without
+/// the other it is needed more.
+[[nodiscard]] std::vector<std::vector<std::size_t>> least_needed(
+    const std::vector<std::vector<double>>& needs, std::size_t most);
+
 }  // namespace obvid

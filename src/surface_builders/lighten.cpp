@@ -159,7 +159,7 @@ struct Lighter {
   double moved = 0.0;
 };
 
-/// One direction: few knots such that samples lie within an aim.
+/// One direction of a spline that lives as long: few knots such that samples lie within an aim.
 class FewKnots {
  public:
   FewKnots(const Spline& given, int kept_derivatives)
@@ -226,7 +226,7 @@ class FewKnots {
     for (std::size_t batch = line.needs(found).size() / 2; batch > 0;) {
       const SplineLine before = line;
       const Rows found_before = found;
-      line.remove(least(line.needs(found), batch));
+      line.remove(least_needed({line.needs(found)}, batch).front());
       if (line.coefficients() < before.coefficients() && line.fit(data_, kept_, found) &&
           near(line, found, aim)) {
         continue;
@@ -236,25 +236,6 @@ class FewKnots {
       batch /= 2;
     }
     return true;
-  }
-
-  /// Numbers of the knots that are needed least; neighbours stay, as without one the other is
-  /// needed more.
-  static std::vector<std::size_t> least(const std::vector<double>& needs, std::size_t batch) {
-    std::vector<std::size_t> order(needs.size());
-    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return needs[a] < needs[b]; });
-    std::vector<char> taken(needs.size() + 2, 0);  // shifted by 1
-    std::vector<std::size_t> out;
-    for (const std::size_t k : order) {
-      if (out.size() == batch) break;
-      if (taken[k] || taken[k + 2]) continue;
-      taken[k + 1] = 1;
-      out.push_back(k);
-    }
-    std::sort(out.begin(), out.end());
-    return out;
   }
 
   const Spline& given_;
@@ -313,6 +294,13 @@ Result<LightSurfaces> lightened(const std::vector<NurbsSurface>& given, double t
   constexpr int kLeastDegree = 3;                 // strips of straight lines have corners to keep
   LightSurfaces out{given, 0.0};
   const double parts = static_cast<double>(given.size() + 1);
+  std::vector<Spline> rows;
+  std::vector<FewKnots> along;
+  rows.reserve(given.size());
+  for (const NurbsSurface& s : given) {
+    rows.push_back({s.degree_u, s.knots_u, transposed(Rows{s.count_u(), s.points})});
+    along.emplace_back(rows.back(), kKeptAlong);
+  }
   // along first, with a share of the tolerance; with all of it where across nothing is lighter
   for (const double share : {kShareAlong, 1.0}) {
     out = {given, 0.0};
@@ -320,8 +308,7 @@ Result<LightSurfaces> lightened(const std::vector<NurbsSurface>& given, double t
       OBVID_TRY(tell(run, "lightening", static_cast<double>(k) / parts));
       NurbsSurface& s = out.surfaces[k];
       if (s.degree_u < kLeastDegree) continue;
-      const Spline along{s.degree_u, s.knots_u, transposed(Rows{s.count_u(), s.points})};
-      const auto light = FewKnots(along, kKeptAlong).within(share * tolerance, run);
+      const auto light = along[k].within(share * tolerance, run);
       if (!light) continue;
       out.moved = std::max(out.moved, light->moved);
       s.knots_u = light->spline.knots;

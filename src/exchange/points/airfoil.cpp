@@ -77,10 +77,7 @@ Vec2 WrittenSides::point(bool upper, double s) const {
 }
 
 double WrittenSides::place_of(bool upper, double x) const {
-  const double end = length(upper);
-  if (!(x > 0.0)) return 0.0;
-  if (!(x < x_on(upper, end))) return end;
-  return sign_change(0.0, end, [&](double s) { return x_on(upper, s) - x; });
+  return place_with_x(x, length(upper), [&](double s) { return x_on(upper, s); });
 }
 
 Result<WrittenSides> WrittenSides::rounded(const Airfoil& foil, double radius) {

@@ -24,9 +24,6 @@ constexpr double kBeside = 1e-6;     // of a look
 constexpr double kSameBend = 1e-3;   // of the largest curvature: what counts as turning back
 constexpr double kWidestEdge = 0.5;  // chords: beyond it is no airfoil
 
-double product(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-double across(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-
 }  // namespace
 
 Result<Airfoil> Airfoil::of(const Contour& contour) {
@@ -62,7 +59,7 @@ ContourPath::Place Airfoil::at(double s) const {
 
 Vec2 Airfoil::local(Vec2 p) const {
   const Vec2 d = p - leading_;
-  return {product(along_, d), across(along_, d)};
+  return {dot(along_, d), cross(along_, d)};
 }
 
 bool Airfoil::runs_along(bool upper) const {
@@ -78,10 +75,7 @@ bool Airfoil::runs_along(bool upper) const {
 }
 
 double Airfoil::place_of(bool upper, double x) const {
-  const double end = side_length(upper);
-  if (!(x > 0.0)) return 0.0;
-  if (!(x < x_on(upper, end))) return end;
-  return sign_change(0.0, end, [&](double s) { return x_on(upper, s) - x; });
+  return place_with_x(x, side_length(upper), [&](double s) { return x_on(upper, s); });
 }
 
 std::size_t Airfoil::looks() const { return kLooks * path_.pieces().size(); }
@@ -95,7 +89,7 @@ bool Airfoil::open_at_corner() {
   for (std::size_t k = 0; k < path_.pieces().size(); ++k) {
     const Vec2 in = path_.at(k == 0 ? all : path_.joint(k), true).tangent;
     const Vec2 out = path_.at(path_.joint(k), false).tangent;
-    const double turn = std::abs(std::atan2(across(in, out), product(in, out)));
+    const double turn = std::abs(std::atan2(cross(in, out), dot(in, out)));
     if (!(turn > kCorner)) continue;
     corners.push_back(path_.joint(k));
     turns.push_back(turn);
@@ -133,17 +127,17 @@ Result<void> Airfoil::measure_chord() {
   Vec2 before = a;
   for (std::size_t k = 0; k <= n; ++k) {
     const Vec2 p = at(static_cast<double>(k) * step).point;
-    area += across(before - edge, p - edge);
+    area += cross(before - edge, p - edge);
     before = p;
     const Vec2 d = p - edge;
-    if (product(d, d) > farthest) farthest = product(d, d), where = k;
+    if (dot(d, d) > farthest) farthest = dot(d, d), where = k;
   }
   if (area == 0.0 || where == 0 || where == n) {
     return error(ErrorCode::kNothingThere, "the contour is no airfoil: it goes around nothing");
   }
   const auto receding = [&](double s) {
     const auto place = at(s);
-    return product(place.point - edge, place.tangent);
+    return dot(place.point - edge, place.tangent);
   };
   nose_ = sign_change(static_cast<double>(where - 1) * step, static_cast<double>(where + 1) * step,
                       receding);
@@ -195,7 +189,7 @@ AirfoilFigures Airfoil::figures() const {
   const Vec2 gap = first.point - last.point;
   out.trailing_thickness = std::hypot(gap.x, gap.y) / c;
   const Vec2 upper = -1.0 * first.tangent, lower = last.tangent;  // both towards the edge
-  out.trailing_angle = std::atan2(across(upper, lower), product(upper, lower));
+  out.trailing_angle = std::atan2(cross(upper, lower), dot(upper, lower));
   look_at_nose(out);
   return out;
 }
@@ -227,7 +221,7 @@ void Airfoil::look_at_nose(AirfoilFigures& figures) const {
     if (k > 0) {
       const auto in = at(stops[k] - beside), out = at(stops[k] + beside);
       const double turn =
-          std::abs(std::atan2(across(in.tangent, out.tangent), product(in.tangent, out.tangent)));
+          std::abs(std::atan2(cross(in.tangent, out.tangent), dot(in.tangent, out.tangent)));
       const double bent = 2.0 * beside * std::max(std::abs(in.kappa), std::abs(out.kappa));
       if (near(in.point) && turn > kCorner + bent) {
         figures.nose_corner = std::max(figures.nose_corner, turn);

@@ -24,6 +24,14 @@ double sign_change(double a, double b, const Function& f) {
   return 0.5 * (a + b);
 }
 
+/// Place on a side of this length whose x, which rises, is the given one; beyond its ends the end.
+template <class XOn>
+double place_with_x(double x, double length, const XOn& x_on) {
+  if (!(x > 0.0)) return 0.0;
+  if (!(x < x_on(length))) return length;
+  return sign_change(0.0, length, [&](double s) { return x_on(s) - x; });
+}
+
 /// The contour from one end of its trailing edge around to the other, upper side first. The contour
 /// must live as long.
 class Airfoil {
