@@ -18,7 +18,7 @@ constexpr std::size_t kNodeUnknowns = SlopeSystem::kBlock;
 constexpr double kSettled = 1e-6;
 /// The same where the step is larger and this is left behind it, if it shrinks like the one before.
 constexpr double kForetold = 1e-9;
-constexpr double kMeritRounding = 1e-14;
+constexpr double kMeritRounding = 1e-14;  ///< of the energy, what sums of it are rounded by
 /// The price of a gap in the merit function, against the largest multiplier (must exceed 1).
 constexpr double kGapPrice = 1.5;
 constexpr int kMostHalvings = 30;

@@ -429,7 +429,7 @@ double change_of(const Element& a, const Element& b, const LinkState& link) {
 /// so to and fro until neither changes: then it does not matter where the loop begins.
 SeriesChain without_seam(SeriesChain loop, Watch& watch, SmoothedSlopes& out) {
   constexpr int kMostRounds = 24, kSides = 2;
-  constexpr double kStays = 1e-10;
+  constexpr double kStays = 1e-10;  // of the element's change, far below what is written
   const std::size_t m = loop.direction.size();
   std::size_t way = 0;
   for (int round = 0, still = 0; round < kMostRounds && still < kSides; ++round) {

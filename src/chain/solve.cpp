@@ -20,7 +20,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kConverged = 1e-13;
 /// Sufficient-decrease constant of the line search (Nocedal & Wright 2006, eq. 3.4).
 constexpr double kArmijo = 1e-4;
-constexpr double kSmallestStep = 1e-9;
+constexpr double kSmallestStep = 1e-9;   ///< of a step of Newton: shorter ones gain nothing
 constexpr double kStartingSlack = 1e-3;  ///< in units of each link's own size
 constexpr double kStartingSlackGrowth = 2.0;
 constexpr double kLargestStartingSlack = 1e12;

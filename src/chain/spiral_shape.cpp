@@ -70,7 +70,7 @@ SpiralShape even(const Increasing& l) {
 constexpr double kRestingPart = 1e-7;
 /// Rounding of stored control points moves a slope by some units of 2^-53 over sigma, relatively.
 constexpr double kRestingRoundings = 1e4;
-constexpr double kMostRestingPart = 1e-3;
+constexpr double kMostRestingPart = 1e-3;  ///< whatever their rounding
 /// Where a piece turns by more than this, weights make up for it (curve/internal/end_slopes.h):
 /// what is left are their own roundings, less by as much as it turns.
 constexpr double kLeastTurn = 1e-6;

@@ -12,7 +12,7 @@ std::string significant(double value, int digits) {
   if (std::isnan(value)) return "-";
   if (std::isinf(value)) return value < 0.0 ? "-inf" : "inf";
   if (value == 0.0) return "0";
-  constexpr double kPlainFrom = 1e-4;
+  constexpr double kPlainFrom = 1e-4;  // smaller and larger sizes get an exponent
   constexpr double kPlainTo = 1e7;
   const double size = std::fabs(value);
   if (size < kPlainFrom || size >= kPlainTo) return fmt::format("{:.{}e}", value, digits - 1);

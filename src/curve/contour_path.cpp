@@ -23,7 +23,7 @@ constexpr int kDeepest = 24;
 /// Of the root of the accuracy, and of a cell: after a step of Newton that is shorter the next one
 /// would be some square of it.
 constexpr double kOfRoot = 0.1;
-constexpr double kShortestStep = 1e-8, kLongestStep = 1e-4;
+constexpr double kShortestStep = 1e-8, kLongestStep = 1e-4;  // whatever the accuracy
 constexpr std::size_t kMostCells = 1024;  // some 50 at a cusp; speeds that are noise need no more
 
 using Nodes = std::array<double, kNodes>;

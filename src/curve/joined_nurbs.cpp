@@ -216,7 +216,7 @@ Segment raised(const Segment& s) {
 
 /// Whether the weight is the same at both ends and its rate 0, as far as files keep digits.
 bool stands_still(const RationalBezier& b) {
-  constexpr double kSame = 1e-9;
+  constexpr double kSame = 1e-9;  // of a weight
   const auto n = static_cast<std::size_t>(b.degree);
   for (const std::size_t j : {std::size_t{1}, n - 1, n}) {
     if (std::abs(b.weight[j] - b.weight[0]) > kSame * b.weight[0]) return false;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Sufficient-decrease constant of the line search (Nocedal & Wright 2006, eq. 3.4).
 constexpr double kArmijo = 1e-4;
-constexpr double kSmallestStep = 1e-7;
+constexpr double kSmallestStep = 1e-7;   ///< of a step of Newton: shorter ones gain nothing
 constexpr double kStartingRoom = 1.2;    ///< slack at the start over the needed one
 constexpr double kSmallestStart = 1e-3;  ///< of the slack at the start, in link sizes
 constexpr double kSlackBarrier = 0.1;    ///< starting barrier weight over the slack

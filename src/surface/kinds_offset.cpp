@@ -206,7 +206,7 @@ std::optional<NurbsSurface> moved_plane(const OffsetSurface& s) {
     coordinate = std::max({coordinate, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     height = std::max(height, std::abs(dot(p - s.base.points.front(), n)));
   }
-  constexpr double kRounding = 1e-15;
+  constexpr double kRounding = 1e-15;  // of the coordinate: a height of nothing
   if (height > kRounding * coordinate * 4.0) return std::nullopt;
   NurbsSurface out = s.base;
   for (Vec3& p : out.points) p = p + s.distance * n;

@@ -22,7 +22,7 @@ Vec3 at(std::array<Vec3, 4> b, double t) {
 /// Whether the derivatives of two pieces agree where they meet, apart from rounding.
 bool same_derivative(const std::array<Vec3, 4>& before, double length_before,
                      const std::array<Vec3, 4>& after, double length_after) {
-  constexpr double kRounding = 1e-10;
+  constexpr double kRounding = 1e-10;  // of both derivatives
   const Vec3 left = (before[3] - before[2]) / length_before;
   const Vec3 right = (after[1] - after[0]) / length_after;
   return norm(left - right) <= kRounding * (norm(left) + norm(right));

@@ -140,7 +140,7 @@ class SvgDrawer {
     const Vec2 rest = (8.0 / 3.0) * (middle - 0.5 * (a.point + b.point));
     const double det = -cross(ta, tb);
     double p = norm(chord) / 3.0, q = p;
-    constexpr double kParallelTangents = 1e-3;
+    constexpr double kParallelTangents = 1e-3;  // sine of the turn between both
     if (std::abs(det) > kParallelTangents) {
       const double p0 = -cross(rest, tb) / det, q0 = cross(ta, rest) / det * -1.0;
       if (p0 > 0.0 && q0 > 0.0) {

@@ -33,6 +33,8 @@ constexpr int kRadiusClip = 2;
 constexpr int kSlopeClip = 3;
 /// Slopes below this part of 1/size^2 are flat: what rounding makes of a circle.
 constexpr double kFlatSlope = 1e-9;
+/// Curvatures that differ by less, rad over the diagonal: a line or its rounding.
+constexpr double kFlat = 1e-9;
 
 /// The axis leaves out curvatures of this part of the length when that makes it ...
 constexpr double kLeftOut = 0.12;
@@ -125,7 +127,6 @@ PictureAxis radius_axis(const PictureTrack& track, double straight) {
 
 void draw_radius(PictureCanvas& canvas, const PictureTrack& track, PictureFrame frame,
                  const std::string& units, bool coloured) {
-  constexpr double kFlat = 1e-9;
   if (track.largest_kappa * track.box.diagonal() < kFlat) {
     frame.y = round_axis(0.0, 1.0, 1);
     frame.y.ticks.clear();
@@ -199,7 +200,6 @@ PictureScale curvature_scale(std::span<const PictureTrack* const> tracks,
 
 PictureAxis curvature_axis(PictureRange range, double diagonal) {
   // A line (or its rounding) gets an axis that shows that it is flat.
-  constexpr double kFlat = 1e-9;
   if (diagonal <= 0.0 || (range.high - range.low) * diagonal < kFlat) {
     const double shown = diagonal > 0.0 ? round_down(1.0 / diagonal) : 1.0;
     return round_axis(-shown, shown, 4);

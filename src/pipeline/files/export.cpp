@@ -32,9 +32,9 @@ double at_most(double bound) { return printable(bound); }
 
 /// Tolerance of curves that a format cannot hold, of the size.
 constexpr double kExportTolerance = 1e-6;
-constexpr double kDefaultForArcs = 2e-5;
-constexpr double kFairNose = 1e-4;       // chords: a tolerance that is advised for noses
-constexpr double kLeastForGcode = 2e-3;  // mm: what the printed digits keep well
+constexpr double kDefaultForArcs = 2e-5;  // the same for arcs, which need more blocks
+constexpr double kFairNose = 1e-4;        // chords: a tolerance that is advised for noses
+constexpr double kLeastForGcode = 2e-3;   // mm: what the printed digits keep well
 
 Exported one_file(std::string text) { return {{{"", std::move(text)}}, {}, {}}; }
 

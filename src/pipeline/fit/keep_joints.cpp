@@ -36,7 +36,7 @@ struct EndOf {
 
 /// `value`, or the nearest that is between both ends; beside them what rounding leaves.
 double between(double value, double a, double b, double unit) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = 1e-12;  // of the unit
   const double low = std::min(a, b), high = std::max(a, b);
   if (value >= low - kRounding * unit && value <= high + kRounding * unit) return value;
   return std::clamp(value, low, high);

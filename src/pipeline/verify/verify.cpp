@@ -86,7 +86,7 @@ void compare_given(const GivenReport& claimed, const GivenReport& found, ClaimCh
     c.refuse("active range " + std::to_string(k), static_cast<double>(a.point),
              static_cast<double>(b.point));
   }
-  constexpr double kRounding = 1e-13;
+  constexpr double kRounding = 1e-13;  // rad, or of the curvature: a gap of nothing
   const auto miss = [&](const char* name, double a, double b) {
     if (!(b <= 2.0 * a + kRounding && a <= 2.0 * b + kRounding)) c.refuse(name, a, b);
   };

@@ -23,7 +23,7 @@ constexpr double kSameSpaceFigure = 1e-9;
 constexpr double kSameTorsion = 1e-6;
 /// Lengths are rounding below this part of the size, and this many roundings of a coordinate.
 constexpr double kRoundedPart = 1e-12, kRoundingsOfSpace = 64.0;
-constexpr double kUnitVector = 1e-12;
+constexpr double kUnitVector = 1e-12;  ///< what the length of a written one may miss 1 by
 /// The bound of the file has a part for what lies between places; here that part is small.
 constexpr double kBetweenPlaces = 0.05;
 
