@@ -123,7 +123,7 @@ int run_batch(Asked& asked) {
   if (!share) return report(share.error());
   if (asked.merge) return merge_only(asked, names);
   for (const std::string& text : asked.cuts) {
-    const auto cut = cut_named(text);
+    const auto cut = plane_row_named(text);
     if (!cut) return report(cut.error());
     asked.sources.cuts.push_back(*cut);
   }

@@ -220,7 +220,7 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
 }  // namespace
 
 Result<AnalysedDrawing> analysed_drawing(const AnalyseOptions& options) {
-  Result<Drawing> drawing = read_drawing(options.input);
+  Result<Drawing> drawing = read_drawing(options.input, options.import.planes);
   OBVID_TRY(drawing);
   if (options.units) {
     if (auto told = take_units(drawing->units, *options.units)) drawing->warnings.push_back(*told);

@@ -128,6 +128,18 @@ void add_import(CLI::App& command, FormatValues& values) {
                   "[auto]")
       ->type_name("NAME")
       ->group(group);
+  add_planes(command, values, group);
+}
+
+void add_planes(CLI::App& command, FormatValues& values, const char* group) {
+  command
+      .add_option("--cut", values.cut,
+                  "Planes that cut a mesh (STL, PLY, OBJ), input units: z=12, or "
+                  "z=FROM:STEP:TO; x and y likewise; may be repeated. Every section is a curve for "
+                  "--curve [none]")
+      ->allow_extra_args(false)
+      ->type_name("PLANES")
+      ->group(group);
 }
 
 Result<bool> take_standard_output(std::vector<std::string>& outputs, const std::string& format,

@@ -53,6 +53,8 @@ void add_placement(CLI::App& command, FormatValues& values);
 void add_reading(CLI::App& command, FormatValues& values);
 /// That, and how curves of drawings are taken.
 void add_import(CLI::App& command, FormatValues& values);
+/// `--cut`, of commands that read drawings.
+void add_planes(CLI::App& command, FormatValues& values, const char* group);
 
 /// Gives `-o -` its ending, `fallback` where --format says none. True: something goes to standard
 /// output, and nothing else may. Error: E203 where `taken`, an option, sends something else there,

@@ -27,7 +27,7 @@ bool is_foreign(const ConvertOptions& options) {
 /// A curve of a drawing as it is, with what can be proved about it.
 Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions& formats,
                                    std::vector<std::string>& remarks) {
-  const Result<Drawing> drawing = read_drawing(options.input);
+  const Result<Drawing> drawing = read_drawing(options.input, options.import.planes);
   OBVID_TRY(drawing);
   auto drawn = drawn_contour(*drawing, options.import, options.input);
   OBVID_TRY(drawn);
@@ -119,7 +119,7 @@ Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
 
 int convert_several(const ConvertOptions& options) {
   const bool edges = options.import.use == DrawnUse::kExact;
-  const auto all = all_of_them(options.inputs, options.input, options.import.curve, edges);
+  const auto all = all_of_them(options.inputs, options.input, options.import, edges);
   if (!all) return report(all.error());
   Several several(*all, summary_form(false, false, options.quiet));
   return several.run(options.outputs,

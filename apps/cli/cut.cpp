@@ -33,13 +33,14 @@ Result<std::vector<Output>> cut_outputs(const CutCommand& command) {
   return out;
 }
 
-Result<Drawing> drawing_of(const std::string& input) {
+Result<Drawing> drawing_of(const std::string& input, const std::vector<PlaneRow>& planes) {
   const bool piped = input == "-";
-  if (!piped && (is_drawing(input) || !std::filesystem::exists(input))) return read_drawing(input);
+  if (!piped && (is_drawing(input) || !std::filesystem::exists(input)))
+    return read_drawing(input, planes);
   const auto text = read_file(input);
   OBVID_TRY(text);
   const std::string name = piped ? "standard input" : input;
-  if (is_drawing_text(*text)) return parse_drawing(*text, name);
+  if (is_drawing_text(*text, name)) return parse_drawing(*text, name, planes);
   return error(ErrorCode::kNothingThere, "a list of points is no outline")
       .where(name)
       .hint("form one first: obvid fit " + input + " -o outline.json, then obvid cut outline.json");
@@ -49,7 +50,7 @@ Result<MadeCut> cut_from(const CutCommand& command, ProgressBar& bar) {
   std::vector<Drawing> drawings;
   for (const std::string& input : command.inputs) {
     bar.tell("reading", 0.0);
-    auto drawing = drawing_of(input);
+    auto drawing = drawing_of(input, command.import.planes);
     OBVID_TRY(drawing);
     drawings.push_back(std::move(*drawing));
   }

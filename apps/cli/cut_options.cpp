@@ -137,6 +137,7 @@ Result<Command> parse_cut(int argc, const char* const* argv) {
            "the others still say what lies in what [all]")
       .add("--drawing", raw.reading.drawing, "NAME",
            "auto, or exact: edges of polylines are curves too [auto]");
+  add_planes(app, raw.reading, kReadingGroup);
   add_placement(app, raw.reading);
   app.add_option("--units", raw.units, "Unit of the drawing [as the file says; else mm]")
       ->type_name("NAME");

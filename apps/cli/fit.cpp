@@ -124,7 +124,7 @@ Summary summary_of_fit(const FitOptions& all, const OneOf& one,
 }
 
 int fit_several(const FitOptions& options) {
-  const auto all = all_of_them(options.inputs, options.input, options.import.curve, true);
+  const auto all = all_of_them(options.inputs, options.input, options.import, true);
   if (!all) return report(all.error());
   Several several(*all, summary_form(options.csv, options.json, options.quiet));
   return several.run(options.outputs,

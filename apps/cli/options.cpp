@@ -466,6 +466,7 @@ void add_convert(CLI::App& app, Raw& raw) {
       .add_option("--drawing", raw.formats.drawing,
                   "exact: polylines whose vertices look like points of a curve, too [auto]")
       ->type_name("NAME");
+  add_planes(convert, raw.formats, kReadingGroup);
   add_reading(convert, raw.formats);
   add_formats(convert, raw.formats);
   convert.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");

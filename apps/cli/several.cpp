@@ -45,16 +45,16 @@ bool are_several(const std::vector<std::string>& inputs, const CurveChoice& curv
 }
 
 Result<std::vector<OneOf>> all_of_them(const std::vector<std::string>& inputs,
-                                       const std::string& input, const CurveChoice& curve,
+                                       const std::string& input, const ImportOptions& import,
                                        bool points) {
   const std::vector<std::string> names = inputs.empty() ? std::vector{input} : inputs;
   std::vector<OneOf> out;
   for (const std::string& name : names) {
-    if (!curve.all || !is_drawing(name)) {
+    if (!import.curve.all || !is_drawing(name)) {
       out.push_back({name, std::nullopt, id_of(name)});
       continue;
     }
-    const auto drawing = read_drawing(name);
+    const auto drawing = read_drawing(name, import.planes);
     OBVID_TRY(drawing);
     const std::size_t curves = drawing->curves.size();
     for (std::size_t i = 0; i < curves + drawing->series.size(); ++i) {

@@ -36,7 +36,7 @@ enum class SummaryForm { kText, kCsv, kJson, kNothing };
 /// Errors: those of reading a drawing whose curves are asked for.
 [[nodiscard]] Result<std::vector<OneOf>> all_of_them(const std::vector<std::string>& inputs,
                                                      const std::string& input,
-                                                     const CurveChoice& curve, bool points);
+                                                     const ImportOptions& import, bool points);
 
 /// The names of outputs for one of them. Error: E203 without `{id}`.
 [[nodiscard]] Result<std::vector<std::string>> outputs_for(const std::vector<std::string>& outputs,

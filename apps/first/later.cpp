@@ -16,6 +16,7 @@
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_sections.h"
 #include "obvid/pipeline/construction_fit.h"
+#include "obvid/pipeline/internal/mesh_sections.h"
 #include "obvid/pipeline/space_fit.h"
 #include "space_fit.h"
 #include "start.h"
@@ -66,6 +67,11 @@ OBVID_LATER(Result<ParsedSections> parse_sections(std::string_view, std::string_
                                                   const SectionOptions&))
 OBVID_LATER(Result<PrivateCopy> PrivateCopy::of(std::string_view, const std::string&))
 PrivateCopy::~PrivateCopy() = default;  // of none
+OBVID_LATER(Result<PlaneRow> plane_row_named(const std::string&))
+namespace pipeline_detail {
+OBVID_LATER(Result<Drawing> sections_of_mesh(std::string_view, const std::string&,
+                                             const std::vector<PlaneRow>&))
+}  // namespace pipeline_detail
 OBVID_LATER(Result<Drawing> parse_dxf(std::string_view, std::string_view))
 OBVID_LATER(Result<Drawing> parse_svg(std::string_view, std::string_view))
 OBVID_LATER(Result<Drawing> parse_gpx(std::string_view, std::string_view))

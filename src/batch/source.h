@@ -8,6 +8,7 @@
 
 #include "item.h"
 #include "obvid/core/result.h"
+#include "obvid/mesh/plane_row.h"
 
 namespace obvid::batch {
 
@@ -31,23 +32,12 @@ class Source {
   [[nodiscard]] virtual std::string remark() const { return {}; }
 };
 
-/// Planes of a mesh: x, y or z = from, from + step, ... up to `to`.
-struct CutSpec {
-  char axis = 'z';
-  double from = 0.0, step = 1.0, to = 0.0;
-  [[nodiscard]] std::size_t count() const;
-  [[nodiscard]] double at(std::size_t i) const { return from + step * static_cast<double>(i); }
-};
-
-/// "z=0:0.5:100", or "z=12" for one plane. Error: E203.
-[[nodiscard]] Result<CutSpec> cut_named(const std::string& text);
-
 struct SourceOptions {
   std::vector<std::string> paths;
   std::string list;              ///< file with one path per line; - standard input; may be empty
   std::string pattern;           ///< of files in folders and archives: *.dat; empty: all
   std::string id_column = "id";  ///< of tables
-  std::vector<CutSpec> cuts;     ///< then every path is a mesh
+  std::vector<PlaneRow> cuts;    ///< then every path is a mesh
   std::size_t threads = 0;       ///< for what has to be done beforehand
 };
 
@@ -66,7 +56,7 @@ inline constexpr std::size_t kMostItemBytes = std::size_t{64} << 20U;
                                                            const std::string& id_column);
 [[nodiscard]] Result<std::unique_ptr<Source>> hdf5_source(const std::string& path);
 [[nodiscard]] Result<std::unique_ptr<Source>> mesh_source(const std::string& path,
-                                                          const std::vector<CutSpec>& cuts,
+                                                          const std::vector<PlaneRow>& cuts,
                                                           bool name_it, std::size_t threads);
 [[nodiscard]] std::unique_ptr<Source> file_source(std::vector<std::string> paths);
 

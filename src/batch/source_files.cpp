@@ -3,8 +3,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -163,13 +161,6 @@ Result<std::vector<std::string>> paths_of_list(const std::string& list) {
   return out;
 }
 
-std::optional<double> number_in(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 }  // namespace
 
 std::unique_ptr<Source> file_source(std::vector<std::string> paths) {
@@ -181,40 +172,6 @@ std::string mark_of_file(const std::string& path) {
   if (::stat(path.c_str(), &found) != 0) return "missing";
   return std::to_string(found.st_size) + " " + std::to_string(found.st_mtim.tv_sec) + "." +
          std::to_string(found.st_mtim.tv_nsec);
-}
-
-std::size_t CutSpec::count() const {
-  constexpr double kRounding = 1e-9;  // of a step: 0:0.1:1 has eleven planes
-  return static_cast<std::size_t>(std::floor((to - from) / step + kRounding)) + 1;
-}
-
-Result<CutSpec> cut_named(const std::string& text) {
-  const Error wrong{ErrorCode::kBadOption, "'" + text + "' names no planes", "--cut",
-                    "write z=FROM:STEP:TO, z=0:0.5:100, or z=12 for one plane"};
-  if (text.size() < 3 || text[1] != '=' || text[0] < 'x' || text[0] > 'z') return fail(wrong);
-  std::vector<double> numbers;
-  for (std::size_t at = 2; at <= text.size();) {
-    const std::size_t end = std::min(text.find(':', at), text.size());
-    const auto number = number_in(text.substr(at, end - at));
-    if (!number) return fail(wrong);
-    numbers.push_back(*number);
-    at = end + 1;
-  }
-  CutSpec out;
-  out.axis = text[0];
-  constexpr double kMostPlanes = 1e7;
-  if (numbers.size() == 1) {
-    out.from = out.to = numbers[0];
-    return out;
-  }
-  if (numbers.size() != 3) return fail(wrong);
-  out.from = numbers[0];
-  out.step = numbers[1];
-  out.to = numbers[2];
-  if (!(out.step > 0.0) || out.to < out.from || (out.to - out.from) / out.step > kMostPlanes) {
-    return fail(wrong);
-  }
-  return out;
 }
 
 Result<std::unique_ptr<Source>> open_sources(const SourceOptions& options) {

@@ -15,18 +15,6 @@
 namespace obvid::batch {
 namespace {
 
-/// Right-handed coordinates: x = c has (y, z), y = c has (z, x), z = c has (x, y).
-Frame plane_at(char axis, double at) {
-  switch (axis) {
-    case 'x':
-      return {{at, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    case 'y':
-      return {{0, at, 0}, {0, 0, 1}, {1, 0, 0}};
-    default:
-      return {{0, 0, at}, {1, 0, 0}, {0, 1, 0}};
-  }
-}
-
 struct Plane {
   char axis = 'z';
   double at = 0.0;
@@ -36,9 +24,9 @@ using Sections = std::shared_ptr<const std::vector<MeshSection>>;
 
 class MeshSource : public Source {
  public:
-  MeshSource(std::string path, TriangleMesh mesh, std::vector<CutSpec> cuts, bool name_it)
+  MeshSource(std::string path, TriangleMesh mesh, std::vector<PlaneRow> cuts, bool name_it)
       : path_(std::move(path)), mesh_(std::move(mesh)), cuts_(std::move(cuts)), name_it_(name_it) {
-    for (const CutSpec& cut : cuts_) {
+    for (const PlaneRow& cut : cuts_) {
       for (std::size_t i = 0; i < cut.count(); ++i) planes_.push_back({cut.axis, cut.at(i)});
     }
   }
@@ -48,7 +36,7 @@ class MeshSource : public Source {
     std::vector<std::size_t> chains(planes_.size(), 0);
     std::vector<std::optional<Error>> errors(planes_.size());
     in_parallel(planes_.size(), threads, [&](std::size_t i) {
-      const auto found = cut_mesh(mesh_, plane_at(planes_[i].axis, planes_[i].at));
+      const auto found = cut_mesh(mesh_, plane_across(planes_[i].axis, planes_[i].at));
       if (found) {
         chains[i] = found->size();
       } else {
@@ -66,7 +54,7 @@ class MeshSource : public Source {
   std::size_t size() const override { return ends_.empty() ? 0 : ends_.back(); }
   std::string mark() const override {
     std::string out = path_ + " " + mark_of_file(path_) + " planes";
-    for (const CutSpec& cut : cuts_) {
+    for (const PlaneRow& cut : cuts_) {
       out += fmt::format(" {}={}:{}:{}", cut.axis, cut.from, cut.step, cut.to);
     }
     return out;
@@ -94,7 +82,7 @@ class MeshSource : public Source {
     const MeshSection& section = all[chain];
     Item item;
     item.id = name_it_ ? path_ + ":" : "";
-    item.id += fmt::format("{}={:.12g}", planes_[plane].axis, planes_[plane].at);
+    item.id += plane_name(planes_[plane].axis, planes_[plane].at);
     if (all.size() > 1) item.id += fmt::format("/{}", chain + 1);
     item.name = path_ + "[" + item.id + "]";
     for (const Vec2 p : section.points) {
@@ -117,7 +105,7 @@ class MeshSource : public Source {
         if (number == plane) return sections;
       }
     }
-    auto found = cut_mesh(mesh_, plane_at(planes_[plane].axis, planes_[plane].at));
+    auto found = cut_mesh(mesh_, plane_across(planes_[plane].axis, planes_[plane].at));
     if (!found) return fail(found.error());
     Sections made = std::make_shared<const std::vector<MeshSection>>(std::move(*found));
     const std::scoped_lock lock(mutex_);
@@ -128,7 +116,7 @@ class MeshSource : public Source {
 
   std::string path_;
   TriangleMesh mesh_;
-  std::vector<CutSpec> cuts_;
+  std::vector<PlaneRow> cuts_;
   bool name_it_;
   std::vector<Plane> planes_;
   std::vector<std::size_t> ends_;
@@ -140,7 +128,7 @@ class MeshSource : public Source {
 }  // namespace
 
 Result<std::unique_ptr<Source>> mesh_source(const std::string& path,
-                                            const std::vector<CutSpec>& cuts, bool name_it,
+                                            const std::vector<PlaneRow>& cuts, bool name_it,
                                             std::size_t threads) {
   auto mesh = read_mesh(path);
   if (!mesh) return fail(mesh.error());

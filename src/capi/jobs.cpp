@@ -63,8 +63,10 @@ Result<StationHeights> heights_of(const obvid_input& input) {
   return out;
 }
 
-Result<Drawing> drawing_of(const obvid_input& input) {
-  return input.by_path ? read_drawing(input.name) : parse_drawing(input.text, input.name);
+Result<Drawing> drawing_of(const obvid_input& input, const Request& request) {
+  const std::vector<PlaneRow>& planes = request.import.planes;
+  return input.by_path ? read_drawing(input.name, planes)
+                       : parse_drawing(input.text, input.name, planes);
 }
 
 /// One of several curves that are laid over each other.
@@ -101,7 +103,7 @@ int report_on_points(const obvid_input* input, const char* options, const Known&
 }
 
 Result<std::string> drawing_report(const obvid_input& input, const Request& request) {
-  Result<Drawing> drawing = drawing_of(input);
+  Result<Drawing> drawing = drawing_of(input, request);
   OBVID_TRY(drawing);
   if (request.units) {
     if (auto told = take_units(drawing->units, *request.units)) drawing->warnings.push_back(*told);
@@ -124,11 +126,11 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
   auto out = std::make_unique<obvid_contour>();
   // a contour that is placed anew is a drawing: its claims spoke of another place
   const bool placed = !input.points && !request.import.placement.changes_nothing();
-  const bool foreign =
-      placed || input.by_path ||
-      (!input.points && is_drawing_text(input.text) && file_kind(input.text) != FileKind::kContour);
+  const bool foreign = placed || input.by_path ||
+                       (!input.points && is_drawing_text(input.text, input.name) &&
+                        file_kind(input.text) != FileKind::kContour);
   if (foreign) {
-    const Result<Drawing> drawing = drawing_of(input);
+    const Result<Drawing> drawing = drawing_of(input, request);
     OBVID_TRY(drawing);
     auto drawn = drawn_contour(*drawing, request.import, input.name);
     OBVID_TRY(drawn);
@@ -240,7 +242,8 @@ int obvid_analyse(const obvid_input* input, const char* options, const obvid_run
     const Result<Request> request = request_of(options, kImporting);
     OBVID_TRY(request);
     Result<std::string> text = [&]() -> Result<std::string> {
-      const bool drawing = input->by_path || (!input->points && is_drawing_text(input->text));
+      const bool drawing =
+          input->by_path || (!input->points && is_drawing_text(input->text, input->name));
       if (drawing) return drawing_report(*input, *request);
       Result<PointSeries> series = series_of(*input, *request, false);
       OBVID_TRY(series);
@@ -277,7 +280,7 @@ int obvid_cut(const obvid_input* const* inputs, size_t count, const char* option
       if (inputs[i] == nullptr) {
         return fail({ErrorCode::kUsage, "an input is NULL", std::to_string(i), ""});
       }
-      Result<Drawing> drawing = drawing_of(*inputs[i]);
+      Result<Drawing> drawing = drawing_of(*inputs[i], *request);
       OBVID_TRY(drawing);
       drawings.push_back(std::move(*drawing));
     }

@@ -64,6 +64,7 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
     all.insert({{"curve", text(f.curve)},
                 {"chord-tolerance", number(f.chord_tolerance)},
                 {"drawing", text(f.drawing)},
+                {"cut", points(f.cut)},
                 {"unordered", flag(f.unordered)},
                 {"drop-outliers", flag(f.drop_outliers)}});
   }

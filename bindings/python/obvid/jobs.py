@@ -57,10 +57,16 @@ class Source:
         if handle and lib is not None:
             lib.obvid_input_free(handle)
 
-    def contour(self, *, curve: Optional[int] = None, drawing: Optional[str] = None) -> Contour:
-        """The contour of a contour file, or a curve of a drawing as it is drawn."""
+    def contour(
+        self,
+        *,
+        curve: Union[int, str, None] = None,
+        drawing: Optional[str] = None,
+        cut: Union[str, Iterable[str], None] = None,
+    ) -> Contour:
+        """The contour of a contour file, or a curve of a drawing, or of a mesh's sections, as it is drawn."""
         out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
-        options = options_text({"curve": curve, "drawing": drawing})
+        options = options_text({"curve": curve, "drawing": drawing, "cut": _planes(cut)})
         with Run(None, None) as run:
             if lib.obvid_stored(self._handle, options, run, C.byref(out), C.byref(error)):
                 raise raise_error(error)
@@ -194,13 +200,21 @@ def _at(values: Optional[AtPoints], source: Source) -> Optional[Dict[str, Any]]:
     return out
 
 
-_PLACING = ("columns", "skip", "mirror", "scale", "rotate", "move", "unordered", "drop_outliers")
+_PLACING = ("columns", "skip", "mirror", "scale", "rotate", "move", "unordered", "drop_outliers", "cut")
+
+
+def _planes(cut: Union[str, Iterable[str], None]) -> Optional[List[str]]:
+    """Planes that cut a mesh: one text or several."""
+    if cut is None:
+        return None
+    return [cut] if isinstance(cut, str) else [str(planes) for planes in cut]
 
 
 def _placing(o: Mapping[str, Any]) -> Dict[str, Any]:
     """What is done with an input before anything else."""
     out: Dict[str, Any] = {name: o.get(name) for name in ("skip", "mirror", "scale", "rotate", "unordered")}
     out["drop-outliers"] = o.get("drop_outliers")
+    out["cut"] = _planes(o.get("cut"))
     if o.get("columns") is not None:
         out["columns"] = ",".join(str(int(i) + 1) for i in o["columns"])
     if o.get("move") is not None:
@@ -313,6 +327,7 @@ def fit(
             too. fixation: order of parabolas, 1 or 2.
         units: "mm", "in", ... of the points.
         curve, drawing, chord_tolerance: of a drawing, as the program takes them.
+        cut: planes that cut a mesh (STL, PLY, OBJ), "z=12" or several; every section is a curve.
         columns, skip: of a list of points, the columns of x and y from 0, and lines to leave out.
         mirror, scale, rotate, move: of the input, in this order: "x" or "y" (across that axis), a
             factor, degrees about the origin, (dx, dy).
@@ -419,7 +434,7 @@ def analyse(
     **placing: Any,
 ) -> Union[Analysis, DrawingAnalysis]:
     """What points say before a curve is formed; of a drawing, what a comb of its curves would show.
-    Others as of `fit`: columns, skip, mirror, scale, rotate, move.
+    Others as of `fit`: columns, skip, mirror, scale, rotate, move, unordered, drop_outliers, cut.
 
     >>> import obvid
     >>> a = obvid.analyse([(0, 0), (10, 1), (19, 4), (26, 9), (30, 16)])

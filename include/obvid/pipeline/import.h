@@ -4,27 +4,33 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "obvid/core/result.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/io/read_points.h"
+#include "obvid/mesh/plane_row.h"
 #include "obvid/pipeline/placement.h"
 #include "obvid/series/point_series.h"
 
 namespace obvid {
 
-/// Whether a file is a drawing of another system (STEP, IGES, BREP, ...) or a stored contour, by
-/// its first bytes. False for lists of points and for files that cannot be opened.
+/// Whether a file is a drawing of another system (STEP, IGES, BREP, ...), a mesh or a stored
+/// contour, by its first bytes. False for lists of points and for files that cannot be opened.
 [[nodiscard]] bool is_drawing(const std::string& path);
 
-/// Curves and series of points of a drawing, or the curve of a stored contour.
-/// Errors: those of the formats.
-[[nodiscard]] Result<Drawing> read_drawing(const std::string& path);
+/// Curves and series of points of a drawing, the curve of a stored contour, or the sections of a
+/// mesh (STL, PLY, OBJ) with planes: each chain of edges a series in the coordinates of its plane.
+/// Errors: those of the formats; E203 planes for what is no mesh; E311 a mesh that none of them
+/// meets, or without planes.
+[[nodiscard]] Result<Drawing> read_drawing(const std::string& path,
+                                           const std::vector<PlaneRow>& planes = {});
 
-/// The same for a text in memory; `name` stands in errors. STEP, IGES and BREP go through a file in
-/// the system's folder for such (PrivateCopy).
-[[nodiscard]] bool is_drawing_text(std::string_view text);
-[[nodiscard]] Result<Drawing> parse_drawing(const std::string& text, const std::string& name);
+/// The same for a text in memory; `name` stands in errors, and its ending tells OBJ. STEP, IGES and
+/// BREP go through a file in the system's folder for such (PrivateCopy).
+[[nodiscard]] bool is_drawing_text(std::string_view text, std::string_view name = {});
+[[nodiscard]] Result<Drawing> parse_drawing(const std::string& text, const std::string& name,
+                                            const std::vector<PlaneRow>& planes = {});
 [[nodiscard]] bool needs_cad(std::string_view text);
 
 /// Which curve or series of points of a drawing is meant.
@@ -60,15 +66,16 @@ enum class DrawnUse {
 
 /// How a curve of a drawing becomes a series of points.
 struct ImportOptions {
-  CurveChoice curve;  ///< default the longest
+  CurveChoice curve;               ///< default the longest
+  std::vector<PlaneRow> planes{};  ///< where meshes are cut
   DrawnUse use = DrawnUse::kAutomatic;
   std::optional<double>
       tolerance;            ///< largest distance of a chord from its curve [1e-4 of the size]
   PointListOptions list{};  ///< of lists of points
   Placement placement{};    ///< of whatever is read
   bool unordered = false;   ///< points are put in the order of their curve, which a warning tells
-  bool drop_outliers = false;  ///< then points off the curve of their neighbours are left out, which
-                               ///< a warning names
+  bool drop_outliers = false;  ///< then points off the curve of their neighbours are left out,
+                               ///< which a warning names
 };
 
 /// Points to fit: of a text file as they are, of a drawing its longest series or curve, sampled.

@@ -7,26 +7,13 @@
 #include "mesh/mesh_builder.h"
 #include "mesh/mesh_bytes.h"
 #include "obvid/core/files.h"
+#include "obvid/io/internal/mesh_kind.h"
 
 namespace obvid {
 namespace exchange {
 namespace {
 
-constexpr std::size_t kStlHead = 84;      // bytes: 80 of text, the number of triangles
-constexpr std::size_t kStlTriangle = 50;  // 12 floats, 2 bytes of attributes
-constexpr std::size_t kStlCorners = 12;   // bytes of the normal before them
-constexpr std::string_view kSolid = "solid";
-
-/// By its size: texts begin with "solid", and so do some binary files.
-bool is_binary_stl(std::string_view text) {
-  if (text.size() < kStlHead) return false;
-  const auto count = bytes_as<std::uint32_t>(text, kStlHead - 4, true);
-  return text.size() == kStlHead + kStlTriangle * std::size_t{count};
-}
-
-bool is_text_stl(std::string_view text) {
-  return text.starts_with(kSolid) && text.find("facet") != std::string_view::npos;
-}
+constexpr std::size_t kStlCorners = 12;  // bytes of the normal before them
 
 Result<TriangleMesh> binary_stl(std::string_view text, MeshBuilder& builder) {
   for (std::size_t at = kStlHead; at < text.size(); at += kStlTriangle) {
@@ -75,7 +62,7 @@ Result<TriangleMesh> text_stl(std::string_view text, MeshBuilder& builder) {
 }  // namespace
 
 Result<TriangleMesh> stl_mesh(std::string_view text, MeshBuilder& builder) {
-  return is_binary_stl(text) ? binary_stl(text, builder) : text_stl(text, builder);
+  return is_binary_stl(text, text.size()) ? binary_stl(text, builder) : text_stl(text, builder);
 }
 
 /// Corners are v, v/vt, v//vn or v/vt/vn; negative ones count back from the last point.
@@ -115,17 +102,15 @@ Result<TriangleMesh> obj_mesh(std::string_view text, MeshBuilder& builder) {
 }  // namespace exchange
 
 bool is_mesh(std::string_view text, std::string_view name) {
-  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return true;
-  if (exchange::is_binary_stl(text) || exchange::is_text_stl(text)) return true;
-  return name.ends_with(".obj") || name.ends_with(".OBJ");
+  return is_mesh(text, text.size(), name);
 }
 
 Result<TriangleMesh> parse_mesh(std::string_view text, std::string_view name) {
   exchange::MeshBuilder builder(name);
-  if (text.starts_with("ply\n") || text.starts_with("ply\r")) {
+  if (is_ply(text)) {
     return exchange::ply_mesh(text, builder);
   }
-  if (exchange::is_binary_stl(text) || exchange::is_text_stl(text)) {
+  if (is_binary_stl(text, text.size()) || is_text_stl(text)) {
     return exchange::stl_mesh(text, builder);
   }
   if (is_mesh(text, name)) return exchange::obj_mesh(text, builder);

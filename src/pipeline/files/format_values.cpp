@@ -118,6 +118,11 @@ Result<void> set_import(const FormatValues& typed, ImportOptions& options) {
       typed.drawing, "--drawing");
   OBVID_TRY(use);
   options.use = *use;
+  for (const std::string& one : typed.cut) {
+    auto planes = plane_row_named(one);
+    OBVID_TRY(planes);
+    options.planes.push_back(*planes);
+  }
   options.unordered = typed.unordered;
   options.drop_outliers = typed.drop_outliers;
   return {};

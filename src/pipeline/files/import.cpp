@@ -27,8 +27,10 @@
 #include "obvid/exchange/internal/svg/read.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/internal/file_kind.h"
+#include "obvid/io/internal/mesh_kind.h"
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_points.h"
+#include "obvid/pipeline/internal/mesh_sections.h"
 #include "obvid/series/internal/order.h"
 #include "obvid/series/internal/outliers.h"
 
@@ -54,7 +56,24 @@ Result<Drawing> drawing_of_contour(const std::string& text, const std::string& p
   return out;
 }
 
-Result<Drawing> from_text(FileKind kind, const std::string& text, const std::string& path) {
+/// Planes, and the file is no mesh. Error: E203.
+Result<void> check_no_planes(const std::vector<PlaneRow>& planes, const std::string& path) {
+  if (planes.empty()) return {};
+  return error(ErrorCode::kBadOption, "planes cut meshes (STL, PLY, OBJ), and " + path + " is none")
+      .where("--cut")
+      .hint("leave it out");
+}
+
+/// What has curves, or series of points that are told apart.
+bool is_drawn(FileKind kind) { return kind != FileKind::kPoints && kind != FileKind::kOther; }
+
+Result<Drawing> from_text(const std::string& text, const std::string& path,
+                          const std::vector<PlaneRow>& planes) {
+  const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
+  if (!is_drawn(kind) && is_mesh(text, text.size(), path)) {
+    return pipeline_detail::sections_of_mesh(text, path, planes);
+  }
+  OBVID_TRY(check_no_planes(planes, path));
   switch (kind) {
     case FileKind::kContour:
       return drawing_of_contour(text, path);
@@ -75,7 +94,7 @@ Result<Drawing> from_text(FileKind kind, const std::string& text, const std::str
           .where(path)
           .hint(
               "give a list of points, a contour, STEP, IGES, BREP, DXF, SVG, GPX, GeoJSON, "
-              "LandXML or OpenDRIVE");
+              "LandXML, OpenDRIVE, or a mesh (STL, PLY, OBJ) with --cut");
   }
 }
 
@@ -251,9 +270,10 @@ std::string outliers_text(const PointSeries& series, const Outliers& found) {
   }
   std::string text =
       fmt::format("--drop-outliers: left out {}",
-                  count == 1 ? "point" : fmt::format("{} points that lie off the curve of their "
-                                                     "neighbours:",
-                                                     count));
+                  count == 1 ? "point"
+                             : fmt::format("{} points that lie off the curve of their "
+                                           "neighbours:",
+                                           count));
   for (std::size_t k = 0; k < std::min(count, kMostNamed); ++k) {
     text += fmt::format("{} {} ({} {}{})", k > 0 ? "," : "", found.points[k].index + 1,
                         significant(found.points[k].off, 4), unit,
@@ -379,37 +399,41 @@ DrawnCurve edges_of(const PointSeries& series) {
 }
 
 bool is_drawing(const std::string& path) {
-  return path != "-" && file_kind(head_of(path)) != FileKind::kPoints &&
-         file_kind(head_of(path)) != FileKind::kOther;
+  return path != "-" && (is_drawn(file_kind(head_of(path))) || is_mesh_file(path));
 }
 
-Result<Drawing> read_drawing(const std::string& path) {
+Result<Drawing> read_drawing(const std::string& path, const std::vector<PlaneRow>& planes) {
   const FileKind kind = file_kind(head_of(path));
-  if (is_cad(kind)) return read_cad(path);
+  if (is_cad(kind)) {
+    OBVID_TRY(check_no_planes(planes, path));
+    return read_cad(path);
+  }
   const auto text = read_file(path);
   OBVID_TRY(text);
-  return from_text(kind, *text, path);
+  return from_text(*text, path, planes);
 }
 
-bool is_drawing_text(std::string_view text) {
-  const FileKind kind = file_kind(text.substr(0, kHead));
-  return kind != FileKind::kPoints && kind != FileKind::kOther;
+bool is_drawing_text(std::string_view text, std::string_view name) {
+  return is_drawn(file_kind(text.substr(0, kHead))) || is_mesh(text, text.size(), name);
 }
 
 bool needs_cad(std::string_view text) { return is_cad(file_kind(text.substr(0, kHead))); }
 
-Result<Drawing> parse_drawing(const std::string& text, const std::string& name) {
-  if (needs_cad(text)) return pipeline_detail::cad_of_text(text, name, read_curves_of_cad);
-  return from_text(file_kind(std::string_view(text).substr(0, kHead)), text, name);
+Result<Drawing> parse_drawing(const std::string& text, const std::string& name,
+                              const std::vector<PlaneRow>& planes) {
+  if (!needs_cad(text)) return from_text(text, name, planes);
+  OBVID_TRY(check_no_planes(planes, name));
+  return pipeline_detail::cad_of_text(text, name, read_curves_of_cad);
 }
 
 Result<PointSeries> parse_series(const std::string& text, const std::string& name,
                                  const ImportOptions& options) {
   const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
-  if (!is_drawing_text(text) || kind == FileKind::kContour) {
+  if (!is_drawing_text(text, name) || kind == FileKind::kContour) {
+    OBVID_TRY(check_no_planes(options.planes, name));
     return placed(parse_points(text, name, options.list), options);
   }
-  auto drawing = parse_drawing(text, name);
+  auto drawing = parse_drawing(text, name, options.planes);
   OBVID_TRY(drawing);
   return points_of_drawing(*drawing, options, name);
 }
@@ -420,11 +444,11 @@ Result<PointSeries> read_series(const std::string& path, const ImportOptions& op
     OBVID_TRY(text);
     return parse_series(*text, "standard input", options);
   }
-  const FileKind kind = file_kind(head_of(path));
-  if (kind == FileKind::kPoints || kind == FileKind::kOther || kind == FileKind::kContour) {
+  if (!is_drawing(path) || file_kind(head_of(path)) == FileKind::kContour) {
+    OBVID_TRY(check_no_planes(options.planes, path));
     return placed(read_points(path, options.list), options);
   }
-  auto drawing = read_drawing(path);
+  auto drawing = read_drawing(path, options.planes);
   OBVID_TRY(drawing);
   return points_of_drawing(*drawing, options, path);
 }

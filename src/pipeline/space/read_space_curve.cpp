@@ -36,8 +36,8 @@ Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, s
 
 Result<ReadCurve> from_drawing(const SurfaceInput& input, const CurveReading& how) {
   const std::string& path = input.name;
-  const Result<Drawing> drawing =
-      input.text ? parse_drawing(*input.text, path) : read_drawing(path);
+  const Result<Drawing> drawing = input.text ? parse_drawing(*input.text, path, how.import.planes)
+                                             : read_drawing(path, how.import.planes);
   OBVID_TRY(drawing);
   const auto chosen = chosen_curve(*drawing, how.import.curve, path);
   OBVID_TRY(chosen);
@@ -125,8 +125,8 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how
 }  // namespace
 
 Result<ReadCurve> read_space_curve(const SurfaceInput& input, const CurveReading& how) {
-  const bool drawing =
-      input.text ? is_drawing_text(*input.text) : input.is_file() && is_drawing(input.name);
+  const bool drawing = input.text ? is_drawing_text(*input.text, input.name)
+                                  : input.is_file() && is_drawing(input.name);
   return drawing ? from_drawing(input, how) : from_points(input, how);
 }
 

@@ -74,7 +74,8 @@ SpaceCurve shrunk_to(SpaceCurve curve, Vec3 point) {
 /// Both inputs lists of points: rulings join places that belong together, as in a skin.
 bool are_points(const SurfaceJob& job) {
   return std::none_of(job.inputs.begin(), job.inputs.end(), [](const SurfaceInput& input) {
-    return input.text ? is_drawing_text(*input.text) : input.is_file() && is_drawing(input.name);
+    return input.text ? is_drawing_text(*input.text, input.name)
+                      : input.is_file() && is_drawing(input.name);
   });
 }
 
@@ -155,7 +156,7 @@ Result<MadeSurface> made_of(const Surface& surface, const std::string& name, dou
 Result<MadeSurface> make_kind(const RuledKind& kind, const SurfaceJob& job, const RunContext& run) {
   const bool from_one = kind.direction || kind.apex;
   OBVID_TRY(from_one ? need(job, 1, 1, "one curve with --direction or --apex")
-                           : need(job, 2, 2, "two curves"));
+                     : need(job, 2, 2, "two curves"));
   if (!from_one && are_points(job)) {
     auto made = make_kind(kind.strips, job, run);
     if (made) made->kind = "ruled surface between two fair contours";
@@ -166,7 +167,7 @@ Result<MadeSurface> make_kind(const RuledKind& kind, const SurfaceJob& job, cons
   const SpaceCurve& first = curves->front().curve;
   RuledSurface ruled{first, kind.direction ? moved_curve(first, *kind.direction)
                             : kind.apex    ? shrunk_to(first, *kind.apex)
-                                          : curves->back().curve};
+                                           : curves->back().curve};
   auto made = made_of(ruled, "ruled surface", size_of_all(*curves), job);
   if (!made) return made;
   if (kind.direction) made->kind = "cylinder over a curve";

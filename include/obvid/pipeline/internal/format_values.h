@@ -16,7 +16,8 @@ struct FormatValues {
   std::optional<std::string> curve;  ///< number from 1, or a name
   std::optional<double> chord_tolerance;
   std::string drawing = "auto";
-  std::string columns;  ///< "2,3", from 1
+  std::vector<std::string> cut;  ///< planes that cut a mesh, "z=12"
+  std::string columns;           ///< "2,3", from 1
   std::optional<long> skip;
   std::optional<double> scale, rotate_deg;
   std::string move;    ///< "DX,DY" or "DX,DY,DZ"
