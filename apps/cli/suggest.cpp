@@ -56,20 +56,21 @@ std::string rows_text(const TradeOff& t) {
                std::to_string(row.inflections), std::to_string(row.pieces),
                significant(row.largest_move, kSuggestedDigits),
                fmt::format("{:.1f}", kMilli * row.seconds), row.option,
-               row.carried  ? "yes, as the row before"
-               : row.proved ? "yes"
-                            : "no: " + row.refusal});
+               row.carried && row.proved ? "yes, as the row before"
+               : row.proved              ? "yes"
+               : row.kept                ? "no, nor promised"
+                                         : "no: " + row.refusal});
   }
   return table.text();
 }
 
 std::string recommendation(const TradeOff& t) {
-  if (!t.recommended) return "No tolerance gave a proved contour.\n";
+  if (!t.recommended) return fmt::format("No tolerance gave a {}.\n", kept_contour(t));
   const TradeOffRow& row = t.rows[*t.recommended];
   return fmt::format("Recommended: {} ({}, moves up to {} {})\nRule: {}.\n", row.option,
                      counted(static_cast<std::size_t>(row.vertices), "vertex", "vertices"),
                      significant(row.largest_move, kSuggestedDigits), t.units.text(),
-                     trade_off_rule());
+                     trade_off_rule(t));
 }
 
 std::string suggestion_text(const TradeOff& t, const std::vector<std::string>& written) {
@@ -81,13 +82,13 @@ std::string suggestion_text(const TradeOff& t, const std::vector<std::string>& w
   return text;
 }
 
-/// Exit code of a table without any proved row.
+/// Exit code of a table without any row that keeps the promise.
 int judge_trade_off(const TradeOff& t) {
   if (t.recommended) return 0;
   const bool formed =
       std::any_of(t.rows.begin(), t.rows.end(), [](const auto& row) { return row.formed; });
   return report({formed ? ErrorCode::kNotProved : ErrorCode::kNoSpiral,
-                 "no tolerance up to 1 % of the size gives a proved contour", "",
+                 fmt::format("no tolerance up to 1 % of the size gives a {}", kept_contour(t)), "",
                  t.rows.empty() ? "" : "at the largest: " + t.rows.back().refusal});
 }
 

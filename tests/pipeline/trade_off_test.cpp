@@ -33,7 +33,7 @@ std::vector<TradeOffRow> rows_of(const std::vector<int>& vertices) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     TradeOffRow row;
     row.tolerance = std::pow(10.0, static_cast<double>(i) - 6.0);
-    row.formed = row.proved = vertices[i] >= 0;
+    row.formed = row.kept = row.proved = vertices[i] >= 0;
     row.vertices = vertices[i];
     rows.push_back(row);
   }

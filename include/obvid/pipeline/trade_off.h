@@ -11,7 +11,8 @@ namespace obvid {
 /// Runs the job with eight tolerances in equal ratios, from the printed rounding of the file (that
 /// of doubles when there is none) to 1 % of the size. They take the place of the job's noise;
 /// larger ones of single points stay, and a series that is open without them stays open.
-/// Recommended is, among the proved rows, the one farthest below the straight line from the first
+/// Recommended is, among the rows that keep what the carrier promises (a proof where it promises to
+/// be monotone), the one farthest below the straight line from the first
 /// of them to the last in a chart of vertices over the logarithm of the tolerance, both scaled to
 /// the same length; the smaller tolerance where two are equal. Beyond it the vertices fall more
 /// slowly than on the average.
@@ -23,7 +24,7 @@ namespace obvid {
                                          const RunContext& run = {}, TradeOff* finished = nullptr);
 
 /// How the recommended row is found, in words for the user.
-[[nodiscard]] const char* trade_off_rule();
+[[nodiscard]] std::string trade_off_rule(const TradeOff& t);
 
 /// The row that `trade_off` recommends.
 [[nodiscard]] std::optional<std::size_t> recommended_row(const std::vector<TradeOffRow>& rows);

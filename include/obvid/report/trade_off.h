@@ -14,7 +14,8 @@ namespace obvid {
 struct TradeOffRow {
   double tolerance = 0.0;  ///< units
   bool formed = false;     ///< false: refused; the figures below mean nothing then
-  bool proved = false;
+  bool kept = false;     ///< what the carrier promises holds, and the region is as narrow as asked
+  bool proved = false;   ///< kept, and monotone by proof
   bool carried = false;  ///< the contour of the row before: this tolerance allows it as well, and
                          ///< nothing better was found
   std::string option;    ///< what to give `obvid fit` for this contour, e.g. "--noise 0.1 --open";
@@ -34,7 +35,13 @@ struct TradeOff {
   Units units;                             ///< of lengths
   bool closed = false;                     ///< whether the contours are
   std::vector<TradeOffRow> rows;           ///< by ascending tolerance
-  std::optional<std::size_t> recommended;  ///< row; nothing when none is proved
+  std::optional<std::size_t> recommended;  ///< row; nothing when none is kept
+  bool promised = true;                    ///< whether the carrier promises to be monotone
 };
+
+/// "No tolerance gave a ...": what is looked for.
+[[nodiscard]] inline const char* kept_contour(const TradeOff& t) {
+  return t.promised ? "proved contour" : "contour that keeps what its carrier promises";
+}
 
 }  // namespace obvid

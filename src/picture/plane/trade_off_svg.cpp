@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/picture/internal/trade_off_svg.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -69,7 +71,7 @@ void draw_rows(PictureCanvas& canvas, const PictureFrame& frame, const TradeOff&
   for (std::size_t i = 0; i < t.rows.size(); ++i) {
     const TradeOffRow& row = t.rows[i];
     const double x = frame.px_x(row.tolerance), y = frame.px_y(row.formed ? row.vertices : 0.0);
-    if (!row.proved) {
+    if (!row.kept) {
       crosses.move({x - kMarkReach, y - kMarkReach});
       crosses.line({x + kMarkReach, y + kMarkReach});
       crosses.move({x - kMarkReach, y + kMarkReach});
@@ -94,13 +96,13 @@ void draw_legend(PictureCanvas& canvas, const TradeOff& t, double y) {
   };
   entry("graph up", "vertices of the contour");
   entry("curve down", "lower bound");
-  if (std::any_of(t.rows.begin(), t.rows.end(), [](const auto& row) { return !row.proved; })) {
-    entry("limit", "cross: no proved contour");
+  if (std::any_of(t.rows.begin(), t.rows.end(), [](const auto& row) { return !row.kept; })) {
+    entry("limit", fmt::format("cross: no {}", kept_contour(t)).c_str());
   }
 }
 
 std::string recommendation(const TradeOff& t) {
-  if (!t.recommended) return "No tolerance gave a proved contour.";
+  if (!t.recommended) return fmt::format("No tolerance gave a {}.", kept_contour(t));
   const TradeOffRow& row = t.rows[*t.recommended];
   return "Recommended (diamond): " + row.option + ", " + std::to_string(row.vertices) +
          (row.vertices == 1 ? " vertex" : " vertices");

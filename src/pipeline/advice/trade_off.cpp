@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/trade_off.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "advice/uniform_tolerance.h"
 #include "fit/prepare.h"
+#include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/refusal.h"
 #include "obvid/series/analysis.h"
 #include "verify/report.h"
@@ -39,10 +42,13 @@ TradeOffRow row_of(double tolerance, const Fit& made) {
   TradeOffRow row;
   row.tolerance = tolerance;
   row.formed = true;
-  row.proved = keeps_promises(made);
-  if (!row.proved) {
-    const std::string& reason = made.certificate.reason;
-    row.refusal = made.certificate.proved ? "the region is wider than asked" : reason;
+  const auto broken = broken_promise(made);
+  row.kept = !broken;
+  row.proved = row.kept && made.certificate.proved;
+  if (broken) {
+    row.refusal = made.certificate.proved ? "the region is wider than asked" : broken->what;
+  } else if (!row.proved) {
+    row.refusal = made.certificate.reason;
   }
   row.vertices = made.report.vertices;
   row.vertices_lower_bound = made.report.vertices_lower_bound;
@@ -97,32 +103,34 @@ bool stays_as_drawn(const PointSeries& series, const FitJob& job) {
 
 }  // namespace
 
-const char* trade_off_rule() {
-  return "of the proved rows the one farthest below the straight line from the first to the last, "
-         "in a "
-         "chart of vertices over the logarithm of the tolerance; beyond it the vertices fall more "
-         "slowly than on average";
+std::string trade_off_rule(const TradeOff& t) {
+  return fmt::format(
+      "of the {} the one farthest below the straight line from the first to the last, in a chart "
+      "of "
+      "vertices over the logarithm of the tolerance; beyond it the vertices fall more slowly than "
+      "on average",
+      t.promised ? "proved rows" : "rows that keep what the carrier promises");
 }
 
 std::optional<std::size_t> recommended_row(const std::vector<TradeOffRow>& rows) {
-  std::vector<std::size_t> proved;
+  std::vector<std::size_t> kept;
   int most = 0, fewest = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i].proved) continue;
-    most = proved.empty() ? rows[i].vertices : std::max(most, rows[i].vertices);
-    fewest = proved.empty() ? rows[i].vertices : std::min(fewest, rows[i].vertices);
-    proved.push_back(i);
+    if (!rows[i].kept) continue;
+    most = kept.empty() ? rows[i].vertices : std::max(most, rows[i].vertices);
+    fewest = kept.empty() ? rows[i].vertices : std::min(fewest, rows[i].vertices);
+    kept.push_back(i);
   }
-  if (proved.empty()) return std::nullopt;
-  if (most == fewest) return proved.front();
-  const TradeOffRow &first = rows[proved.front()], &last = rows[proved.back()];
+  if (kept.empty()) return std::nullopt;
+  if (most == fewest) return kept.front();
+  const TradeOffRow &first = rows[kept.front()], &last = rows[kept.back()];
   const double width = std::log(last.tolerance / first.tolerance);
   const double height = most - fewest;
   const double slope = (last.vertices - first.vertices) / height;
   constexpr double kSame = 1e-9;  // of the chart: the rounding of this sum
   double farthest = 0.0;
-  std::size_t best = proved.front();
-  for (const std::size_t i : proved) {
+  std::size_t best = kept.front();
+  for (const std::size_t i : kept) {
     const double x = width > 0.0 ? std::log(rows[i].tolerance / first.tolerance) / width : 0.0;
     const double below = slope * x - (rows[i].vertices - first.vertices) / height;
     if (below <= farthest + kSame) continue;
@@ -145,6 +153,7 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const R
   }
   const FitJob kept = with_closing(series, job);
   out.closed = kept.closing == Closing::kClosed;
+  out.promised = promises_monotone(kept.carrier);
   Watch watch(run);
   const double most = kSpareTrials + kTrialSteps * static_cast<double>(series.points.size());
   std::optional<Fit> best;  // what larger tolerances allow as well
@@ -161,9 +170,9 @@ Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job, const R
     out.rows.push_back(made ? row_of(tolerance, *made) : row_of(tolerance, made.error()));
     TradeOffRow& now = out.rows.back();
     if (now.formed) now.option = noise_option(tolerance, out.closed, series);
-    if (best && (!now.proved || now.vertices > best->report.vertices)) {
+    if (best && (!now.kept || now.vertices > best->report.vertices)) {
       carry_on(*best, option, tolerance, watch, now);
-    } else if (now.proved) {
+    } else if (now.kept) {
       best = std::move(*made);
       option = now.option;
     }

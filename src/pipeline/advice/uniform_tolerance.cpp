@@ -35,10 +35,6 @@ double coordinate_rounding(const PointSeries& series) {
   return kRoundings * 0x1p-53 * largest;
 }
 
-bool keeps_promises(const Fit& made) {
-  return made.certificate.proved && made.report.largest_width <= made.report.tolerance;
-}
-
 double printable(double tolerance) {
   if (!(tolerance > 0.0) || !std::isfinite(tolerance)) return tolerance;
   constexpr double kStep = 0.01;  // of the first digit

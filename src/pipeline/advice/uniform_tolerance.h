@@ -18,9 +18,6 @@ namespace obvid::pipeline_detail {
 /// Moves up to here are lost in the rounding of the coordinates as doubles.
 [[nodiscard]] double coordinate_rounding(const PointSeries& series);
 
-/// Whether a contour keeps what `fit` promises: proved, and its region as narrow as asked.
-[[nodiscard]] bool keeps_promises(const Fit& made);
-
 /// Rounded up to three significant digits: what is printed is what was tried.
 [[nodiscard]] double printable(double tolerance);
 

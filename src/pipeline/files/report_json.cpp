@@ -277,7 +277,10 @@ std::string trade_off_json(const TradeOff& t, const std::vector<std::string>& wa
   json.pair("closed", t.closed).key("rows").begin_array();
   for (const TradeOffRow& row : t.rows) {
     json.begin_object().pair("tolerance", row.tolerance);
-    json.pair("formed", row.formed).pair("proved", row.proved).pair("carried", row.carried);
+    json.pair("formed", row.formed)
+        .pair("proved", row.proved)
+        .pair("kept", row.kept)
+        .pair("carried", row.carried);
     json.pair("refusal", row.refusal);
     if (row.formed) {
       json.pair("vertices", row.vertices).pair("vertices_lower_bound", row.vertices_lower_bound);
@@ -293,7 +296,7 @@ std::string trade_off_json(const TradeOff& t, const std::vector<std::string>& wa
   } else {
     json.null();
   }
-  json.pair("rule", trade_off_rule());
+  json.pair("rule", trade_off_rule(t));
   add_texts(json, "warnings", warnings);
   add_texts(json, "written", written);
   json.end_object();
