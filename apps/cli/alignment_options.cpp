@@ -135,7 +135,7 @@ Result<void> check_alignment(RawAlignment& raw) {
   }
   if (raw.units) {
     auto units = given_units(*raw.units, "--units");
-    if (!units) return fail(units.error());
+    OBVID_TRY(units);
     command.units = std::move(*units);
   }
   std::array<std::optional<double>, kNumberOptions.size()> numbers;
@@ -176,8 +176,8 @@ Result<Command> parse_alignment(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "alignment"));
   }
-  if (auto done = check_extras(app, app.remaining(), "alignment"); !done) return fail(done.error());
-  if (auto done = check_alignment(raw); !done) return fail(done.error());
+  OBVID_TRY(check_extras(app, app.remaining(), "alignment"));
+  OBVID_TRY(check_alignment(raw));
   return Command{raw.command};
 }
 

@@ -23,7 +23,7 @@ Result<std::filesystem::path> batch_program() {
     const PartProgram part{"the program for batches", "obvid-batch",
                            "obvid-batch " OBVID_BATCH_BUILD_MARK};
     const auto found = find_part(part_folders(own), own, part);
-    if (!found) return fail(found.error());
+    OBVID_TRY(found);
     if (*found) return **found;
   }
   return fail({ErrorCode::kUnsupported, "batches were not built with this program", "batch",

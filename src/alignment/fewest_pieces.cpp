@@ -78,7 +78,7 @@ class Search {
         return fail(on.error());
       }
       const auto farthest = advance(first, end, run);
-      if (!farthest) return fail(farthest.error());
+      OBVID_TRY(farthest);
       if (*farthest < end) break;
       first = end;
       end = *farthest + 1;
@@ -306,7 +306,7 @@ class Search {
     std::vector<Reach> reaches;
     std::size_t farthest = 0, guess = 0;
     for (std::size_t i = first; i < end; ++i) {
-      if (auto on = may_go_on(run); !on) return fail(on.error());
+      OBVID_TRY(may_go_on(run));
       for (std::size_t p = 0; p < reached_[i].size(); ++p) {
         const std::size_t to = reach_of({i, p}, guess);
         guess = to;
@@ -315,7 +315,7 @@ class Search {
       }
     }
     for (std::size_t j = end; j <= farthest; ++j) {
-      if (auto on = may_go_on(run); !on) return fail(on.error());
+      OBVID_TRY(may_go_on(run));
       std::vector<Source> from;
       for (const Reach& r : reaches) {
         if (r.to >= j && is_long_enough(r.from.place, j)) from.push_back(r.from);

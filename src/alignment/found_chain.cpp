@@ -53,7 +53,7 @@ class Simplifier {
     if (auto on = merge_all(run); !on) return on;
     for (int pass = 0; pass < kPasses; ++pass) {
       const auto taken = take_conditions(run);
-      if (!taken) return fail(taken.error());
+      OBVID_TRY(taken);
       if (!*taken) break;
     }
     if (auto on = merge_all(run); !on) return on;
@@ -63,7 +63,7 @@ class Simplifier {
         const std::size_t before = chain_.size();
         if (auto on = take_transitions(run); !on) return on;
         const auto taken = take_conditions(run);
-        if (!taken) return fail(taken.error());
+        OBVID_TRY(taken);
         if (auto on = merge_all(run); !on) return on;
         if (!*taken && chain_.size() == before) break;
       }

@@ -280,7 +280,7 @@ Result<void> TableWriter::finish() {
 Result<Columns> read_table(const std::string& path) {
   const auto lock = hdf5_lock();
   const auto file = open_hdf5(path);
-  if (!file) return fail(file.error());
+  OBVID_TRY(file);
   const std::string names = text_attribute(file->get(), "columns");
   Columns out;
   for (std::size_t at = 0; at < names.size();) {

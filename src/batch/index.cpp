@@ -193,7 +193,7 @@ std::string manifest_in_index(const std::string& path) {
 
 Result<Answer> ask_index(const std::string& path, const Query& query) {
   const auto base = opened(path);
-  if (!base) return fail(base.error());
+  OBVID_TRY(base);
   bool whole = false;
   const Statement ask = prepared(base->get(), select_of(query), &whole);
   if (ask == nullptr || !whole || sqlite3_stmt_readonly(ask.get()) == 0) {

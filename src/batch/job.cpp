@@ -423,7 +423,7 @@ Result<bool> Job::run(const Item& item, std::size_t number, Columns& rows,
   if (work.input && trouble.code == 0) do_job(work);
   if (stopped()) return false;
   if (trouble.code == 0) {
-    if (auto done = write_each(work, item.id, number); !done) return fail(done.error());
+    OBVID_TRY(write_each(work, item.id, number));
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   add_row(item.id, work, trouble, seconds, rows);

@@ -48,7 +48,7 @@ Result<std::pair<Columns, std::vector<std::size_t>>> shape_of(const Store& store
   std::vector<std::size_t> widths;
   for (std::size_t k = 0; k < store.manifest().shards(); ++k) {
     auto rows = store.get(k);
-    if (!rows) return fail(rows.error());
+    OBVID_TRY(rows);
     widths = widest(std::move(widths), split(*rows).first.widths());
     like = rows->empty();
   }
@@ -69,32 +69,32 @@ Result<void> about(TableWriter& table, const Manifest& m) {
 Result<Summary> merge_whole(const Names& names, Store& store) {
   const Manifest& m = store.manifest();
   const auto shape = shape_of(store);
-  if (!shape) return fail(shape.error());
+  OBVID_TRY(shape);
   const auto [kept, timed] = split(shape->first);
   auto table = TableWriter::create(names.table, kept, shape->second, m.items);
-  if (!table) return fail(table.error());
+  OBVID_TRY(table);
   auto seconds = TableWriter::create(names.seconds, timed, timed.widths(), m.items);
-  if (!seconds) return fail(seconds.error());
+  OBVID_TRY(seconds);
   auto index = IndexWriter::create(names.index, shape->first, manifest_text(m));
-  if (!index) return fail(index.error());
-  if (auto done = about(*table, m); !done) return fail(done.error());
+  OBVID_TRY(index);
+  OBVID_TRY(about(*table, m));
   Summary summary;
   for (std::size_t k = 0; k < m.shards(); ++k) {
     auto rows = store.get(k);
-    if (!rows) return fail(rows.error());
+    OBVID_TRY(rows);
     summary.add(*rows);
     auto parts = split(*rows);
     auto done =
         index->append(*rows).and_then([&] { return table->append(parts.first); }).and_then([&] {
           return seconds->append(parts.second);
         });
-    if (!done) return fail(done.error());
+    OBVID_TRY(done);
   }
   auto done = index->finish()
                   .and_then([&] { return seconds->finish(); })
                   .and_then([&] { return write_file(names.picture, histogram_svg(summary)); })
                   .and_then([&] { return table->finish(); });
-  if (!done) return fail(done.error());
+  OBVID_TRY(done);
   summary.twice = index->twice();
   return summary;
 }
@@ -118,9 +118,9 @@ bool is_complete(const Names& names, const Manifest& manifest) {
 
 Result<Summary> summary_of(const Names& names) {
   auto table = read_table(names.table);
-  if (!table) return fail(table.error());
+  OBVID_TRY(table);
   auto seconds = read_table(names.seconds);
-  if (!seconds) return fail(seconds.error());
+  OBVID_TRY(seconds);
   for (Column& column : seconds->all) table->all.push_back(std::move(column));
   Summary out;
   out.add(*table);

@@ -126,7 +126,7 @@ Result<std::unique_ptr<Source>> source_of(const std::string& path, const SourceO
   if (!fs::exists(status)) return fail(cannot_read(path, "there is no such file or folder"));
   if (fs::is_directory(status)) {
     auto files = files_below(path, options.pattern);
-    if (!files) return fail(files.error());
+    OBVID_TRY(files);
     return file_source(std::move(*files));
   }
   if (!fs::is_regular_file(status)) {
@@ -149,7 +149,7 @@ Result<std::unique_ptr<Source>> source_of(const std::string& path, const SourceO
 
 Result<std::vector<std::string>> paths_of_list(const std::string& list) {
   const auto text = read_file(list);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   std::vector<std::string> out;
   for (std::size_t at = 0; at < text->size();) {
     const std::size_t end = std::min(text->find('\n', at), text->size());
@@ -182,7 +182,7 @@ Result<std::unique_ptr<Source>> open_sources(const SourceOptions& options) {
   };
   for (const std::string& path : options.paths) {
     auto part = source_of(path, options);
-    if (!part) return fail(part.error());
+    OBVID_TRY(part);
     if (dynamic_cast<const FileSource*>(part->get()) != nullptr && !fs::is_directory(path)) {
       single.push_back(path);
       continue;
@@ -193,13 +193,13 @@ Result<std::unique_ptr<Source>> open_sources(const SourceOptions& options) {
   close_single();
   if (!options.list.empty()) {
     auto paths = paths_of_list(options.list);
-    if (!paths) return fail(paths.error());
+    OBVID_TRY(paths);
     if (options.cuts.empty()) {
       parts.push_back(file_source(std::move(*paths)));  // each of them is one item
     } else {
       for (const std::string& path : *paths) {
         auto part = mesh_source(path, options.cuts, true, options.threads);
-        if (!part) return fail(part.error());
+        OBVID_TRY(part);
         parts.push_back(std::move(*part));
       }
     }

@@ -264,7 +264,7 @@ Hdf5Id ids_of(hid_t file, std::size_t count) {
 Result<std::unique_ptr<Source>> hdf5_source(const std::string& path) {
   const auto lock = hdf5_lock();
   auto file = open_hdf5(path);
-  if (!file) return fail(file.error());
+  OBVID_TRY(file);
   const hid_t h = file->get();
   if (has_link(h, "points")) {
     Hdf5Id points(H5Dopen2(h, "points", H5P_DEFAULT), &H5Dclose);

@@ -71,7 +71,7 @@ class MeshSource : public Source {
           static_cast<std::size_t>(std::upper_bound(ends_.begin(), ends_.end(), i) - ends_.begin());
       const std::size_t begin = plane == 0 ? 0 : ends_[plane - 1];
       const auto sections = sections_of(plane);
-      if (!sections) return fail(sections.error());
+      OBVID_TRY(sections);
       out.push_back(item_of(plane, i - begin, **sections));
     }
     return out;
@@ -106,7 +106,7 @@ class MeshSource : public Source {
       }
     }
     auto found = cut_mesh(mesh_, plane_across(planes_[plane].axis, planes_[plane].at));
-    if (!found) return fail(found.error());
+    OBVID_TRY(found);
     Sections made = std::make_shared<const std::vector<MeshSection>>(std::move(*found));
     const std::scoped_lock lock(mutex_);
     kept_.emplace_back(plane, made);
@@ -131,9 +131,9 @@ Result<std::unique_ptr<Source>> mesh_source(const std::string& path,
                                             const std::vector<PlaneRow>& cuts, bool name_it,
                                             std::size_t threads) {
   auto mesh = read_mesh(path);
-  if (!mesh) return fail(mesh.error());
+  OBVID_TRY(mesh);
   auto out = std::make_unique<MeshSource>(path, std::move(*mesh), cuts, name_it);
-  if (auto done = out->count(threads); !done) return fail(done.error());
+  OBVID_TRY(out->count(threads));
   return out;
 }
 

@@ -247,10 +247,10 @@ bool has_id_column(const std::string& head, const std::string& id_column) {
 Result<std::unique_ptr<Source>> table_source(const std::string& path,
                                              const std::string& id_column) {
   auto file = mapped(path);
-  if (!file) return fail(file.error());
+  OBVID_TRY(file);
   const TableHead head = head_of((*file)->text(), id_column);
   auto out = std::make_unique<TableSource>(path, std::move(*file), head);
-  if (auto done = out->scan(); !done) return fail(done.error());
+  OBVID_TRY(out->scan());
   return out;
 }
 

@@ -144,26 +144,26 @@ Result<Store> Store::open(const Names& names, const Manifest& manifest) {
   const BeginLock lock(names.folder);
   if (fs::exists(path, error)) {
     const auto text = read_file(path);
-    if (!text) return fail(text.error());
+    OBVID_TRY(text);
     // what is stored went through JSON: so does what it is compared with
     const auto there = manifest_of(*text, path), here = manifest_of(manifest_text(manifest), path);
-    if (!there) return fail(there.error());
+    OBVID_TRY(there);
     const std::string why = difference(*there, *here);
     if (why.empty()) return out;
     return fail({ErrorCode::kBadOption, "another batch has begun here: " + why, names.folder,
                  "go on with it as it began, remove that folder, or choose another -o"});
   }
   remove_shards(names.folder);
-  if (auto done = write_file(path, manifest_text(manifest)); !done) return fail(done.error());
+  OBVID_TRY(write_file(path, manifest_text(manifest)));
   return out;
 }
 
 Result<Store> Store::existing(const Names& names) {
   const std::string path = manifest_path(names.folder);
   const auto text = read_file(path);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   auto manifest = manifest_of(*text, path);
-  if (!manifest) return fail(manifest.error());
+  OBVID_TRY(manifest);
   Store out;
   out.folder_ = names.folder;
   out.manifest_ = std::move(*manifest);
@@ -198,7 +198,7 @@ std::vector<std::size_t> Store::missing() const {
 
 Result<void> Store::put(std::size_t shard, const Columns& rows) const {
   auto table = TableWriter::create(path_of(shard), rows, rows.widths(), rows.rows());
-  if (!table) return fail(table.error());
+  OBVID_TRY(table);
   if (auto done = table->append(rows); !done) return done;
   return table->finish();
 }

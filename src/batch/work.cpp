@@ -88,11 +88,11 @@ class Desk {
 Result<std::optional<Columns>> rows_of(const Block& block, const Source& source, const Job& job,
                                        Pace& pace, const std::function<bool()>& stopped) {
   const auto items = source.load(block.first, block.count);
-  if (!items) return fail(items.error());
+  OBVID_TRY(items);
   Columns rows = job.columns();
   for (std::size_t i = 0; i < items->size(); ++i) {
     const auto done = job.run((*items)[i], block.first + i, rows, stopped);
-    if (!done) return fail(done.error());
+    OBVID_TRY(done);
     if (!*done) return std::optional<Columns>();
     ++pace.done;
     const Column& status = rows.all[1];

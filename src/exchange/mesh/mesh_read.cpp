@@ -42,7 +42,7 @@ Result<TriangleMesh> text_stl(std::string_view text, MeshBuilder& builder) {
     const std::string_view word = lines.words().front();
     if (word == "vertex") {
       const auto p = vector_of(lines, 1, builder);
-      if (!p) return fail(p.error());
+      OBVID_TRY(p);
       corners.push_back(builder.point(*p));
     } else if (word == "endloop") {
       if (corners.size() != 3) {
@@ -73,7 +73,7 @@ Result<TriangleMesh> obj_mesh(std::string_view text, MeshBuilder& builder) {
     const auto& words = lines.words();
     if (words[0] == "v") {
       const auto p = vector_of(lines, 1, builder);
-      if (!p) return fail(p.error());
+      OBVID_TRY(p);
       places.push_back(builder.point(*p));
     } else if (words[0] == "f") {
       std::vector<std::uint32_t> corners;
@@ -121,7 +121,7 @@ Result<TriangleMesh> parse_mesh(std::string_view text, std::string_view name) {
 
 Result<TriangleMesh> read_mesh(const std::string& path) {
   const Result<std::string> text = read_file(path);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   return parse_mesh(*text, path);
 }
 

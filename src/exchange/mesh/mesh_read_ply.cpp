@@ -263,7 +263,7 @@ Result<void> take_faces(PlyValues& values, const PlyElement& element, MeshBuilde
 
 Result<TriangleMesh> ply_mesh(std::string_view text, MeshBuilder& builder) {
   const auto header = header_of(text, builder);
-  if (!header) return fail(header.error());
+  OBVID_TRY(header);
   PlyValues values(text, *header);
   std::vector<std::uint32_t> places;
   for (const PlyElement& element : header->elements) {
@@ -279,7 +279,7 @@ Result<TriangleMesh> ply_mesh(std::string_view text, MeshBuilder& builder) {
         done = read_record(values, element, i, builder, record);
       }
     }
-    if (!done) return fail(done.error());
+    OBVID_TRY(done);
   }
   return builder.take();
 }

@@ -137,7 +137,7 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   limits.least_radius = job.least_radius;
   limits.transitions = job.transitions;
   auto alignment = fit_alignment(series.points, *tolerance, limits, run);
-  if (!alignment) return fail(alignment.error());
+  OBVID_TRY(alignment);
   for (AlignmentElement& e : alignment->elements) e.station += job.first_station;
   for (AlignmentDeviation& d : alignment->deviations) d.station += job.first_station;
   auto profile = pipeline_detail::profile_report(series, *alignment, job, out.remarks, run);

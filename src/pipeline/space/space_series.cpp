@@ -23,7 +23,7 @@ Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool an
   const std::string head = head_of_file(path, kHeadBytes);
   if (head.empty() || file_kind(head) != FileKind::kPoints) return std::nullopt;
   const auto text = read_file(path);
-  if (!text) return fail(text.error());
+  OBVID_TRY(text);
   return parse_space_series(*text, path, any_third, import);
 }
 
