@@ -26,8 +26,9 @@ Result<std::filesystem::path> batch_program() {
     OBVID_TRY(found);
     if (*found) return **found;
   }
-  return fail({ErrorCode::kUnsupported, "batches were not built with this program", "batch",
-               "build them with tools/build_batch, or install obvid-batch", -1, 0.0});
+  return error(ErrorCode::kUnsupported, "batches were not built with this program")
+      .where("batch")
+      .hint("build them with tools/build_batch, or install obvid-batch");
 }
 
 }  // namespace

@@ -333,8 +333,9 @@ std::optional<int> run_in_space(const FitOptions& options) {
                                          options.import)
                     : space_series(options.input, options.along.has_value(), options.import);
   if (options.along && series && !*series) {
-    return report({ErrorCode::kBadOption, "there are no points x, y, z whose z changes", "--along",
-                   "it is for a list of points whose rows have all their cells", -1, 0.0});
+    return report(error(ErrorCode::kBadOption, "there are no points x, y, z whose z changes")
+                      .where("--along")
+                      .hint("it is for a list of points whose rows have all their cells"));
   }
   if (!series || !*series) return std::nullopt;  // whoever reads points says what is wrong
   if (const auto may = check_space_import(options.import); !may) return report(may.error());

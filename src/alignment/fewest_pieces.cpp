@@ -84,11 +84,11 @@ class Search {
       end = *farthest + 1;
     }
     if (end <= last || reached_[last].empty()) {
-      return fail({ErrorCode::kNoSpiral, "no clothoids within the tolerance were found", "",
-                   options_.least_length > 0.0 || options_.least_radius > 0.0
-                       ? "allow a larger tolerance, or shorter elements and smaller radii"
-                       : "allow a larger tolerance",
-                   static_cast<long>(places_[std::min(end, last) - 1].at), 0.0});
+      return error(ErrorCode::kNoSpiral, "no clothoids within the tolerance were found")
+          .hint(options_.least_length > 0.0 || options_.least_radius > 0.0
+                    ? "allow a larger tolerance, or shorter elements and smaller radii"
+                    : "allow a larger tolerance")
+          .point(static_cast<std::ptrdiff_t>(places_[std::min(end, last) - 1].at));
     }
     return nodes();
   }

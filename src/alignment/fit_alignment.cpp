@@ -54,12 +54,12 @@ Result<void> keeps_limits(const Alignment& found, const AlignmentOptions& option
     const bool long_enough = e.length >= (1.0 - kLimitRounding) * options.least_length;
     const bool blunt = std::max(std::abs(e.start.kappa), std::abs(e.kappa1)) <= most;
     if ((long_enough || found.elements.size() == 1) && blunt) continue;
-    return fail(
-        {ErrorCode::kToleranceNotReached,
-         long_enough ? "an element was found with a smaller radius only"
-                     : "an element was found with a smaller length only",
-         "", "allow a larger tolerance, or shorter elements and smaller radii", -1,
-         long_enough ? 1.0 / std::max(std::abs(e.start.kappa), std::abs(e.kappa1)) : e.length});
+    return fail(error(ErrorCode::kToleranceNotReached,
+                      long_enough ? "an element was found with a smaller radius only"
+                                  : "an element was found with a smaller length only")
+                    .hint("allow a larger tolerance, or shorter elements and smaller radii")
+                    .value(long_enough ? 1.0 / std::max(std::abs(e.start.kappa), std::abs(e.kappa1))
+                                       : e.length));
   }
   return {};
 }

@@ -562,18 +562,17 @@ void set_chain(const std::vector<Node>& nodes, std::size_t points, const Sought&
 /// What a search or a fit cannot begin with.
 Result<void> check_points(const std::vector<Vec2>& points, const AlignmentOptions& options) {
   if (points.size() < 2) {
-    return fail({ErrorCode::kTooFewPoints, "an alignment needs at least two points", "", "", -1,
-                 static_cast<double>(points.size())});
+    return error(ErrorCode::kTooFewPoints, "an alignment needs at least two points")
+        .value(static_cast<double>(points.size()));
   }
   for (const double least : {options.least_length, options.least_radius}) {
     if (least >= 0.0 && std::isfinite(least)) continue;
     return fail(
-        {ErrorCode::kBadOption, "a least length or radius must be 0 or more", "", "", -1, least});
+        error(ErrorCode::kBadOption, "a least length or radius must be 0 or more").value(least));
   }
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i] != points[i - 1]) continue;
-    return fail({ErrorCode::kChordReversal, "two neighbouring points coincide", "", "",
-                 static_cast<std::ptrdiff_t>(i), 0.0});
+    return error(ErrorCode::kChordReversal, "two neighbouring points coincide").point(i);
   }
   return {};
 }
@@ -602,8 +601,9 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
   const double largest = simplifier.largest();
   if (!(largest <= 1.0)) {
     return fail(
-        {ErrorCode::kToleranceNotReached, "the alignment that was found leaves the tolerance", "",
-         "allow more, or set a least length or radius: other elements may do", -1, largest});
+        error(ErrorCode::kToleranceNotReached, "the alignment that was found leaves the tolerance")
+            .hint("allow more, or set a least length or radius: other elements may do")
+            .value(largest));
   }
   out.chain = simplifier.chain();
   out.feet = simplifier.feet();

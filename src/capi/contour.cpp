@@ -114,14 +114,16 @@ int obvid_derivatives(const obvid_contour* contour, const double* at, size_t n, 
   return guarded(error, [&]() -> Result<void> {
     const auto& pieces = contour->stored.contour.pieces;
     if (order < 1 || order > 3) {
-      return fail({ErrorCode::kBadOption, "derivatives are of order 1, 2 or 3", "order", "", -1,
-                   static_cast<double>(order)});
+      return obvid::error(ErrorCode::kBadOption, "derivatives are of order 1, 2 or 3")
+          .where("order")
+          .value(static_cast<double>(order));
     }
     const auto last = static_cast<double>(pieces.size());
     for (std::size_t i = 0; i < n; ++i) {
       if (!(at[i] >= 0.0 && at[i] <= last)) {
-        return fail({ErrorCode::kBadOption, "a place is beyond the contour",
-                     "place " + std::to_string(i + 1), "", -1, at[i]});
+        return obvid::error(ErrorCode::kBadOption, "a place is beyond the contour")
+            .where("place " + std::to_string(i + 1))
+            .value(at[i]);
       }
       const std::size_t piece = std::min(static_cast<std::size_t>(at[i]), pieces.size() - 1);
       const Jet jet = evaluate(pieces[piece], at[i] - static_cast<double>(piece));

@@ -20,8 +20,9 @@ Result<PointSeries> series_of_array(const double* xy, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 p{xy[2 * i], xy[2 * i + 1]};
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-      return fail({ErrorCode::kNotFinite, "a coordinate is not finite",
-                   "point " + std::to_string(i + 1), "", static_cast<std::ptrdiff_t>(i)});
+      return error(ErrorCode::kNotFinite, "a coordinate is not finite")
+          .where("point " + std::to_string(i + 1))
+          .point(i);
     }
     if (!out.points.empty() && out.points.back() == p) {
       ++merged;
@@ -47,8 +48,9 @@ Result<SpaceSeries> space_series_of_array(const double* xyz, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 p{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
     if (!is_finite(p)) {
-      return fail({ErrorCode::kNotFinite, "a coordinate is not finite",
-                   "point " + std::to_string(i + 1), "", static_cast<std::ptrdiff_t>(i)});
+      return error(ErrorCode::kNotFinite, "a coordinate is not finite")
+          .where("point " + std::to_string(i + 1))
+          .point(i);
     }
     out.points.push_back(p);
   }

@@ -148,8 +148,9 @@ int obvid_space_evaluate(const obvid_space* space, size_t part, const double* at
                          obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     if (part >= space->chain.parts.size()) {
-      return fail({ErrorCode::kBadOption, "there is no such part", "part", "", -1,
-                   static_cast<double>(part)});
+      return obvid::error(ErrorCode::kBadOption, "there is no such part")
+          .where("part")
+          .value(static_cast<double>(part));
     }
     const auto found = sample_space(space->chain.parts[part], {at, n});
     OBVID_TRY(found);

@@ -104,49 +104,47 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
   const std::string where = point_range(why);
   const bool leaps = why.slack == 0.0;
   if (!leaps && why.move <= kRoundingsThatDecide * rounding_move(points, why)) {
-    return {ErrorCode::kRoundingDecides,
-            "the rounding of the coordinates, not the curve, decides how the curvature changes",
-            where,
+    return error(
+               ErrorCode::kRoundingDecides,
+               "the rounding of the coordinates, not the curve, decides how the curvature changes")
+        .where(where)
+        .hint(
             "give coordinates relative to a nearer origin, or leave out points that lie "
-            "closer together than their digits can tell",
-            index,
-            why.move,
-            last};
+            "closer together than their digits can tell")
+        .points(index, last)
+        .value(why.move);
   }
   if (touches_stretch(a, why)) {
-    return {ErrorCode::kNoRoomForTransition,
-            "a straight or circular stretch leaves no room for a change of curvature beside it",
-            where,
-            "remove a point at the end of the stretch, or move one off it",
-            index,
-            why.move,
-            last};
+    return error(
+               ErrorCode::kNoRoomForTransition,
+               "a straight or circular stretch leaves no room for a change of curvature beside it")
+        .where(where)
+        .hint("remove a point at the end of the stretch, or move one off it")
+        .points(index, last)
+        .value(why.move);
   }
   if (anything_wished(wishes)) {
-    return {ErrorCode::kFixedDataContradict,
-            "the fixed headings, curvatures or convexity cannot be met by a monotone contour",
-            where,
-            "free the data there",
-            index,
-            why.move,
-            last};
+    return error(ErrorCode::kFixedDataContradict,
+                 "the fixed headings, curvatures or convexity cannot be met by a monotone contour")
+        .where(where)
+        .hint("free the data there")
+        .points(index, last)
+        .value(why.move);
   }
   if (leaps) {
-    return {ErrorCode::kNoSpiral,
-            "a curve with curvature changing as the points demand would have to leap at them",
-            where,
-            "move points there, or add points",
-            index,
-            why.move,
-            last};
+    return error(ErrorCode::kNoSpiral,
+                 "a curve with curvature changing as the points demand would have to leap at them")
+        .where(where)
+        .hint("move points there, or add points")
+        .points(index, last)
+        .value(why.move);
   }
-  return {ErrorCode::kNoSpiral,
-          "no curve with curvature changing as the points demand runs through them",
-          where,
-          "move points there, or add points",
-          index,
-          why.move,
-          last};
+  return error(ErrorCode::kNoSpiral,
+               "no curve with curvature changing as the points demand runs through them")
+      .where(where)
+      .hint("move points there, or add points")
+      .points(index, last)
+      .value(why.move);
 }
 
 }  // namespace obvid::chain_detail

@@ -40,12 +40,8 @@ int look_at(dl_phdr_info* object, std::size_t, void* data) {
 }
 
 Error unusable(const PartProgram& part, const std::string& why, std::string hint) {
-  return {ErrorCode::kUnsupported,
-          std::string(part.what) + " is not started: " + why,
-          "",
-          std::move(hint),
-          -1,
-          0.0};
+  return error(ErrorCode::kUnsupported, std::string(part.what) + " is not started: " + why)
+      .hint(std::move(hint));
 }
 
 }  // namespace

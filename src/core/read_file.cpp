@@ -18,21 +18,16 @@ namespace {
 constexpr std::size_t kReadBlock = std::size_t{1} << 20U;
 
 Error cannot_read(const std::string& path, const std::string& why) {
-  return {ErrorCode::kCannotOpen,
-          "cannot read the file: " + why,
-          path,
-          "check the path and the permissions",
-          -1,
-          0.0};
+  return error(ErrorCode::kCannotOpen, "cannot read the file: " + why)
+      .where(path)
+      .hint("check the path and the permissions");
 }
 
 Error too_large(const std::string& path, std::size_t most) {
-  return {ErrorCode::kUnsupported,
-          fmt::format("the input is larger than {} bytes", most),
-          path,
-          "give a part of it, or fewer digits and columns",
-          -1,
-          static_cast<double>(most)};
+  return error(ErrorCode::kUnsupported, fmt::format("the input is larger than {} bytes", most))
+      .where(path)
+      .hint("give a part of it, or fewer digits and columns")
+      .value(static_cast<double>(most));
 }
 
 Result<std::string> read_stream(std::FILE* stream, const std::string& path, std::size_t most) {

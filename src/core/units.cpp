@@ -6,16 +6,15 @@
 #include <cctype>
 #include <utility>
 
-
 namespace obvid {
 namespace {
 
 /// A unit as an exact fraction of a metre; 0: it has no length in metres.
 struct Row {
   std::string_view name;
-  double metres = 0.0;     ///< numerator
-  double divisor = 1.0;    ///< denominator
-  std::string_view also{}; ///< other spellings, `plain`, between blanks
+  double metres = 0.0;      ///< numerator
+  double divisor = 1.0;     ///< denominator
+  std::string_view also{};  ///< other spellings, `plain`, between blanks
 };
 
 // Lengths by definition: inch, foot, yard and mile of 1959 (an inch is 25.4 mm exactly), US survey
@@ -118,11 +117,11 @@ std::optional<double> unit_ratio(std::string_view from, std::string_view to) {
 Result<double> unit_ratio(const Units& from, std::string_view to, std::string_view user) {
   if (const auto ratio = unit_ratio(from.name, to)) return *ratio;
   const bool known = row_of(from.name) != nullptr;
-  return fail({ErrorCode::kBadOption,
-               std::string(user) + " need a unit of length, and " +
-                   (known ? "'" + from.name + "' has no length in metres"
-                          : "the unit '" + from.name + "' is not known"),
-               "--units", "say what a unit is with --units: one of " + known_units(), -1, 0.0});
+  return error(ErrorCode::kBadOption, std::string(user) + " need a unit of length, and " +
+                                          (known ? "'" + from.name + "' has no length in metres"
+                                                 : "the unit '" + from.name + "' is not known"))
+      .where("--units")
+      .hint("say what a unit is with --units: one of " + known_units());
 }
 
 std::optional<std::string> canonical_unit(std::string_view spelling) {
@@ -132,8 +131,7 @@ std::optional<std::string> canonical_unit(std::string_view spelling) {
 
 std::string known_units() { return names(true); }
 
-std::string_view unit_for_file(std::string_view unit,
-                               std::span<const std::string_view> available) {
+std::string_view unit_for_file(std::string_view unit, std::span<const std::string_view> available) {
   const Row* row = row_of(unit);
   if (row == nullptr) return {};
   std::string_view name = row->name;
@@ -148,10 +146,9 @@ std::string_view unit_for_file(std::string_view unit,
 
 Result<Units> given_units(std::string_view spelling, std::string_view where) {
   if (auto name = canonical_unit(spelling)) return Units(std::move(*name), UnitSource::kGiven);
-  return fail({ErrorCode::kBadOption, "the unit '" + std::string(spelling) + "' is not known",
-               std::string(where),
-               "known are " + known_units() + "; and without a length in metres " + names(false),
-               -1, 0.0});
+  return error(ErrorCode::kBadOption, "the unit '" + std::string(spelling) + "' is not known")
+      .where(std::string(where))
+      .hint("known are " + known_units() + "; and without a length in metres " + names(false));
 }
 
 Result<Units> common_units(std::span<const Units> all, std::string_view where) {
@@ -159,9 +156,10 @@ Result<Units> common_units(std::span<const Units> all, std::string_view where) {
   for (const Units& one : all) {
     if (!one.known()) continue;
     if (out.known() && one.name != out.name) {
-      return fail({ErrorCode::kUnsupported,
-                   "lengths are in different units: " + out.name + " and " + one.name,
-                   std::string(where), "write all of them in one unit", -1, 0.0});
+      return error(ErrorCode::kUnsupported,
+                   "lengths are in different units: " + out.name + " and " + one.name)
+          .where(std::string(where))
+          .hint("write all of them in one unit");
     }
     out = one;
   }

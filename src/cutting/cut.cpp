@@ -84,22 +84,15 @@ class Cutting {
   }
 
   [[nodiscard]] Error no_feed() const {
-    return {ErrorCode::kBadOption,
-            "the feed would be printed as 0",
-            options_.centripetal ? "--centripetal" : "--feed",
-            "give a larger one",
-            -1,
-            0.0};
+    return error(ErrorCode::kBadOption, "the feed would be printed as 0")
+        .where(options_.centripetal ? "--centripetal" : "--feed")
+        .hint("give a larger one");
   }
 
   [[nodiscard]] Error too_few_digits(std::string what) const {
-    return {ErrorCode::kToleranceNotReached,
-            std::move(what),
-            "",
-            fmt::format("printed with {}: give more --decimals, or a larger --tolerance",
-                        counted(static_cast<std::size_t>(decimals_), "decimal", "decimals")),
-            -1,
-            0.0};
+    return error(ErrorCode::kToleranceNotReached, std::move(what))
+        .hint(fmt::format("printed with {}: give more --decimals, or a larger --tolerance",
+                          counted(static_cast<std::size_t>(decimals_), "decimal", "decimals")));
   }
 
   [[nodiscard]] BlockRules rules() const {

@@ -18,7 +18,7 @@ constexpr double kPrintedDepth = 1e-2;
 constexpr std::size_t kBetweenQuestions = 1024;
 
 Error not_as_planned(const char* what) {
-  return {ErrorCode::kInternal, what, "", "please report this", -1, 0.0};
+  return error(ErrorCode::kInternal, what).hint("please report this");
 }
 
 class Check {

@@ -10,7 +10,7 @@ namespace obvid::cutting {
 namespace {
 
 tl::unexpected<Error> bad(const char* what, const char* option, double value, const char* hint) {
-  return fail(Error{ErrorCode::kBadOption, what, option, hint, -1, value});
+  return fail(error(ErrorCode::kBadOption, what).where(option).hint(hint).value(value));
 }
 
 /// An option that is one number.

@@ -37,8 +37,8 @@ std::optional<Error> refuse_nodes(std::span<const double> nodes, std::string_vie
         .hint("add data")
         .value(static_cast<double>(nodes.size()));
   }
-  const Error infinite{
-      ErrorCode::kNotFinite, "a place is not a finite number", "", "remove or repair it", -1, 0.0};
+  const Error infinite =
+      error(ErrorCode::kNotFinite, "a place is not a finite number").hint("remove or repair it");
   if (auto error = refuse_infinite(nodes, name, infinite)) return error;
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     const double h = nodes[i] - nodes[i - 1];
@@ -69,16 +69,17 @@ std::optional<Error> refuse_data(std::span<const double> data, std::size_t expec
         .hint("give one per node, integrals one per cell")
         .value(static_cast<double>(data.size()));
   }
-  return refuse_infinite(data, name,
-                         {ErrorCode::kNotFinite, fmt::format("a {} is not a finite number", name),
-                          "", "remove or repair it", -1, 0.0});
+  return refuse_infinite(
+      data, name,
+      error(ErrorCode::kNotFinite, fmt::format("a {} is not a finite number", name))
+          .hint("remove or repair it"));
 }
 
 std::optional<Error> refuse_overflow(std::span<const double> result, std::string_view name) {
   return refuse_infinite(result, name,
-                         {ErrorCode::kSizeOutOfRange,
-                          fmt::format("a {} of the spline leaves the range of numbers", name), "",
-                          kOtherUnit, -1, 0.0});
+                         error(ErrorCode::kSizeOutOfRange,
+                               fmt::format("a {} of the spline leaves the range of numbers", name))
+                             .hint(kOtherUnit));
 }
 
 }  // namespace obvid::idspline

@@ -20,7 +20,7 @@ namespace {
 using idspline::refuse_data;
 
 Error bad_option(const char* what, const char* hint, int degree) {
-  return {ErrorCode::kBadOption, what, "", hint, -1, static_cast<double>(degree)};
+  return error(ErrorCode::kBadOption, what).hint(hint).value(static_cast<double>(degree));
 }
 
 /// Derivatives that the degree has no place for, or wrong numbers of those that it has.

@@ -336,12 +336,10 @@ std::optional<MatrixName> matrix_name(const std::string& path) {
 }
 
 Error not_one_grid(const std::string& path) {
-  return {ErrorCode::kUsage,
-          "a grid is one file, or three whose names differ in one letter: _x, _y, _z",
-          path,
-          "name them like hull_x.dat, hull_y.dat, hull_z.dat",
-          -1,
-          0.0};
+  return error(ErrorCode::kUsage,
+               "a grid is one file, or three whose names differ in one letter: _x, _y, _z")
+      .where(path)
+      .hint("name them like hull_x.dat, hull_y.dat, hull_z.dat");
 }
 
 /// Three files that are given, in any order.

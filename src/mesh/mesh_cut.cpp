@@ -39,9 +39,9 @@ Result<std::vector<double>> heights_over(const TriangleMesh& mesh, const Frame& 
   for (const Vec3& p : mesh.points) {
     const double height = plane.height(p);
     if (!std::isfinite(height)) {
-      return fail({ErrorCode::kNotFinite, "a point of the mesh, or the plane, is not finite",
-                   "point " + std::to_string(out.size()), "",
-                   static_cast<std::ptrdiff_t>(out.size())});
+      return error(ErrorCode::kNotFinite, "a point of the mesh, or the plane, is not finite")
+          .where("point " + std::to_string(out.size()))
+          .point(out.size());
     }
     out.push_back(height);
   }

@@ -33,13 +33,12 @@ NetSide side_of(const std::vector<SpaceCurve>& curves, std::string kind, std::si
 
 Error missed(const NetSide& first, const NetSide& second, std::size_t i, std::size_t j,
              double distance, double tolerance) {
-  return {ErrorCode::kBadOption,
-          fmt::format("{} misses {} by {:g}, the tolerance is {:g}", first.name(i), second.name(j),
-                      distance, tolerance),
-          "",
-          "each curve of one kind has to cross each curve of the other",
-          static_cast<std::ptrdiff_t>(i),
-          distance};
+  return error(ErrorCode::kBadOption,
+               fmt::format("{} misses {} by {:g}, the tolerance is {:g}", first.name(i),
+                           second.name(j), distance, tolerance))
+      .hint("each curve of one kind has to cross each curve of the other")
+      .point(i)
+      .value(distance);
 }
 
 std::vector<BoxedCurve> boxed(const NetSide& side) {

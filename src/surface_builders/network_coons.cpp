@@ -93,14 +93,13 @@ class Loops {
 Error apart(const Loops& loops, const Loop& loop, double tolerance) {
   const std::size_t k = loops.widest(loop), next = (k + 1) % 4;
   const double gap = loops.gap(loop, k);
-  return {ErrorCode::kBadOption,
-          fmt::format("an end of curve {} and the next one of curve {} are {:g} apart, the "
-                      "tolerance is {:g}",
-                      loop.number[k] + 1, loop.number[next] + 1, gap, tolerance),
-          "",
-          "the four curves have to meet at their ends",
-          static_cast<std::ptrdiff_t>(loop.number[k]),
-          gap};
+  return error(ErrorCode::kBadOption,
+               fmt::format("an end of curve {} and the next one of curve {} are {:g} apart, the "
+                           "tolerance is {:g}",
+                           loop.number[k] + 1, loop.number[next] + 1, gap, tolerance))
+      .hint("the four curves have to meet at their ends")
+      .point(loop.number[k])
+      .value(gap);
 }
 
 /// The end of one curve and the beginning of another become the same point.

@@ -89,23 +89,20 @@ void turn_alike(NetSide& side, const std::vector<std::size_t>& seams) {
 }
 
 Error unordered(const NetSide& side, const NetSide& other, std::size_t i, std::size_t j) {
-  return {ErrorCode::kBadOption,
-          fmt::format("{} meets {} and {} in another order than {} does", side.name(i),
-                      other.name(j - 1), other.name(j), side.name(guide_of(side))),
-          "",
-          "curves of one kind must not cross each other between those of the other",
-          static_cast<std::ptrdiff_t>(side.number[i]),
-          side.at[i][j]};
+  return error(ErrorCode::kBadOption,
+               fmt::format("{} meets {} and {} in another order than {} does", side.name(i),
+                           other.name(j - 1), other.name(j), side.name(guide_of(side))))
+      .hint("curves of one kind must not cross each other between those of the other")
+      .point(side.number[i])
+      .value(side.at[i][j]);
 }
 
 Error same_place(const NetSide& side, const NetSide& other, std::size_t i, std::size_t j) {
-  return {ErrorCode::kBadOption,
-          fmt::format("{} and {} cross {} at the same place", other.name(j - 1), other.name(j),
-                      side.name(i)),
-          "",
-          "leave out curves that are given twice",
-          static_cast<std::ptrdiff_t>(other.number[j]),
-          side.at[i][j] - side.at[i][j - 1]};
+  return error(ErrorCode::kBadOption, fmt::format("{} and {} cross {} at the same place",
+                                                  other.name(j - 1), other.name(j), side.name(i)))
+      .hint("leave out curves that are given twice")
+      .point(other.number[j])
+      .value(side.at[i][j] - side.at[i][j - 1]);
 }
 
 }  // namespace

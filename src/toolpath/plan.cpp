@@ -100,7 +100,7 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
   const ToolpathReport& r = out.report;
   const auto add = [&](std::string what, double value, std::string hint) {
     out.not_kept.push_back(
-        {ErrorCode::kToleranceNotReached, std::move(what), "", std::move(hint), -1, value});
+        error(ErrorCode::kToleranceNotReached, std::move(what)).hint(std::move(hint)).value(value));
   };
   if (r.passes == 0) add("no pass: the cutter meets nothing", 0.0, "");
   if (r.gouge.found > out.tolerance) {

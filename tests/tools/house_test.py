@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Licences and sources: every source file says its licence, every data file has its source and licence listed,
-and what texts cite stands in docs/sources.md.
+and what texts cite stands in docs/sources.md. Errors are made and handed on in the ways that docs/conventions.md names.
 
 usage: house_test.py PROJECT_FOLDER
 """
@@ -100,7 +100,45 @@ def unknown_sources(root, files):
     return sorted(faults)
 
 
+STRING = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
+HANDED_ON = re.compile(r"if \(!(\w+)\) return fail\(\1\.error\(\)\);|if \(auto (\w+) = [^;]+; !\2\) return fail\(\2\.error\(\)\);")
+MOST_FIELDS = 4  # code, what, where, hint
+
+
+def fields_by_position(text):
+    """Numbers of fields of the errors that are written as {ErrorCode::..., ...}."""
+    text = re.sub(r"//.*", "", STRING.sub('""', text))
+    out = []
+    for found in re.finditer(r"\{\s*ErrorCode::", text):
+        depth, fields = 0, 1
+        for c in text[found.start():]:
+            depth += (c in "({[") - (c in ")}]")
+            fields += c == "," and depth == 1
+            if depth == 0:
+                break
+        out.append(fields)
+    return out
+
+
+def ways_of_errors(root, files):
+    faults = []
+    for path in files:
+        if str(path).startswith(("src/", "apps/", "include/")) and path.suffix in (".h", ".cpp"):
+            text = (root / path).read_text(encoding="utf-8", errors="replace")
+            if any(n > MOST_FIELDS for n in fields_by_position(text)):
+                faults.append(f"{path}: an error of more than {MOST_FIELDS} fields by position: use error(...).where(...)")
+            if HANDED_ON.search(text):
+                faults.append(f"{path}: an error is handed on without OBVID_TRY")
+    return faults
+
+
 class House(unittest.TestCase):
+    def test_errors_are_told_field_by_field_and_handed_on_in_one_way(self):
+        self.assertEqual(ways_of_errors(ROOT, project_files(ROOT)), [])
+        self.assertEqual(fields_by_position('fail({ErrorCode::kX, "a, b", f(1, 2), {}, -1, 0.0});  // {ErrorCode::a, b'), [6])
+        self.assertTrue(HANDED_ON.search("  if (!made) return fail(made.error());"))
+        self.assertTrue(HANDED_ON.search("  if (auto done = f(); !done) return fail(done.error());"))
+
     def test_what_is_cited_stands_among_the_sources(self):
         self.assertEqual(unknown_sources(ROOT, project_files(ROOT)), [])
 

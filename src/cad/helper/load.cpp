@@ -20,12 +20,10 @@ namespace obvid::cad {
 namespace {
 
 Error unreadable(const std::string& path, const char* format) {
-  return {ErrorCode::kDamaged,
-          std::string("the CAD kernel cannot read this ") + format + " file",
-          path,
-          "the file may be cut off or damaged; export it again",
-          -1,
-          0.0};
+  return error(ErrorCode::kDamaged,
+               std::string("the CAD kernel cannot read this ") + format + " file")
+      .where(path)
+      .hint("the file may be cut off or damaged; export it again");
 }
 
 /// Remembers the names of faces, as STEP (items) and IGES (labels) have them.

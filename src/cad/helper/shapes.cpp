@@ -31,12 +31,8 @@ namespace {
 gp_Pnt at(Vec2 p, double scale) { return {scale * p.x, scale * p.y, 0.0}; }
 
 Error refused(const char* what) {
-  return {ErrorCode::kInternal,
-          std::string("the CAD kernel refuses ") + what,
-          "",
-          "look at the contour with `obvid verify`",
-          -1,
-          0.0};
+  return error(ErrorCode::kInternal, std::string("the CAD kernel refuses ") + what)
+      .hint("look at the contour with `obvid verify`");
 }
 
 Handle(Geom_BSplineCurve) flat_spline(const NurbsCurve& curve, double scale) {

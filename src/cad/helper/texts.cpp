@@ -46,12 +46,8 @@ constexpr const char* kProgram = "Obvid";
 constexpr const char* kAllDigits = "%#.16G";
 
 Error failed(const char* what) {
-  return {ErrorCode::kInternal,
-          std::string("the CAD kernel could not write ") + what,
-          "",
-          "look at the geometry with `obvid verify` or `obvid surface check`",
-          -1,
-          0.0};
+  return error(ErrorCode::kInternal, std::string("the CAD kernel could not write ") + what)
+      .hint("look at the geometry with `obvid verify` or `obvid surface check`");
 }
 
 Handle(TCollection_HAsciiString) word(const char* text) {

@@ -264,7 +264,9 @@ class StretchArcs {
 };
 
 Error not_reached(const char* what, double deviation) {
-  return {ErrorCode::kToleranceNotReached, what, "", "allow a larger tolerance", -1, deviation};
+  return error(ErrorCode::kToleranceNotReached, what)
+      .hint("allow a larger tolerance")
+      .value(deviation);
 }
 
 /// Arcs that the best approximation takes, roughly.

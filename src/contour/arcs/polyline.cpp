@@ -105,12 +105,10 @@ double expected_chords(const Contour& contour, double tolerance) {
 }
 
 Error chords_not_near(double value) {
-  return {ErrorCode::kToleranceNotReached,
-          "ten million chords are not near enough to the contour",
-          "",
-          "allow a larger tolerance",
-          -1,
-          value};
+  return error(ErrorCode::kToleranceNotReached,
+               "ten million chords are not near enough to the contour")
+      .hint("allow a larger tolerance")
+      .value(value);
 }
 
 std::vector<Piece> as_pieces(const std::vector<Vec2>& points) {

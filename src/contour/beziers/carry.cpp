@@ -50,10 +50,9 @@ Error hardly_bends(Error error, const Contour& spirals, std::size_t i) {
 
 Result<Carried> carry_beziers(const Contour& spirals, const CarryOptions& options) {
   if (const auto joint = inflection(spirals)) {
-    return at_point(
-        {ErrorCode::kNoSpiral, "the contour has an inflection, which no chain of parabolas has", "",
-         "", -1, 0.0},
-        spirals, static_cast<std::ptrdiff_t>(*joint), kOtherCarriers);
+    return at_point(error(ErrorCode::kNoSpiral,
+                          "the contour has an inflection, which no chain of parabolas has"),
+                    spirals, static_cast<std::ptrdiff_t>(*joint), kOtherCarriers);
   }
   Carried out{like(spirals, Carrier::kBeziers), {}};
   const std::vector<int> direction = piece_directions(spirals);
@@ -67,9 +66,8 @@ Result<Carried> carry_beziers(const Contour& spirals, const CarryOptions& option
       continue;
     }
     if (direction[i] == 0) {
-      return at_point(
-          {ErrorCode::kNoSpiral, "no chain of parabolas has constant curvature", "", "", -1, 0.0},
-          spirals, static_cast<std::ptrdiff_t>(i), kOtherCarriers);
+      return at_point(error(ErrorCode::kNoSpiral, "no chain of parabolas has constant curvature"),
+                      spirals, static_cast<std::ptrdiff_t>(i), kOtherCarriers);
     }
     const auto chain = condense_piece(spirals.pieces[i], direction[i], options.tolerance);
     if (!chain) {

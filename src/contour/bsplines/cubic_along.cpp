@@ -189,12 +189,10 @@ class CubicBuilder {
 };
 
 Error rounding_keeps_off(double deviation) {
-  return {ErrorCode::kToleranceNotReached,
-          "rounding of the coordinates keeps cubic spans from the tolerance",
-          "",
-          "allow more, or move the contour near the origin",
-          -1,
-          deviation};
+  return error(ErrorCode::kToleranceNotReached,
+               "rounding of the coordinates keeps cubic spans from the tolerance")
+      .hint("allow more, or move the contour near the origin")
+      .value(deviation);
 }
 
 /// Fewest spans, nearly: grown by the fourth root of what is missing, then cut in halves of what is

@@ -39,12 +39,9 @@ Error nothing(const std::vector<std::string>& warnings, std::string_view name) {
   std::string why;
   for (const std::string& warning : warnings) why += (why.empty() ? "" : "; ") + warning;
   if (why.empty()) why = "save curves in model space as LINE, ARC, SPLINE, LWPOLYLINE, ...";
-  return {ErrorCode::kNothingThere,
-          "the DXF file draws no curve and no points",
-          std::string(name),
-          why,
-          -1,
-          0.0};
+  return error(ErrorCode::kNothingThere, "the DXF file draws no curve and no points")
+      .where(std::string(name))
+      .hint(why);
 }
 
 }  // namespace

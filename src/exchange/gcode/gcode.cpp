@@ -70,21 +70,17 @@ class Program {
     return most;
   }
   [[nodiscard]] Error too_large() const {
-    return {ErrorCode::kToleranceNotReached,
-            fmt::format("the coordinates are too large for {} decimals", decimals_),
-            "",
-            "move the contour near the origin; --units says what a unit is",
-            -1,
-            largest_coordinate()};
+    return error(ErrorCode::kToleranceNotReached,
+                 fmt::format("the coordinates are too large for {} decimals", decimals_))
+        .hint("move the contour near the origin; --units says what a unit is")
+        .value(largest_coordinate());
   }
   /// All ends are printed as one place.
   [[nodiscard]] Error nothing_left() const {
-    return {ErrorCode::kToleranceNotReached,
-            fmt::format("the contour is smaller than {} decimals can print", decimals_),
-            "",
-            "--units says what a unit is",
-            -1,
-            unit_};
+    return error(ErrorCode::kToleranceNotReached,
+                 fmt::format("the contour is smaller than {} decimals can print", decimals_))
+        .hint("--units says what a unit is")
+        .value(unit_);
   }
   Result<void> follow(GcodePath& path, double within) const {
     switch (options_.motion) {

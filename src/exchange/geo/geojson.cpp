@@ -27,7 +27,7 @@ constexpr int kMaxJsonDepth = 64;
 constexpr std::size_t kMaxDetail = 120;  // bytes taken over from the message of the JSON parser
 
 Error malformed(std::string what, std::string where) {
-  return {ErrorCode::kBadJson, std::move(what), std::move(where), "", -1, 0.0};
+  return error(ErrorCode::kBadJson, std::move(what)).where(std::move(where));
 }
 
 std::string place_of(string_view text, string_view name, std::size_t byte) {

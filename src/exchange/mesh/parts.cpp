@@ -58,12 +58,8 @@ std::string plain_name(std::string_view name, std::string_view otherwise) {
 }
 
 Error too_large(std::string_view format) {
-  return {ErrorCode::kSizeOutOfRange,
-          fmt::format("more than {} can hold", format),
-          "",
-          "allow a larger chord tolerance",
-          -1,
-          0.0};
+  return error(ErrorCode::kSizeOutOfRange, fmt::format("more than {} can hold", format))
+      .hint("allow a larger chord tolerance");
 }
 
 }  // namespace exchange

@@ -22,7 +22,7 @@ constexpr int kMostChords = 1 << 20;    // of a piece
 constexpr double kNoCorner = 1e-6;      // rad: no corner
 
 Error bad(const char* what, double value) {
-  return {ErrorCode::kBadOption, what, "", "give a positive number", -1, value};
+  return error(ErrorCode::kBadOption, what).hint("give a positive number").value(value);
 }
 
 /// Sample at a parameter of a piece, its heading near `theta`.
@@ -94,17 +94,12 @@ std::vector<Vec2> distinct(const std::vector<CurveSample>& samples, bool closed)
 
 namespace {
 
-Error no_pieces() {
-  return {ErrorCode::kNothingThere, "the contour has no pieces", "", "", -1, 0.0};
-}
+Error no_pieces() { return error(ErrorCode::kNothingThere, "the contour has no pieces"); }
 
 Error beyond_the_curve(double place, double end) {
-  return {ErrorCode::kBadOption,
-          fmt::format("the place {} is not in 0 to {}", place, end),
-          "",
-          "ask for places on the contour",
-          -1,
-          place};
+  return error(ErrorCode::kBadOption, fmt::format("the place {} is not in 0 to {}", place, end))
+      .hint("ask for places on the contour")
+      .value(place);
 }
 
 }  // namespace

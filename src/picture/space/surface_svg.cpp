@@ -25,7 +25,7 @@ constexpr std::size_t kMostFileText = 1'450'000, kFewestFacets = 1500;
 constexpr double kLeastSize = 1e-60, kMostSize = 1e60;
 
 Error bad_option(const char* what, double value) {
-  return {ErrorCode::kBadOption, what, "", "", -1, value};
+  return error(ErrorCode::kBadOption, what).value(value);
 }
 
 Result<void> check_picture_options(const SurfacePictureOptions& o) {

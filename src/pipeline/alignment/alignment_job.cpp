@@ -38,8 +38,11 @@ Result<std::vector<double>> tolerances_of(const PointSeries& series, const Align
   }
   const auto bad = std::find_if(out.begin(), out.end(), [](double t) { return !(t > 0.0); });
   if (bad != out.end()) {
-    return fail({ErrorCode::kBadOption, "an alignment needs a tolerance", "noise",
-                 "say how far it may pass the points", bad - out.begin(), *bad});
+    return error(ErrorCode::kBadOption, "an alignment needs a tolerance")
+        .where("noise")
+        .hint("say how far it may pass the points")
+        .point(bad - out.begin())
+        .value(*bad);
   }
   return out;
 }

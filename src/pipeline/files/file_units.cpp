@@ -15,12 +15,11 @@ namespace {
 constexpr double kKernelPrecision = 1e-7;  // mm: CAD kernels take points that are nearer for one
 
 Error assumed(const Units& units, std::string_view kind) {
-  return {ErrorCode::kBadOption,
-          fmt::format("{} have true lengths, and nothing says what a unit is", kind),
-          "--units",
-          fmt::format("say it with --units m, or another of {}", known_units()),
-          -1,
-          metres_in(units.name).value_or(0.0)};
+  return error(ErrorCode::kBadOption,
+               fmt::format("{} have true lengths, and nothing says what a unit is", kind))
+      .where("--units")
+      .hint(fmt::format("say it with --units m, or another of {}", known_units()))
+      .value(metres_in(units.name).value_or(0.0));
 }
 
 }  // namespace

@@ -133,7 +133,8 @@ void add_section(const SectionChain& section, Formed& formed) {
                                               : std::min(sum.smallest_margin, one.smallest_margin);
   sum.newton_steps += one.newton_steps;
   sum.free_elements += one.free_elements;
-  for (const std::string& text : section.warnings) {  // sections between corners say the same things
+  for (const std::string& text :
+       section.warnings) {  // sections between corners say the same things
     const auto said = std::find(formed.warnings.begin(), formed.warnings.end(), text);
     if (said == formed.warnings.end()) formed.warnings.push_back(text);
   }
@@ -468,12 +469,10 @@ bool narrow(const Contour& contour, Watch& watch, Prepared& series) {
 /// A convex contour turns one way all along; the search within tolerances may have missed that.
 Result<void> keeps_convex(const Contour& contour, const Certificate& certificate) {
   if (certificate.inflections == 0) return {};
-  Error error{ErrorCode::kFixedDataContradict,
-              "a convex contour was asked for, but none was found within the tolerances",
-              "",
-              "drop the wish for a convex contour, or allow larger tolerances",
-              -1,
-              0.0};
+  Error error =
+      obvid::error(ErrorCode::kFixedDataContradict,
+                   "a convex contour was asked for, but none was found within the tolerances")
+          .hint("drop the wish for a convex contour, or allow larger tolerances");
   int turns = 0;
   for (const Joint& joint : contour.joints) {
     turns += joint.element.kappa > 0.0 ? 1 : joint.element.kappa < 0.0 ? -1 : 0;

@@ -58,22 +58,20 @@ bool holds(const ValueRange& thetas, double theta) {
 }
 
 Error two_ranges_left(std::size_t point) {
-  return {ErrorCode::kFixedDataContradict,
-          "what is given for the heading here leaves two ranges apart from each other",
-          fmt::format("point {}", point + 1),
-          "give one range",
-          static_cast<std::ptrdiff_t>(point),
-          0.0};
+  return error(ErrorCode::kFixedDataContradict,
+               "what is given for the heading here leaves two ranges apart from each other")
+      .where(fmt::format("point {}", point + 1))
+      .hint("give one range")
+      .point(point);
 }
 
 Error no_common_value(bool heading, std::size_t point) {
-  return {ErrorCode::kFixedDataContradict,
-          fmt::format("what is given for the {} here has no value in common",
-                      heading ? "heading" : "curvature"),
-          fmt::format("point {}", point + 1),
-          "give one value, or one range",
-          static_cast<std::ptrdiff_t>(point),
-          0.0};
+  return error(ErrorCode::kFixedDataContradict,
+               fmt::format("what is given for the {} here has no value in common",
+                           heading ? "heading" : "curvature"))
+      .where(fmt::format("point {}", point + 1))
+      .hint("give one value, or one range")
+      .point(point);
 }
 
 Error fixed_twice(const char* what, const std::string& one, const std::string& other, bool series,

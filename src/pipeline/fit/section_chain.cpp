@@ -364,14 +364,14 @@ class SectionChooser {
   }
 
   static Error swings_out(const SeriesChain& chain, const WanderingPart& worst) {
-    return {
-        ErrorCode::kWanders,
-        fmt::format("the contour would swing out by {:.0f} degrees more than the points ask for",
-                    worst.beyond * kDegrees),
-        "points " + range(chain, worst),
-        "mark corners there, or put points between them",
-        static_cast<std::ptrdiff_t>(*chain.source[worst.first]),
-        worst.beyond};
+    return error(ErrorCode::kWanders,
+                 fmt::format(
+                     "the contour would swing out by {:.0f} degrees more than the points ask for",
+                     worst.beyond * kDegrees))
+        .where("points " + range(chain, worst))
+        .hint("mark corners there, or put points between them")
+        .point(*chain.source[worst.first])
+        .value(worst.beyond);
   }
 
   void tell_held(SectionChain& best) const {

@@ -68,12 +68,10 @@ Error ConstructionSection::no_region(std::size_t k) const {
     what = "the points lie on one circle there: a segment has an arc, and no region";
     hint = "use `fit` without --construction, or leave points of the circle out";
   }
-  return {ErrorCode::kNoSpiral,
-          what,
-          segment(k),
-          hint,
-          static_cast<std::ptrdiff_t>(point(row(k).from).number),
-          0.0};
+  return error(ErrorCode::kNoSpiral, what)
+      .where(segment(k))
+      .hint(hint)
+      .point(point(row(k).from).number);
 }
 
 std::vector<ConstructionSection> sections_of(const RegionPart& part) {

@@ -103,12 +103,10 @@ class TwoArcs {
   }
 
   [[nodiscard]] static Error turns_back(const ConstructionSection& section, std::size_t k) {
-    return {ErrorCode::kNoSpiral,
-            "two arcs would turn by half a turn or more there",
-            section.segment(k),
-            "put a point between them, or choose other headings",
-            static_cast<std::ptrdiff_t>(section.point(section.row(k).from).number),
-            0.0};
+    return error(ErrorCode::kNoSpiral, "two arcs would turn by half a turn or more there")
+        .where(section.segment(k))
+        .hint("put a point between them, or choose other headings")
+        .point(section.point(section.row(k).from).number);
   }
 
   /// Of the arc that stands over the middle of the chord: from angles and curvatures, free of the

@@ -97,7 +97,7 @@ std::string part_words(const SpaceChain& chain, std::size_t k) {
 }
 
 Error chain_error(std::string what, std::string hint) {
-  return {ErrorCode::kBadOption, std::move(what), "", std::move(hint), -1, 0.0};
+  return error(ErrorCode::kBadOption, std::move(what)).hint(std::move(hint));
 }
 
 class ChainForming {

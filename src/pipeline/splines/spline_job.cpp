@@ -311,12 +311,10 @@ double largest_jump(const std::vector<IdSpline>& parts) {
 }
 
 Error short_row(const ColumnTable& table, std::size_t row, const std::string& name) {
-  return {ErrorCode::kTooFewColumns,
-          "a row is too short",
-          fmt::format("{}:{}", name, table.lines[row]),
-          "every row needs x and its values; the last one alone may lack the integral",
-          static_cast<std::ptrdiff_t>(row),
-          0.0};
+  return error(ErrorCode::kTooFewColumns, "a row is too short")
+      .where(fmt::format("{}:{}", name, table.lines[row]))
+      .hint("every row needs x and its values; the last one alone may lack the integral")
+      .point(row);
 }
 
 Error missing_column(const char* what, const std::string& name) {

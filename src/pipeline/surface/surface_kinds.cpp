@@ -108,14 +108,12 @@ bool crosses_axis(const SpaceCurve& profile, Vec3 point, Vec3 direction) {
 Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance) {
   const double largest = distance < 0.0 ? found.largest_inwards : found.largest_outwards;
   const std::size_t places = found.folds.size();
-  return {
-      ErrorCode::kSurfaceFolds,
-      fmt::format("the offset by {:g} folds back on itself in {} {}, first at {}", distance, places,
-                  places == 1 ? "place" : "places", folded_at(patch, found.folds.front())),
-      "",
-      fmt::format("up to {:.6g} on this side it does not", largest),
-      -1,
-      largest};
+  return error(ErrorCode::kSurfaceFolds,
+               fmt::format("the offset by {:g} folds back on itself in {} {}, first at {}",
+                           distance, places, places == 1 ? "place" : "places",
+                           folded_at(patch, found.folds.front())))
+      .hint(fmt::format("up to {:.6g} on this side it does not", largest))
+      .value(largest);
 }
 
 }  // namespace

@@ -6,12 +6,11 @@
 namespace obvid::pipeline_detail {
 
 Error false_claim_in_space(const std::string& name, double claimed, double found) {
-  return {ErrorCode::kFalseClaim,
-          fmt::format("the file claims {} = {:.9g}, found {:.9g}", name, claimed, found),
-          "/" + name,
-          "form the curve again",
-          -1,
-          found};
+  return error(ErrorCode::kFalseClaim,
+               fmt::format("the file claims {} = {:.9g}, found {:.9g}", name, claimed, found))
+      .where("/" + name)
+      .hint("form the curve again")
+      .value(found);
 }
 
 void add_false_claim(JsonText& json, const Error* claim) {
