@@ -62,4 +62,17 @@ void in_parallel(std::size_t count, std::size_t threads,
   share.rethrow();
 }
 
+Result<void> in_parallel(std::size_t count, std::size_t threads, const RunContext& run,
+                         const std::function<void(std::size_t)>& work) {
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<bool> stopped{false};
+  in_parallel(count, threads, [&](std::size_t i) {
+    if (stopped) return;
+    work(i);
+    if (std::this_thread::get_id() == caller && !may_go_on(run)) stopped = true;
+  });
+  if (stopped) return fail(cancelled_error());
+  return {};
+}
+
 }  // namespace obvid

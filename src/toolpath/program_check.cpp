@@ -40,7 +40,7 @@ Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cel
   OBVID_TRY(program);
   OBVID_TRY(tell(run, "checking", 0.0));
   Simulation simulation(part, cells, reach, options.threads, chord);
-  simulation.cut(sweeps_of(*program, scale, part.field().high().z));
+  OBVID_TRY(simulation.cut(sweeps_of(*program, scale, part.field().high().z), run));
   return simulation.report(options.tolerance, within, run);
 }
 

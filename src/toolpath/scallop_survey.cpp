@@ -13,10 +13,11 @@ namespace obvid::toolpath {
 namespace {
 
 constexpr int kMostRounds = 10;
-constexpr double kPassMargin = 3.0;       // cells that a pass goes beyond high places
-constexpr double kPassesTogether = 2.0;   // diameters: passes nearer to each other become one
-constexpr double kLeastPassStep = 0.002;  // of the level step: nearer passes help no more
-constexpr double kLeastLine = 1e-7;       // of the range of parameters, likewise
+constexpr std::size_t kSpotsUnasked = 256;  // before whoever waits is asked whether to go on
+constexpr double kPassMargin = 3.0;         // cells that a pass goes beyond high places
+constexpr double kPassesTogether = 2.0;     // diameters: passes nearer to each other become one
+constexpr double kLeastPassStep = 0.002;    // of the level step: nearer passes help no more
+constexpr double kLeastLine = 1e-7;         // of the range of parameters, likewise
 
 /// As they are printed where no arcs stand for them.
 void append_sweeps(const Pass& pass, double within, std::vector<Sweep>& sweeps) {
@@ -54,17 +55,18 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, double share, const 
   for (int round = 0; round < kMostRounds; ++round) {
     const double part = static_cast<double>(round) / kMostRounds;
     OBVID_TRY(tell(run, "scallops", part));
-    simulation_.cut(sweeps);
+    OBVID_TRY(simulation_.cut(sweeps, run));
     sweeps.clear();
-    auto extra = wanted(family, share * scallop_);
-    for (std::size_t k = extra.size(); k-- > 0;) {  // from the end: numbers before stay
+    const auto extra = wanted(family, share * scallop_, run);
+    OBVID_TRY(extra);
+    for (std::size_t k = extra->size(); k-- > 0;) {  // from the end: numbers before stay
       OBVID_TRY(may_go_on(run));
-      auto pass = walker_.walk(extra[k].rail);
+      auto pass = walker_.walk((*extra)[k].rail);
       OBVID_TRY(pass);
       if (pass->empty()) continue;
       append_sweeps(*pass, print_, sweeps);
       ++count;
-      family.insert(family.begin() + static_cast<std::ptrdiff_t>(extra[k].behind + 1),
+      family.insert(family.begin() + static_cast<std::ptrdiff_t>((*extra)[k].behind + 1),
                     std::move(*pass));
     }
     if (sweeps.empty()) break;
@@ -145,9 +147,14 @@ Vec2 ScallopSurvey::outside(const Rail& rail, const std::vector<HighSpot>& spots
   return farthest * frame_.across();
 }
 
-std::vector<ScallopSurvey::Wanted> ScallopSurvey::wanted(const Family& family, double limit) {
+Result<std::vector<ScallopSurvey::Wanted>> ScallopSurvey::wanted(const Family& family, double limit,
+                                                                 const RunContext& run) {
+  const auto high = simulation_.above(limit, kScallopWithin * scallop_, run);
+  OBVID_TRY(high);
   std::map<Sides, std::vector<HighSpot>> places;
-  for (const HighSpot& spot : simulation_.above(limit, kScallopWithin * scallop_)) {
+  std::size_t seen = 0;
+  for (const HighSpot& spot : *high) {
+    if (++seen % kSpotsUnasked == 0) OBVID_TRY(may_go_on(run));
     if (const auto both = sides(family, spot)) places[*both].push_back(spot);
   }
   std::vector<Wanted> out;

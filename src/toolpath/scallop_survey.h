@@ -33,7 +33,8 @@ class ScallopSurvey {
     }
   };
 
-  [[nodiscard]] std::vector<Wanted> wanted(const Family& family, double limit);
+  [[nodiscard]] Result<std::vector<Wanted>> wanted(const Family& family, double limit,
+                                                   const RunContext& run);
   [[nodiscard]] Across across(const HighSpot& spot) const;
   [[nodiscard]] std::optional<double> across(const Rail& rail, const HighSpot& spot,
                                              double t) const;

@@ -139,7 +139,7 @@ CellBounds Simulation::bounds(Looking what, const Cell& cell, std::span<const st
   }
 }
 
-void Simulation::cut(const std::vector<Sweep>& sweeps) {
+Result<void> Simulation::cut(const std::vector<Sweep>& sweeps, const RunContext& run) {
   const std::size_t first = sweeps_.size();
   sweeps_.insert(sweeps_.end(), sweeps.begin(), sweeps.end());
   std::vector<std::size_t> had(of_tile_.size());
@@ -154,7 +154,7 @@ void Simulation::cut(const std::vector<Sweep>& sweeps) {
                         of_tile_[t].push_back(static_cast<std::uint32_t>(s));
                       });
   }
-  in_parallel(touched.size(), threads_, [&](std::size_t k) {
+  return in_parallel(touched.size(), threads_, run, [&](std::size_t k) {
     const SurfaceCells::Tile& tile = cells_.tiles()[touched[k]];
     const auto fresh =
         std::span<const std::uint32_t>(of_tile_[touched[k]]).subspan(had[touched[k]]);
@@ -180,8 +180,8 @@ const Nearest& Simulation::nearest(std::size_t node) {
   return known;
 }
 
-void Simulation::look_into_reach(double limit) {
-  in_parallel(cells_.tiles().size(), threads_, [&](std::size_t t) {
+Result<void> Simulation::look_into_reach(double limit, const RunContext& run) {
+  return in_parallel(cells_.tiles().size(), threads_, run, [&](std::size_t t) {
     const SurfaceCells::Tile& tile = cells_.tiles()[t];
     for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
       if (nodes_[i].left > limit && !(cells_.cells()[i].normal == Vec3{}))
@@ -243,16 +243,18 @@ bool Simulation::find_inside(std::size_t node, double limit, double within, High
   return false;
 }
 
-std::vector<HighSpot> Simulation::above(double limit, double within) {
-  look_into_reach(limit);
+Result<std::vector<HighSpot>> Simulation::above(double limit, double within,
+                                                const RunContext& run) {
+  OBVID_TRY(look_into_reach(limit, run));
   std::vector<std::vector<HighSpot>> found(cells_.tiles().size());
-  in_parallel(found.size(), threads_, [&](std::size_t t) {
+  const auto looked = in_parallel(found.size(), threads_, run, [&](std::size_t t) {
     const SurfaceCells::Tile& tile = cells_.tiles()[t];
     for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
       HighSpot spot;
       if (find_above(i, limit, within, spot)) found[t].push_back(spot);
     }
   });
+  OBVID_TRY(looked);
   std::vector<HighSpot> out;
   for (const auto& spots : found) out.insert(out.end(), spots.begin(), spots.end());
   return out;

@@ -49,13 +49,15 @@ class Simulation {
   Simulation(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
              std::size_t threads, double sway = 0.0);
 
-  void cut(const std::vector<Sweep>& sweeps);
+  [[nodiscard]] Result<void> cut(const std::vector<Sweep>& sweeps, const RunContext& run);
   /// Where more than `limit` stays though the cutter can touch the part: one place of each cell at
   /// most. Heights within `within` above the limit can stay unseen.
-  [[nodiscard]] std::vector<HighSpot> above(double limit, double within);
+  [[nodiscard]] Result<std::vector<HighSpot>> above(double limit, double within,
+                                                    const RunContext& run);
   /// `allowed`: depth that need not be looked into any closer; `within`: how near bounds come to
   /// what was found, where quartering has not to go too far for it.
-  [[nodiscard]] Result<SimulationReport> report(double allowed, double within, const RunContext& run);
+  [[nodiscard]] Result<SimulationReport> report(double allowed, double within,
+                                                const RunContext& run);
 
  private:
   static constexpr int kMostLevels = 9;  ///< of quarters
@@ -97,12 +99,13 @@ class Simulation {
   /// The cutter does not reach the middle of the node, but that of one beside it, where more than
   /// `limit` was looked into.
   [[nodiscard]] bool at_edge(std::size_t node, double limit) const;
-  void look_into_reach(double limit);  ///< nodes with more than that
+  [[nodiscard]] Result<void> look_into_reach(double limit,
+                                             const RunContext& run);  ///< nodes with more than that
   [[nodiscard]] bool find_above(std::size_t node, double limit, double within, HighSpot& spot);
   [[nodiscard]] bool find_inside(std::size_t node, double limit, double within, HighSpot& spot);
   [[nodiscard]] Result<void> report_depth(double allowed, SimulationReport& out,
                                           const RunContext& run) const;
-  void report_reach(SimulationReport& out);
+  Result<void> report_reach(SimulationReport& out, const RunContext& run);
   Result<void> report_left(double within, SimulationReport& out, const RunContext& run);
 
   const Part& part_;

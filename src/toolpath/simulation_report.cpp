@@ -11,19 +11,6 @@ namespace obvid::toolpath {
 namespace {
 
 constexpr std::size_t kCellsTogether = 2048;  // cells looked into before bounds are compared again
-constexpr std::size_t kCellsUnasked = 64;  // and before whoever waits is asked whether to go on: one
-                                           // takes a fraction of a millisecond
-
-/// `work` for all numbers below `count`, in parallel; asks in between.
-Result<void> asking(std::size_t count, std::size_t threads, const RunContext& run,
-                    const std::function<void(std::size_t)>& work) {
-  for (std::size_t begin = 0; begin < count; begin += kCellsUnasked) {
-    in_parallel(std::min(kCellsUnasked, count - begin), threads,
-                [&](std::size_t k) { work(begin + k); });
-    OBVID_TRY(may_go_on(run));
-  }
-  return {};
-}
 
 void raise_extreme(Extreme& extreme, double found, Vec3 place) {
   if (!(found > extreme.found)) return;
@@ -48,7 +35,7 @@ Result<void> Simulation::report_depth(double allowed, SimulationReport& out,
     }
   }
   std::vector<Extreme> found(deep.size());
-  const auto looked = asking(deep.size(), threads_, run, [&](std::size_t k) {
+  const auto looked = in_parallel(deep.size(), threads_, run, [&](std::size_t k) {
     quarter(Looking::kForDepth, deep[k], [&](const Piece& part, int levels) {
       raise_extreme(found[k], part.bounds.depth, part.cell.point);
       const bool deeper = part.bounds.depth_most > std::max(limit, found[k].found);
@@ -65,8 +52,8 @@ Result<void> Simulation::report_depth(double allowed, SimulationReport& out,
   return {};
 }
 
-void Simulation::report_reach(SimulationReport& out) {
-  look_into_reach(part_.tolerance());
+Result<void> Simulation::report_reach(SimulationReport& out, const RunContext& run) {
+  OBVID_TRY(look_into_reach(part_.tolerance(), run));
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Cell& cell = cells_.cells()[i];
     out.area += cell.area;
@@ -82,6 +69,7 @@ void Simulation::report_reach(SimulationReport& out) {
       out.held_place = cell.point;
     }
   }
+  return {};
 }
 
 // In order of what cells can hide at most, some at a time: what they show counts for the next.
@@ -105,7 +93,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
     if (nodes_[high[begin]].left_most <= limit + within) break;
     const std::size_t count = std::min(kCellsTogether, high.size() - begin);
     std::vector<Extreme> found(count, {limit, 0.0, {}});
-    const auto looked = asking(count, threads_, run, [&](std::size_t k) {
+    const auto looked = in_parallel(count, threads_, run, [&](std::size_t k) {
       const std::size_t node = high[begin + k];
       quarter(Looking::kForBoth, node, [&](const Piece& part, int levels) {
         const bool deeper = part.bounds.left_most > found[k].found + within;
@@ -134,7 +122,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
 Result<SimulationReport> Simulation::report(double allowed, double within, const RunContext& run) {
   SimulationReport out;
   OBVID_TRY(report_depth(allowed, out, run));
-  report_reach(out);
+  OBVID_TRY(report_reach(out, run));
   OBVID_TRY(may_go_on(run));
   OBVID_TRY(report_left(within, out, run));
   return out;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 
+#include "obvid/core/run_context.h"
+
 namespace obvid {
 
 /// work(i) once for each i in [0, count), in no order, on up to `threads` threads (0: as many as
@@ -11,5 +13,11 @@ namespace obvid {
 /// number of threads. Rethrows what the first of failing calls throws, when all have ended.
 void in_parallel(std::size_t count, std::size_t threads,
                  const std::function<void(std::size_t)>& work);
+
+/// The same for work that whoever waits may stop: the calling thread, which works too, asks after
+/// each of its numbers. Error: E103; some numbers are left out then.
+[[nodiscard]] Result<void> in_parallel(std::size_t count, std::size_t threads,
+                                       const RunContext& run,
+                                       const std::function<void(std::size_t)>& work);
 
 }  // namespace obvid
