@@ -41,9 +41,9 @@ class DirectionChanges {
 };
 
 /// Collects the claims of a contour one after the other; the first that fails is the reason.
-class Notary {
+class Certifier {
  public:
-  Notary(const Contour& contour, Watch& watch, PieceMemory::Pieces* known = nullptr)
+  Certifier(const Contour& contour, Watch& watch, PieceMemory::Pieces* known = nullptr)
       : contour_(contour), watch_(watch), known_(known) {}
 
   Certificate run() {
@@ -280,10 +280,12 @@ Certificate certify(const Contour& contour) {
   return certify(contour, nobody);
 }
 
-Certificate certify(const Contour& contour, Watch& watch) { return Notary(contour, watch).run(); }
+Certificate certify(const Contour& contour, Watch& watch) {
+  return Certifier(contour, watch).run();
+}
 
 Certificate certify(const Contour& contour, PieceMemory& memory, Watch& watch) {
-  return Notary(contour, watch, memory.pieces_.get()).run();
+  return Certifier(contour, watch, memory.pieces_.get()).run();
 }
 
 }  // namespace obvid

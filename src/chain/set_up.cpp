@@ -172,7 +172,7 @@ Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes)
         return error(ErrorCode::kFixedDataContradict,
                      "a convex contour was asked for, but the points turn the other way here")
             .where("point " + std::to_string(i + 1))
-            .hint("drop the wish for a convex contour")
+            .hint("do not ask for a convex contour")
             .point(i)
             .value(c.kappa);
       }
@@ -181,7 +181,7 @@ Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes)
                    ErrorCode::kFixedDataContradict,
                    "a convex contour was asked for, but the fixed radius turns the other way here")
             .where("point " + std::to_string(i + 1))
-            .hint("drop the wish for a convex contour, or change the sign of the radius")
+            .hint("do not ask for a convex contour, or change the sign of the radius")
             .point(i)
             .value(*p.nodes[i].kappa);
       }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "exact_conics.h"
+#include "obvid/curve/internal/piece_box.h"
 #include "obvid/geom/internal/angle.h"
 
 namespace obvid::exchange {
@@ -61,19 +62,6 @@ class StepShaper {
   double scale_, size_;
 };
 
-/// Of the box of some points on the pieces.
-double size_of_pieces(const std::vector<Piece>& pieces) {
-  Vec2 low = start_point(pieces.front()), high = low;
-  for (const Piece& piece : pieces) {
-    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-      const Vec2 p = evaluate(piece, t).point;
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-  }
-  return norm(high - low);
-}
-
 bool all_numbers_finite(const StepShape& shape) {
   const auto fine = [](double x) { return std::isfinite(x); };
   bool sound = is_finite(shape.start) && is_finite(shape.end);
@@ -99,7 +87,8 @@ bool makes_a_curve(const NurbsCurve& curve) {
   const std::size_t n = curve.points.size();
   if (curve.degree < 1 || n <= static_cast<std::size_t>(curve.degree)) return false;
   const auto p = static_cast<std::size_t>(curve.degree);
-  if ((!curve.weights.empty() && curve.weights.size() != n) || curve.knots.size() != n + p + 1) return false;
+  if ((!curve.weights.empty() && curve.weights.size() != n) || curve.knots.size() != n + p + 1)
+    return false;
   for (std::size_t i = 0; i + 1 < curve.knots.size(); ++i) {
     if (curve.knots[i] > curve.knots[i + 1]) return false;
   }
@@ -121,7 +110,7 @@ Result<std::vector<StepShape>> shapes_of(const CadCurve& curve, double scale) {
   }
   const auto& pieces = std::get<std::vector<Piece>>(curve.geometry);
   if (pieces.empty()) return refused_curve(ErrorCode::kNothingThere, "a curve has no pieces");
-  const StepShaper shaper(scale, size_of_pieces(pieces));
+  const StepShaper shaper(scale, about_size(pieces));
   for (const Piece& piece : pieces) {
     if (const auto* line = std::get_if<LinePiece>(&piece)) out.push_back(shaper.shape(*line));
     if (const auto* arc = std::get_if<ArcPiece>(&piece)) out.push_back(shaper.shape(*arc));

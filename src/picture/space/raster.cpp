@@ -107,22 +107,11 @@ DrawnPatch evaluated(const NurbsSurface& surface, double size, std::vector<doubl
   return patch;
 }
 
-double size_of_model(const SurfaceModel& model) {
-  Vec3 low = model.patches.front().surface.points.front(), high = low;
-  for (const SurfacePatch& patch : model.patches) {
-    for (const Vec3 p : patch.surface.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  }
-  return norm(high - low);
-}
-
 }  // namespace
 
 std::vector<DrawnPatch> drawn_patches(const SurfaceModel& model, SurfaceColouring colouring,
                                       std::size_t most_facets) {
-  const double size = std::max(size_of_model(model), std::numeric_limits<double>::min());
+  const double size = std::max(size_of(model), std::numeric_limits<double>::min());
   std::vector<Plan> plans;
   double shares = 0.0;
   for (const SurfacePatch& patch : model.patches) {

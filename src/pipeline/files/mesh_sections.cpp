@@ -13,15 +13,15 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-constexpr int kDigits = 6;  // of bounds in messages
+constexpr int kBoundDigits = 6;  // of bounds in messages
 
 /// From where to where the mesh lies along the axis.
 std::string extent_text(const TriangleMesh& mesh, char axis) {
   const auto bounds = bounds_of(mesh);
   if (!bounds) return {};
   const Vec3 normal = plane_across(axis, 0.0).normal();
-  return fmt::format("{} = {} to {}", axis, significant(dot(bounds->low, normal), kDigits),
-                     significant(dot(bounds->high, normal), kDigits));
+  return fmt::format("{} = {} to {}", axis, significant(dot(bounds->low, normal), kBoundDigits),
+                     significant(dot(bounds->high, normal), kBoundDigits));
 }
 
 /// Axes across which planes lie, each once.

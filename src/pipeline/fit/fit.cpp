@@ -472,7 +472,7 @@ Result<void> keeps_convex(const Contour& contour, const Certificate& certificate
   Error error =
       obvid::error(ErrorCode::kFixedDataContradict,
                    "a convex contour was asked for, but none was found within the tolerances")
-          .hint("drop the wish for a convex contour, or allow larger tolerances");
+          .hint("do not ask for a convex contour, or allow larger tolerances");
   int turns = 0;
   for (const Joint& joint : contour.joints) {
     turns += joint.element.kappa > 0.0 ? 1 : joint.element.kappa < 0.0 ? -1 : 0;

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "obvid/core/internal/figures.h"
+#include "obvid/curve/internal/piece_box.h"
 #include "obvid/pipeline/import.h"
 
 namespace obvid {
@@ -27,53 +28,6 @@ std::optional<AnalysedSeries> analysed(Drawing& drawing, std::size_t number) {
   drawing.warnings.insert(drawing.warnings.end(), series.warnings.begin(), series.warnings.end());
   return AnalysedSeries{std::move(series), std::move(*analysis)};
 }
-
-/// The least box that holds what it was shown.
-class Box {
- public:
-  explicit Box(Vec2 first) : low_(first), high_(first) {}
-
-  void see(Vec2 p) {
-    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-  }
-
-  /// Ends of a piece, and the places in between where it turns back along an axis.
-  void see(const Piece& piece) {
-    constexpr int kBoxSteps = 64;  // such places lie farther apart, but for arcs of many turns
-    see(start_point(piece));
-    see(end_point(piece));
-    if (std::holds_alternative<LinePiece>(piece)) return;
-    for (const double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
-      const auto speed = [&](double t) { return evaluate(piece, t).d1.*axis; };
-      double before = speed(0.0);
-      for (int i = 1; i <= kBoxSteps; ++i) {
-        const double t = static_cast<double>(i) / kBoxSteps, here = speed(t);
-        if ((before < 0.0) != (here < 0.0)) {
-          see(evaluate(piece, turn_back(speed, t - 1.0 / kBoxSteps, t)).point);
-        }
-        before = here;
-      }
-    }
-  }
-
-  [[nodiscard]] Vec2 low() const { return low_; }
-  [[nodiscard]] Vec2 high() const { return high_; }
-
- private:
-  template <class Speed>
-  static double turn_back(const Speed& speed, double from, double to) {
-    constexpr int kHalvings = 60;
-    const bool falls = speed(from) < 0.0;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = 0.5 * (from + to);
-      ((speed(middle) < 0.0) == falls ? from : to) = middle;
-    }
-    return from;
-  }
-
-  Vec2 low_, high_;
-};
 
 bool is_circle(const std::vector<Piece>& pieces) {
   constexpr double kSame = 1e-9;  // of the curvature
@@ -149,10 +103,10 @@ DrawnFigures figures_of(const PointSeries& series) {
   if (points.empty()) return out;
   for (std::size_t i = 1; i < points.size(); ++i) out.length += norm(points[i] - points[i - 1]);
   out.closed = points.size() > 2 && points.front() == points.back();
-  Box box(points.front());
-  for (const Vec2 p : points) box.see(p);
-  out.low = box.low();
-  out.high = box.high();
+  Box2 box;
+  for (const Vec2 p : points) box.add(p);
+  out.low = box.low;
+  out.high = box.high;
   return out;
 }
 
@@ -164,10 +118,10 @@ DrawnFigures figures_of(const CurveAudit& audit) {
   out.length = audit.length;
   out.closed = contour.closed;
   if (contour.pieces.empty()) return out;
-  Box box(start_point(contour.pieces.front()));
-  for (const Piece& piece : contour.pieces) box.see(piece);
-  out.low = box.low();
-  out.high = box.high();
+  Box2 box;
+  for (const Piece& piece : contour.pieces) add_piece(box, piece);
+  out.low = box.low;
+  out.high = box.high;
   return out;
 }
 

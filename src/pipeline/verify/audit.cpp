@@ -10,6 +10,7 @@
 #include "obvid/certify/certify.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/curve/internal/curvature_extent.h"
+#include "obvid/curve/internal/piece_box.h"
 #include "obvid/curve/internal/runs.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/series/analysis.h"
@@ -48,14 +49,6 @@ struct Sample {
   double kappa = 0.0;
 };
 
-double size_of_pieces(const std::vector<Piece>& pieces) {
-  std::vector<Vec2> points;
-  for (const Piece& piece : pieces) {
-    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) points.push_back(evaluate(piece, t).point);
-  }
-  return bounding_diagonal(points);
-}
-
 class Auditor {
  public:
   Auditor(const DrawnCurve& curve, const Units& units) {
@@ -67,7 +60,7 @@ class Auditor {
     out_.contour.closed = curve.closed;
     out_.contour.pieces = curve.pieces;
     straighten_all();
-    size_ = size_of_pieces(out_.contour.pieces);
+    size_ = about_size(out_.contour.pieces);
   }
 
   CurveAudit run() {
