@@ -30,8 +30,8 @@ std::vector<double> numbers_of(std::string_view text) {
 }  // namespace
 
 std::size_t PlaneRow::count() const {
-  constexpr double kRounding = 1e-9;  // of a step: 0:0.1:1 has eleven planes
-  return static_cast<std::size_t>(std::floor((to - from) / step + kRounding)) + 1;
+  constexpr double kPartOfStep = 1e-9;  // of a step: 0:0.1:1 has eleven planes
+  return static_cast<std::size_t>(std::floor((to - from) / step + kPartOfStep)) + 1;
 }
 
 Result<PlaneRow> plane_row_named(const std::string& text) {
