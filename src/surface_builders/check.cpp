@@ -182,12 +182,14 @@ double led_to(const std::array<SurfaceCurvature, kApproach + 1>& along, const Ex
 }
 
 /// Area and curvature of a patch.
+constexpr std::size_t kWaysUnasked = 64;  // before whoever waits is asked whether to go on
+
 struct Measured {
   double area = 0.0;
   CurvatureExtents curvature;
 };
 
-Measured measured(const NurbsSurface& s, std::size_t n) {
+Result<Measured> measured(const NurbsSurface& s, std::size_t n, const RunContext& run) {
   constexpr std::array kQuantities{&SurfaceCurvature::gaussian, &SurfaceCurvature::mean,
                                    &SurfaceCurvature::k1, &SurfaceCurvature::k2};
   std::vector<Extreme> extremes;
@@ -199,6 +201,7 @@ Measured measured(const NurbsSurface& s, std::size_t n) {
   const std::vector<Node> along_u = nodes_of(s.knots_u, domain_u(s), n);
   const std::vector<Node> along_v = nodes_of(s.knots_v, domain_v(s), n);
   for (const Node& v : along_v) {
+    OBVID_TRY(may_go_on(run));
     for (const Node& u : along_u) {
       const SurfaceJet jet = evaluate(s, u.at, v.at);
       out.area += norm(cross(jet.du, jet.dv)) * u.weight * v.weight;
@@ -212,8 +215,13 @@ Measured measured(const NurbsSurface& s, std::size_t n) {
   }
   if (!std::isfinite(extremes.front().value)) return out;  // no tangent plane anywhere
   std::vector<double> most;
-  for (const Extreme& one : extremes) most.push_back(climbed(s, one));
+  for (const Extreme& one : extremes) {
+    OBVID_TRY(may_go_on(run));
+    most.push_back(climbed(s, one));
+  }
+  std::size_t ways = 0;
   for (const Way& way : ways_out(s, along_u, along_v)) {
+    if (++ways % kWaysUnasked == 0) OBVID_TRY(may_go_on(run));
     if (!vanishes(s, way)) continue;
     std::array<SurfaceCurvature, kApproach + 1> along;
     bool tangent = true;
@@ -235,7 +243,8 @@ Measured measured(const NurbsSurface& s, std::size_t n) {
   return out;
 }
 
-PatchReport report_of(const SurfacePatch& patch, std::size_t samples) {
+Result<PatchReport> report_of(const SurfacePatch& patch, std::size_t samples,
+                              const RunContext& run) {
   const NurbsSurface& s = patch.surface;
   PatchReport report;
   report.name = patch.name;
@@ -246,15 +255,21 @@ PatchReport report_of(const SurfacePatch& patch, std::size_t samples) {
   report.order_u = order_of(s.knots_u, s.degree_u);
   report.order_v = order_of(s.knots_v, s.degree_v);
   report.rational = !s.weights.empty();
-  const Measured found = measured(s, samples);
+  const auto measures = measured(s, samples, run);
+  OBVID_TRY(measures);
+  const Measured& found = *measures;
   report.area = found.area;
   report.gaussian = found.curvature.gaussian;
   report.mean = found.curvature.mean;
   report.k1 = found.curvature.k1;
   report.k2 = found.curvature.k2;
   report.without_normal = found.curvature.without_normal;
-  report.along_u = check_lines(s, samples);
-  report.along_v = check_lines(transposed(s), samples);
+  const auto along_u = check_lines(s, samples, run);
+  OBVID_TRY(along_u);
+  const auto along_v = check_lines(transposed(s), samples, run);
+  OBVID_TRY(along_v);
+  report.along_u = *along_u;
+  report.along_v = *along_v;
   return report;
 }
 
@@ -332,13 +347,14 @@ JointReport joint_of(const SurfaceModel& model, const EdgeUse& one, const EdgeUs
 }
 
 /// All pairs of sides at the edges, in the order of the patches.
-std::vector<JointReport> joints_of(const SurfaceModel& model, const Topology& same,
-                                   double nearness) {
+Result<std::vector<JointReport>> joints_of(const SurfaceModel& model, const Topology& same,
+                                           double nearness, const RunContext& run) {
   std::vector<JointReport> joints;
   const Topology near = topology_of(surfaces_of(model), nearness);
   for (const TopologyEdge& edge : near.edges) {
     for (std::size_t a = 0; a < edge.uses.size(); ++a) {
       for (std::size_t b = a + 1; b < edge.uses.size(); ++b) {
+        OBVID_TRY(may_go_on(run));
         const EdgeUse &one = edge.uses[a], &two = edge.uses[b];
         joints.push_back(joint_of(model, one, two));
         joints.back().shared =
@@ -357,7 +373,7 @@ std::vector<JointReport> joints_of(const SurfaceModel& model, const Topology& sa
 }  // namespace
 
 CurvatureExtents curvature_extents(const NurbsSurface& surface, std::size_t samples) {
-  return measured(surface, samples).curvature;
+  return measured(surface, samples, {})->curvature;  // nobody stops it
 }
 
 Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions& options,
@@ -368,10 +384,14 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
     const double part =
         static_cast<double>(result.patches.size()) / static_cast<double>(model.patches.size());
     OBVID_TRY(tell(run, "measuring", part));
-    result.patches.push_back(report_of(patch, options.samples));
+    auto report = report_of(patch, options.samples, run);
+    OBVID_TRY(report);
+    result.patches.push_back(std::move(*report));
   }
   const Topology topology = topology_of(model);
-  result.joints = joints_of(model, topology, options.meeting * result.size);
+  auto joints = joints_of(model, topology, options.meeting * result.size, run);
+  OBVID_TRY(joints);
+  result.joints = std::move(*joints);
   for (const TopologyEdge& edge : topology.edges) {
     if (!edge.point && edge.uses.size() == 1) ++result.free_borders;
   }

@@ -76,11 +76,13 @@ std::size_t sign_changes(const std::vector<double>& values, double least) {
 
 }  // namespace
 
-LineReport check_lines(const NurbsSurface& surface, std::size_t lines) {
+Result<LineReport> check_lines(const NurbsSurface& surface, std::size_t lines,
+                               const RunContext& run) {
   LineReport report;
   const Range range = domain_v(surface);
   const double size = size_of(surface);
   for (std::size_t j = 0; j < lines; ++j) {
+    OBVID_TRY(may_go_on(run));
     const double v =
         range.at(lines > 1 ? static_cast<double>(j) / static_cast<double>(lines - 1) : 0.5);
     const std::vector<double> values = curvatures(isocurve_at_v(surface, v));

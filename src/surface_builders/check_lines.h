@@ -7,7 +7,8 @@
 
 namespace obvid {
 
-/// Curvature along the lines v = const of a surface.
-[[nodiscard]] LineReport check_lines(const NurbsSurface& surface, std::size_t lines);
+/// Curvature along the lines v = const of a surface. Error: E103.
+[[nodiscard]] Result<LineReport> check_lines(const NurbsSurface& surface, std::size_t lines,
+                                             const RunContext& run);
 
 }  // namespace obvid
