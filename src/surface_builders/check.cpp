@@ -181,9 +181,9 @@ double led_to(const std::array<SurfaceCurvature, kApproach + 1>& along, const Ex
   return grows ? std::numeric_limits<double>::infinity() : value[kLast];
 }
 
-/// Area and curvature of a patch.
 constexpr std::size_t kWaysUnasked = 64;  // before whoever waits is asked whether to go on
 
+/// Area and curvature of a patch.
 struct Measured {
   double area = 0.0;
   CurvatureExtents curvature;

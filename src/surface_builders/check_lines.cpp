@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/curve/internal/basis.h"
+
 namespace obvid {
 namespace {
 
