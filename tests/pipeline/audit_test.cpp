@@ -177,5 +177,65 @@ TEST(Audit, NothingIsNothing) {
   EXPECT_EQ(a.length, 0.0);
 }
 
+/// Where the curvature changes its sign: the middle of what is straight in between, else the place
+/// itself. Lengths and places by hand.
+TEST(Audit, InflectionsLieWhereTheirLengthSays) {
+  const double quarter = 0.5 * kPi;
+  // up an arc to the left, 6 along a line to the north, an arc to the right
+  const std::vector<Piece> s_shape = {arc_from({0, 0}, 0.0, 1.0, quarter),
+                                      LinePiece{{1, 1}, {1, 7}},
+                                      arc_from({1, 7}, quarter, -0.5, kPi)};
+  const CurveAudit a = audit({"S", s_shape, false}, "mm");
+  ASSERT_EQ(count(a, AuditPlace::Kind::kInflection), 1);
+  for (const AuditPlace& place : a.places) {
+    if (place.kind != AuditPlace::Kind::kInflection) continue;
+    EXPECT_NEAR(place.s, quarter + 3.0, 1e-9);
+    EXPECT_NEAR(place.point.x, 1.0, 1e-9);
+    EXPECT_NEAR(place.point.y, 4.0, 1e-9);
+  }
+}
+
+TEST(Audit, InflectionsAreFoundAcrossTheSeamOfALoop) {
+  // an eight of two circles of radius 1 beside each other, with lines of length 2 that cross
+  const double half = std::sqrt(3.0);  // from the crossing to where a circle is touched
+  const double turn = 4.0 / 3.0 * kPi;
+  const Vec2 right_low{1.5, -0.5 * half}, right_high{1.5, 0.5 * half};
+  const Vec2 left_low{-1.5, -0.5 * half}, left_high{-1.5, 0.5 * half};
+  const double up = std::atan2(half, 3.0);
+  const std::vector<Piece> eight = {
+      LinePiece{left_low, right_high}, arc_from(right_high, up, -1.0, turn),
+      LinePiece{right_low, left_high}, arc_from(left_high, kPi - up, 1.0, turn)};
+  for (std::size_t seam = 0; seam < eight.size(); ++seam) {
+    DrawnCurve curve{"eight", eight, true};
+    std::rotate(curve.pieces.begin(), curve.pieces.begin() + static_cast<std::ptrdiff_t>(seam),
+                curve.pieces.end());
+    const CurveAudit a = audit(curve, "mm");
+    EXPECT_EQ(count(a, AuditPlace::Kind::kInflection), 2);
+    for (const AuditPlace& place : a.places) {
+      if (place.kind != AuditPlace::Kind::kInflection) continue;
+      EXPECT_NEAR(norm(place.point), 0.0, 1e-9) << "seam " << seam;
+      double from_line = std::fmod(place.s, half + half + turn);
+      if (seam % 2 == 1) from_line -= turn;
+      EXPECT_NEAR(from_line, half, 1e-9) << "seam " << seam;
+    }
+  }
+}
+
+TEST(Audit, AnInflectionInsideAPieceIsItsPlace) {
+  // y = x^3 over [-1, 2]: x = -1 + 3 t
+  RationalBezier cubic;
+  cubic.degree = 3;
+  cubic.weight = {1, 1, 1, 1};
+  cubic.origin = {-1, -1};
+  cubic.offset = {Vec2{0, 0}, Vec2{1, 3}, Vec2{2, -3}, Vec2{3, 9}};
+  const CurveAudit a = audit({"cubic", {Piece(cubic)}, false}, "mm");
+  ASSERT_EQ(count(a, AuditPlace::Kind::kInflection), 1);
+  for (const AuditPlace& place : a.places) {
+    if (place.kind != AuditPlace::Kind::kInflection) continue;
+    EXPECT_NEAR(place.point.x, 0.0, 1e-9);
+    EXPECT_NEAR(place.point.y, 0.0, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace obvid

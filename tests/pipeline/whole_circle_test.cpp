@@ -119,9 +119,10 @@ TEST(WholeCircle, RefusesOtherDataAndNamesThePoint) {
   other_curvatures.kappas = ValueRange{0.15, 0.2};
   own.thetas = ValueRange{kQuarterTurn + 0.29, kQuarterTurn + 0.31};
   own.kappas = ValueRange{0.14, 0.15};
-  for (const PointWish& wish : {heading_at(3, kQuarterTurn + 0.3 + 1e-5),
-                                heading_at(3, -kQuarterTurn + 0.3), curvature_beside(3, -1.0 / 7.0),
-                                curvature_beside(3, 1.0001 / 7.0), other_headings, other_curvatures}) {
+  for (const PointWish& wish :
+       {heading_at(3, kQuarterTurn + 0.3 + 1e-5), heading_at(3, -kQuarterTurn + 0.3),
+        curvature_beside(3, -1.0 / 7.0), curvature_beside(3, 1.0001 / 7.0), other_headings,
+        other_curvatures}) {
     FitJob job;
     job.wishes = {wish};
     const auto made = fit(arc, job);
@@ -151,6 +152,33 @@ TEST(WholeCircle, ThreePointsKeepTheirCircleWhereItHasWhatIsGiven) {
   const auto other = fit(arc, job);
   ASSERT_TRUE(other) << to_line(other.error());
   EXPECT_FALSE(std::holds_alternative<ArcPiece>(other->contour.pieces.front()));
+}
+
+/// A chord that spans more than half of the circle: no piece alone turns by so much with a proof.
+TEST(WholeCircle, IsProvedWhereAChordSpansMoreThanHalf) {
+  const std::vector<std::vector<Vec2>> all = {
+      {{3, 4}, {5, 0}, {4, -3}, {3, -4}},              // open, radius 5
+      {{3, 4}, {5, 0}, {4, -3}, {3, -4}, {3, 4}},      // closed by more than half of it
+      {{0, 0}, {100, 0}, {80, 30}, {20, 30}, {0, 0}},  // a trapezoid has a circle, too
+      {{3, -4}, {3, 4}, {5, 0}, {4, -3}}};
+  for (const auto& points : all) {
+    PointSeries series;
+    series.points = points;
+    for (const Carrier carrier : {Carrier::kSpiral, Carrier::kArcs, Carrier::kClothoids}) {
+      FitJob job;
+      job.carrier = carrier;
+      job.find_corners = false;
+      const auto made = fit(series, job);
+      ASSERT_TRUE(made) << to_line(made.error());
+      EXPECT_TRUE(made->certificate.proved) << to_string(carrier) << made->certificate.reason;
+      // the circle through the first three points
+      const Vec2 a = points[1] - points[0], b = points[2] - points[0];
+      const double kappa = 2.0 * cross(a, b) / (norm(a) * norm(b) * norm(b - a));
+      for (const Joint& joint : made->contour.joints) {
+        EXPECT_NEAR(joint.element.kappa / kappa, 1.0, 1e-12);
+      }
+    }
+  }
 }
 
 }  // namespace

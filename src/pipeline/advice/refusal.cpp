@@ -72,10 +72,13 @@ Error with_tolerance(Error error, const std::optional<WhyNot>& why, const PointS
     error.hint +=
         "within " + room_within(*why, units) + " there is one: " + advised_option(*why, series);
   } else {
-    error.hint += fmt::format(
-        "the search for a larger tolerance that does ended at its limit: up to {} {} none was "
-        "found",
-        significant(why->refused, kAdvisedDigits), units);
+    error.hint += "the search for a larger tolerance that does ended at its limit";
+    if (why->refused > 0.0) {
+      error.hint += fmt::format(": within {} {} none was found",
+                                significant(why->refused, kAdvisedDigits), units);
+    } else {
+      error.hint += " before one was tried to its end; --suggest tries eight";
+    }
   }
   return error;
 }

@@ -16,26 +16,58 @@ namespace {
 
 constexpr std::size_t kFewPoints = 3;  // they lie on one circle, whatever curve was meant
 
-/// One line or arc through all points, as many pieces as chords.
+constexpr double kMostArcTurn = 2.5;  // rad, of each of several pieces
+constexpr double kOneArcTurn =
+    3.0;  // rad, of a piece alone: what turns by half a turn has no proof
+
+/// The link from the last element of a chain to the next point, along an arc or a line; in parts
+/// where it turns by half a turn or nearly so. `alpha` is the heading before the chord, from it.
+void add_arc(SeriesChain& chain, Vec2 to, std::size_t source, const Chord& chord, double alpha,
+             double theta) {
+  const bool whole = 2.0 * std::abs(alpha) <= kOneArcTurn;
+  const auto parts =
+      whole ? std::size_t{1}
+            : static_cast<std::size_t>(std::ceil(2.0 * std::abs(alpha) / kMostArcTurn));
+  const double kappa = chain.elements.back().kappa;
+  const double turn = -2.0 * alpha / static_cast<double>(parts);
+  const double length = whole ? chord.length : 2.0 * std::abs(std::sin(0.5 * turn) / kappa);
+  for (std::size_t k = 1; k <= parts; ++k) {
+    const double before = chain.elements.back().theta;
+    const double omega = whole ? chord.omega : before + 0.5 * turn;
+    const Vec2 start = chain.elements.back().point;
+    const bool last = k == parts;
+    chain.cone.push_back(Cone::kNone);
+    chain.direction.push_back(0);
+    chain.elements.push_back({last ? to : start + length * Vec2{std::cos(omega), std::sin(omega)},
+                              last ? theta : before + turn, kappa});
+    chain.source.push_back(last ? std::optional<std::size_t>(source) : std::nullopt);
+    if (whole) {
+      chain.links.push_back({length, omega, before - omega, theta - omega, 0.0, 0.0, 0.0});
+    } else {
+      chain.links.push_back({length, omega, -0.5 * turn, 0.5 * turn, 0.0, 0.0, 0.0});
+    }
+  }
+}
+
+/// One line or arc through all points, a piece for each chord, or more where it is a half circle or
+/// more.
 SeriesChain one_circle(const std::vector<Vec2>& points, const Analysis& a) {
   SeriesChain out;
   const std::size_t n = points.size();
   const double kappa = a.stretches.front().kappa;
-  out.cone.assign(n - 1, Cone::kNone);
-  out.direction.assign(n - 1, 0);
   out.converged = true;
   out.smallest_margin = 1.0;
-  for (std::size_t i = 0; i < n; ++i) {
+  const auto theta_at = [&](std::size_t i) {
     const bool last = i + 1 == n;
-    const Chord& chord = a.chords[last ? i - 1 : i];
     const double angle = kappa == 0.0 ? 0.0 : last ? a.circles[i].eta_in : -a.circles[i].eta_out;
-    out.elements.push_back({points[i], chord.omega + angle, kappa});
-    out.source.emplace_back(i);
-  }
+    return a.chords[last ? i - 1 : i].omega + angle;
+  };
+  out.elements.push_back({points[0], theta_at(0), kappa});
+  out.source.emplace_back(0);
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double omega = a.chords[i].omega;
-    out.links.push_back({a.chords[i].length, omega, out.elements[i].theta - omega,
-                         out.elements[i + 1].theta - omega, 0.0, 0.0, 0.0});
+    const Chord& chord = a.chords[i];
+    add_arc(out, points[i + 1], i + 1, chord, out.elements.back().theta - chord.omega,
+            theta_at(i + 1));
   }
   return out;
 }
@@ -129,7 +161,6 @@ std::optional<SeriesChain> arc_between(const std::vector<Vec2>& points, const An
                                        const ChainWishes& wishes) {
   constexpr double kArcHeading = 1e-12;    // rad: what typed degrees leave of their sum
   constexpr double kArcCurvature = 1e-12;  // of the arc's
-  constexpr double kMostArcTurn = 2.5;     // rad, of one piece: below half a turn
   const FixedData &first = wishes.fixed.front(), &last = wishes.fixed.back();
   if (points.size() != 2 || !first.theta || !last.theta) return std::nullopt;
   const double omega = analysis.chords.front().omega, h = analysis.chords.front().length;
@@ -141,27 +172,12 @@ std::optional<SeriesChain> arc_between(const std::vector<Vec2>& points, const An
     const double off = given->kappa ? std::abs(*given->kappa - kappa) : 0.0;
     if (off > kArcCurvature * std::abs(kappa)) return std::nullopt;
   }
-  const auto parts =
-      static_cast<std::size_t>(std::max(std::ceil(2.0 * std::abs(alpha) / kMostArcTurn), 1.0));
-  const double turn = -2.0 * alpha / static_cast<double>(parts);
-  const double length = kappa == 0.0 ? h : 2.0 * std::abs(std::sin(0.5 * turn) / kappa);
   SeriesChain out;
   out.converged = true;
   out.smallest_margin = 1.0;
   out.elements = {{points[0], omega + alpha, kappa}};
   out.source = {std::size_t{0}};
-  for (std::size_t k = 1; k <= parts; ++k) {
-    const double before = out.elements.back().theta, chord = before + 0.5 * turn;
-    const Vec2 start = out.elements.back().point;
-    const bool last_one = k == parts;
-    out.cone.push_back(Cone::kNone);
-    out.direction.push_back(0);
-    out.elements.push_back(
-        {last_one ? points[1] : start + length * Vec2{std::cos(chord), std::sin(chord)},
-         last_one ? omega - alpha : before + turn, kappa});
-    out.source.push_back(last_one ? std::optional<std::size_t>(1) : std::nullopt);
-    out.links.push_back({length, chord, -0.5 * turn, 0.5 * turn, 0.0, 0.0, 0.0});
-  }
+  add_arc(out, points[1], 1, analysis.chords.front(), alpha, omega - alpha);
   return out;
 }
 

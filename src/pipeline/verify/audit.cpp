@@ -380,24 +380,50 @@ class Auditor {
   }
 
   void sign_changes(double least) {
-    const Sample *last = nullptr, *first = nullptr;
-    for (const Sample& now : samples_) {
-      if (std::abs(now.kappa) <= least) continue;
-      if (first == nullptr) first = &now;
-      if (last != nullptr && last->kappa * now.kappa < 0.0) {
-        const double part = last->kappa / (last->kappa - now.kappa);
-        Sample at = now;
-        if (last->piece == now.piece) at.t = last->t + part * (now.t - last->t);
-        at.s = last->s + part * (now.s - last->s);
-        at.kappa = 0.0;
-        place(AuditPlace::Kind::kInflection, at);
-      }
-      last = &now;
+    std::optional<std::size_t> last;
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      if (std::abs(samples_[k].kappa) <= least) continue;
+      if (!last) first = k;
+      if (last && samples_[*last].kappa * samples_[k].kappa < 0.0) place_inflection(*last, k);
+      last = k;
     }
-    if (!out_.contour.closed || last == nullptr || !(last->kappa * first->kappa < 0.0)) return;
-    Sample seam = samples_.front();
-    seam.kappa = 0.0;
-    place(AuditPlace::Kind::kInflection, seam);
+    if (!out_.contour.closed || !last) return;
+    if (samples_[*last].kappa * samples_[first].kappa < 0.0) {
+      place_inflection(*last, first + samples_.size());  // past the seam
+    }
+  }
+
+  /// Curvature has one sign up to a sample and the other one from a later one on: where it is
+  /// straight in between, the middle of that, else the place where the sign changes.
+  void place_inflection(std::size_t from, std::size_t to) {
+    const double sign = sample(from).kappa > 0.0 ? 1.0 : -1.0;
+    while (from + 1 < to && sign * sample(from + 1).kappa > 0.0) ++from;
+    while (to > from + 1 && sign * sample(to - 1).kappa < 0.0) --to;
+    const double end = where_it_turns(from, [&](double kappa) { return sign * kappa > 0.0; });
+    const double begin = where_it_turns(to - 1, [&](double kappa) { return sign * kappa >= 0.0; });
+    const double length = path_->length();
+    double middle = 0.5 * (end + begin);
+    if (middle > length) middle -= length;
+    const ContourPath::Parameter found = path_->parameter(middle);
+    place(AuditPlace::Kind::kInflection, {found.piece, found.t, middle, 0.0});
+  }
+
+  /// Length at which what holds at a sample and not at the next one ends.
+  template <class Holds>
+  [[nodiscard]] double where_it_turns(std::size_t k, const Holds& holds) const {
+    const Sample &one = sample(k), &next = sample(k + 1);
+    const double before = k >= samples_.size() ? path_->length() : 0.0;
+    if (k + 1 == samples_.size()) return path_->length();
+    if (one.piece != next.piece) return before + next.s;
+    const Piece& piece = out_.contour.pieces[one.piece];
+    constexpr int kHalvings = 50;
+    double low = one.t, high = next.t;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (holds(curvature(evaluate(piece, middle))) ? low : high) = middle;
+    }
+    return before + path_->length_at(one.piece, high);
   }
 
   CurveAudit out_;
