@@ -16,6 +16,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// Headings at which a new part of a curve is kept.
+constexpr double kReachWork = 3.0;  // steps of a solver on a point that take as long as a link
 constexpr int kPartSamples = 96;
 /// Curves with more are thinned: what one part had at first lies ever closer later on.
 constexpr std::size_t kMostSamples = 1500;
@@ -516,6 +517,7 @@ std::vector<Side> reach_all(const std::vector<RangeLink>& links,
   out[place(0)] = at_first(link(0), order);
   for (std::size_t k = 0; k + 1 < n; ++k) {
     if (is_to_end(watch)) return {};
+    if (watch != nullptr) watch->spend(kReachWork);
     out[place(k + 1)] = advance(out[place(k)], nodes[place(k)], link(k), order);
   }
   return out;
@@ -688,6 +690,7 @@ bool give_in_turn(const std::vector<RangeLink>& links, std::vector<RangeNode>& n
   Side left = at_first(links.front(), 1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (is_to_end(watch)) return false;
+    if (watch != nullptr) watch->spend(kReachWork);
     if (i > 0) left = advance(left, nodes[i - 1], links[i - 1], 1);
     const bool now = i >= first && (i - first) % every == 0;
     if (now && !beside_an_arc(links, i) && !choose(i, left, right[i])) return false;

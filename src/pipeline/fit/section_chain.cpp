@@ -171,8 +171,8 @@ class SectionChooser {
     if (series_.prefer != Prefer::kLeastCurvature || cap_) return {};
     const auto analysis = analyse(points_);
     OBVID_TRY(analysis);
-    const auto least = loop_ ? least_largest_curvature_of_loop(points_, wishes())
-                             : least_largest_curvature(*analysis, wishes());
+    const auto least = loop_ ? least_largest_curvature_of_loop(points_, wishes(), watch_)
+                             : least_largest_curvature(*analysis, wishes(), watch_);
     if (!least) {
       return error(ErrorCode::kFixedDataContradict,
                    "what is given leaves no headings and curvatures with which a monotone contour "

@@ -56,9 +56,11 @@ bool cap_curvatures(std::vector<RangeNode>& nodes, double most) {
   return true;
 }
 
-/// The least value for which something is possible, from one that may not be large enough.
+/// The least value for which something is possible, from one that may not be large enough. What
+/// is not possible without a limit has none.
 template <class Possible>
 std::optional<double> least_possible(double high, const Possible& possible) {
+  if (!possible(std::numeric_limits<double>::infinity())) return std::nullopt;
   for (int k = 0; !(high > 0.0 && possible(high)); ++k, high *= 2.0) {
     if (k == kMostCurvatureSteps || high == 0.0) return std::nullopt;
   }
@@ -106,7 +108,8 @@ Result<std::vector<FeasibleData>> series_ranges(const Analysis& analysis,
   return feasible_data(ranges.links, ranges.nodes);
 }
 
-std::optional<double> least_largest_curvature(const Analysis& analysis, const ChainWishes& wishes) {
+std::optional<double> least_largest_curvature(const Analysis& analysis, const ChainWishes& wishes,
+                                              Watch& watch) {
   const bool one_circle = std::all_of(analysis.direction.begin(), analysis.direction.end(),
                                       [](std::int8_t d) { return d == 0; });
   if (one_circle) {
@@ -116,7 +119,7 @@ std::optional<double> least_largest_curvature(const Analysis& analysis, const Ch
       Analysis one_way = analysis;
       one_way.stretches.clear();
       one_way.direction.assign(one_way.direction.size(), direction);
-      const auto found = least_largest_curvature(one_way, wishes);
+      const auto found = least_largest_curvature(one_way, wishes, watch);
       if (found && (!least || *found < *least)) least = found;
     }
     return least;
@@ -126,7 +129,9 @@ std::optional<double> least_largest_curvature(const Analysis& analysis, const Ch
   const auto possible = [&](double most) {
     RangeProblem ranges = range_problem(analysis, *problem, wishes.fixed);
     return cap_curvatures(ranges.nodes, most) &&
-           central_data(ranges.links, ranges.nodes).has_value();
+           central_data(ranges.links, ranges.nodes, {}, ChoiceOrder::kAlong,
+                        SharpCurvature::kMiddle, &watch)
+               .has_value();
   };
   double high = 0.0;
   for (const AdjacentCircle& circle : analysis.circles) {
@@ -141,14 +146,15 @@ std::optional<double> least_largest_curvature(const Analysis& analysis, const Ch
 }
 
 std::optional<double> least_largest_curvature_of_loop(const std::vector<Vec2>& points,
-                                                      const ChainWishes& wishes) {
+                                                      const ChainWishes& wishes, Watch& watch) {
   const auto problem = loop_problem(points, wishes);
   if (!problem) return std::nullopt;
   double high = 0.0;
   for (const double kappa : problem->adjacent_kappa) high = std::max(high, std::abs(kappa));
   return least_possible(high, [&](double most) {
     std::vector<RangeNode> nodes = problem->range_nodes;
-    return cap_curvatures(nodes, most) && central_loop(problem->links, nodes).has_value();
+    return cap_curvatures(nodes, most) &&
+           central_loop(problem->links, nodes, {}, &watch).has_value();
   });
 }
 

@@ -22,11 +22,13 @@ namespace obvid::pipeline_detail {
 /// The least curvature (unsigned, 1/unit) that no point of an open series need exceed, good to a
 /// thousandth of it and rounded upward, while all wishes stay. Nothing where they leave no curve.
 [[nodiscard]] std::optional<double> least_largest_curvature(const Analysis& analysis,
-                                                            const ChainWishes& wishes);
+                                                            const ChainWishes& wishes,
+                                                            Watch& watch);
 
 /// The same around a closed series, each point of it once.
 [[nodiscard]] std::optional<double> least_largest_curvature_of_loop(const std::vector<Vec2>& points,
-                                                                    const ChainWishes& wishes);
+                                                                    const ChainWishes& wishes,
+                                                                    Watch& watch);
 
 /// One turn of a closed series as the neighbours on both sides of its seam make it.
 struct LoopProblem {
