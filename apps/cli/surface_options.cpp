@@ -286,6 +286,18 @@ void add_cut(CLI::App& app, RawSurface& raw) {
                  "Each branch becomes a contour within this distance of its points, proved as by "
                  "obvid fit, input units [points alone]")
       ->type_name("EPS");
+  const char* group = "What floats";
+  cut.add_option("--draught", raw.cut_values.draught,
+                 "Height z of the waterplane, input units: volume, centres and areas below it")
+      ->type_name("Z")
+      ->group(group);
+  cut.add_flag("--half", raw.cut_values.half,
+               "The surface is one half of a body that is symmetric to y = 0")
+      ->group(group);
+  cut.add_option("--density", raw.cut_values.density,
+                 "Mass of water in a cubic input unit: the displacement is told too")
+      ->type_name("RHO")
+      ->group(group);
   cut.add_flag("--json", raw.cut.json, "JSON on standard output instead of the table");
   cut.add_flag("-q,--quiet", raw.cut.quiet, "No table and no progress bar");
   cut.add_flag("--no-progress", raw.no_progress, "No progress bar");

@@ -250,6 +250,12 @@ OBVID_API int obvid_surface_make(const char* kind, const obvid_input* const* inp
 /* Curvatures, joints of patches, monotone parameter lines. */
 OBVID_API int obvid_surface_check(const obvid_surface* surface, const char* options,
                                   const obvid_run* run, char** report, obvid_error** error);
+/* Sections by planes, and what is below a waterplane; `files`: all points (suffixes ".json", ".csv"),
+ * and the lines drawing (".svg", ".dxf"). Where contours were asked for that are refused or not proved
+ * the call fails, and files and report are there. NULL: not wanted. */
+OBVID_API int obvid_surface_cut(const obvid_surface* surface, const char* options,
+                                const obvid_run* run, obvid_files** files, char** report,
+                                obvid_error** error);
 /* "json", "step", "iges", "brep", "stl", "obj", "glb", "ply", "html", "svg"; glb is no text. */
 OBVID_API int obvid_surface_export(const obvid_surface* surface, const char* ending,
                                    const char* options, const obvid_run* run, obvid_files** files,

@@ -5,7 +5,7 @@ namespace obvid {
 namespace {
 
 /// Weights of the control points k - degree .. k in the blossom of span k at `part` times its end
-/// and otherwise its start (Ramshaw 1987; de Boor's recurrence with these arguments).
+/// and otherwise its start ([Ramshaw 1987]; de Boor's recurrence with these arguments).
 BezierRow row_of(int degree, const std::vector<double>& knots, std::size_t k, int part) {
   const auto p = static_cast<std::size_t>(degree);
   std::array<std::array<double, kMaxNurbsDegree + 1>, kMaxNurbsDegree + 1> d{};

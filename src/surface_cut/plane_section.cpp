@@ -30,6 +30,7 @@ constexpr double kRoundingsBeside = 64;  ///< of the largest coordinate, where t
 constexpr double kTouching = 4e-6;       ///< of the size: branches smaller than this
 constexpr double kEndsMeet = 1e-6;       ///< of the size
 constexpr double kSamePlace = 1e-4;      ///< of the size: places that are told once
+constexpr double kTangent = 1e-5;        ///< rad: where branches beside the plane run along it
 constexpr double kParallel = 1e-2;       ///< rad: of tangent planes where a plane touches
 
 template <class Parts>
@@ -131,7 +132,7 @@ class Section {
   }
   void tell_touching() {
     // a place a cluster, in the order found; few, or else the line is told by `undecided`
-    constexpr std::size_t kMostPlaces = 64;
+    constexpr std::size_t kMostPlaces = 16;
     const double same = kSamePlace * parts_.size;
     for (const Vec3 p : near_) {
       const bool new_one = std::none_of(out_.touching.begin(), out_.touching.end(),
@@ -263,14 +264,35 @@ class Section {
       near_.push_back(branch.points.front().point);
       return;
     }
+    std::size_t touching = 0;
+    for (const SectionPoint& p : branch.points) {
+      if (!touches(p)) continue;
+      ++touching;
+      near_.push_back(p.point);
+    }
+    if (touching == branch.points.size()) {
+      ++out_.touching_lines;
+      return;
+    }
     out_.branches.push_back(std::move(branch));
+  }
+
+  /// Whether the tangent plane is the cutting one, as far as a branch beside it can tell.
+  [[nodiscard]] bool touches(const SectionPoint& p) const {
+    const SurfaceJet jet = evaluate(*parts_.patches[p.patch].surface, p.u, p.v);
+    const Vec3 normal = cross(jet.du, jet.dv);
+    return norm(normal) > 0.0 && norm(cross(normal, plane_.normal)) <= kTangent * norm(normal);
   }
 
   // ------------------------------------------------------------------------- borders in the plane
   void add_borders_in_plane() {
     std::vector<std::size_t> left;
     for (const std::size_t e : borders_) {
-      if (!covered(parts_.topology.edges[e])) left.push_back(e);
+      const TopologyEdge& edge = parts_.topology.edges[e];
+      // where patches meet the surface may only touch the plane, which is told already
+      if (edge.uses.size() == 1 || !touches(middle_of(edge))) {
+        if (!covered(edge)) left.push_back(e);
+      }
     }
     while (!left.empty()) {
       SectionBranch branch;
@@ -304,6 +326,15 @@ class Section {
       }
       out_.branches.push_back(std::move(branch));
     }
+  }
+  [[nodiscard]] SectionPoint middle_of(const TopologyEdge& edge) const {
+    const EdgeUse& use = edge.uses.front();
+    const NurbsSurface& s = *parts_.patches[use.patch].surface;
+    const bool along_u = runs_along_u(use.side), far = is_far_end(use.side);
+    const Range u = domain_u(s), v = domain_v(s);
+    const double at_u = along_u ? u.at(0.5) : far ? u.to : u.from;
+    const double at_v = along_u ? (far ? v.to : v.from) : v.at(0.5);
+    return {evaluate(s, at_u, at_v).point, use.patch, at_u, at_v};
   }
   [[nodiscard]] bool covered(const TopologyEdge& edge) const {
     const Vec3 middle = evaluate(edge.curve, domain(edge.curve).at(0.5)).point;

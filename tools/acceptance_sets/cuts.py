@@ -18,17 +18,18 @@ from .cases import Case
 EXACT = 1e-9  # of the size: closed forms
 CHORD = 1e-4  # of the size: tolerance that is asked for
 AT_ONCE = 25  # planes of one run
-GRIDS = (240, 1600)  # places along each parameter; the finer one where branches are not as many
+GRIDS = (160, 1600)  # places along each parameter; the finer one where branches are not as many
 SECONDS_AT_MOST = 300
 BODIES = {"sphere": 175, "cylinder": 175, "torus": 250, "Wigley": 150}
 HULLS = {"Series 60": ("Series60Offset",), "trawler": ("TrawlerOffset",), "patrol boat, panel": ("wpb_offset_mid",)}
 PLANES_OF_HULL = 75
+VOLUMES, FLOATING = 40, "floating sphere, torus, Wigley"
 HALF = math.sqrt(0.5)
 
 
 # ------------------------------------------------------------------------------------- surfaces
 def model(patches):
-    return {"format": "obvid-surface", "version": 1, "name": "body", "units": "mm", "units_source": "stated",
+    return {"format": "obvid-surface", "version": 1, "name": "body", "units": "mm", "units_source": "given",
             "patches": patches}
 
 
@@ -123,6 +124,13 @@ def cases(data, work, options):
             path = work / f"{name}-{k // AT_ONCE + 1}.json"
             path.write_text(json.dumps(model([told])))
             found.append(Case(path.stem, path, [], EXACT, name, (off, planes_of([told], min(AT_ONCE, count - k), dice))))
+    for name in ("sphere", "torus", "Wigley"):
+        for k in range(VOLUMES):
+            told, water, half, truth = floating(name, dice)
+            path = work / f"floating-{name}-{k + 1}.json"
+            path.write_text(json.dumps(model([told])))
+            options_of = ["--draught", repr(water), *(["--half"] if half else [])]
+            found.append(Case(path.stem, path, options_of, EXACT, FLOATING, truth))
     for name, stems in HULLS.items():
         files = [str(data / "hulls_grids" / f"{stem}_{axis}.dat") for stem in stems for axis in "xyz"]
         path = work / (name.split(",")[0].replace(" ", "_") + ".json")
@@ -137,6 +145,43 @@ def cases(data, work, options):
     return found, [f"Chords within {CHORD:g} of the size; planes of random direction and place, seed 19.\n"]
 
 
+def segment(r, t):
+    """Area of a disc of radius r below the height t of its middle, and first moment about that height 0."""
+    t = max(-r, min(r, t))
+    half = math.sqrt(r * r - t * t)
+    return r * r * (math.pi / 2 + math.asin(t / r)) + t * half, -2.0 / 3.0 * half ** 3
+
+
+def floating(name, dice):
+    """A body, the height of its water, whether it is a half, and volume, waterplane, x, y and z of the centre in closed
+    form; the body is moved away from the origin."""
+    if name == "sphere":
+        r, x, y, z = dice.uniform(0.5, 20), *(dice.uniform(-50, 50) for _ in range(3))
+        t = r * dice.uniform(-0.95, 0.95)
+        h = r + t
+        truth = (math.pi * h * h * (3 * r - h) / 3, math.pi * (r * r - t * t), x, y,
+                 z - 3 * (2 * r - h) ** 2 / (4 * (3 * r - h)))
+        return moved(sphere(r), x, y, z), z + t, False, truth
+    if name == "torus":
+        large, x, y, z = dice.uniform(1, 20), *(dice.uniform(-50, 50) for _ in range(3))
+        small = large * dice.uniform(0.1, 0.9)
+        t = small * dice.uniform(-0.95, 0.95)
+        area, moment = segment(small, t)
+        truth = (2 * math.pi * large * area, 4 * math.pi * large * math.sqrt(small ** 2 - t ** 2), x, y, z + moment / area)
+        return moved(torus(large, small), x, y, z), z + t, False, truth
+    length, breadth, draught = dice.uniform(5, 120), dice.uniform(1, 12), dice.uniform(0.5, 8)
+    w = dice.uniform(0, 0.9)  # the water lies w draughts below the edge
+    x, z = dice.uniform(-50, 50), dice.uniform(-50, 50)
+    volume = 2 / 3 * length * breadth * draught * (2 / 3 - w + w ** 3 / 3)
+    moment = -2 / 3 * length * breadth * draught ** 2 * (0.25 - w * w / 2 + w ** 4 / 4)
+    truth = (volume, 2 / 3 * length * breadth * (1 - w * w), x, 0.0, z + moment / volume)
+    return moved(wigley(length, breadth, draught), x, 0.0, z), z - w * draught, True, truth
+
+
+def moved(patch, *by):
+    return {**patch, "points": [[a + b for a, b in zip(p, by)] for p in patch["points"]]}
+
+
 def planes_of(patches, count, dice):
     points = np.concatenate([section_judge.Patch(p).grid(*(section_judge.Patch(p).places(a, 40) for a in (0, 1))).reshape(-1, 3)
                              for p in patches])
@@ -148,7 +193,29 @@ def run(cases, options):
     return [run_case(case, options.program, options.work) for case in cases]
 
 
+def run_floating(case, program):
+    arguments = [case.arguments[0] + "=" + case.arguments[1], *case.arguments[2:]]
+    begin = time.perf_counter()
+    done = subprocess.run([program, "surface", "cut", str(case.path), *arguments, "--json"], capture_output=True, text=True,
+                          timeout=SECONDS_AT_MOST, check=False)
+    outcome = {"name": case.name, "group": case.group, "tolerance": EXACT, "exit": done.returncode, "error": "", "text": "",
+               "process_seconds": time.perf_counter() - begin, "planes": 0}
+    if done.returncode != 0:
+        line = next((s for s in done.stderr.splitlines() if s.startswith("obvid: error")), "")
+        outcome["error"], _, outcome["text"] = line.removeprefix("obvid: error ").partition(": ")
+        return outcome
+    report = json.loads(done.stdout)
+    said, size = report["hydrostatics"], report["size"]
+    volume, plane, *centre = case.truth
+    outcome["volume_off"] = abs(said["volume"]["value"] - volume) / volume
+    outcome["plane_off"] = abs(said["waterplane_area"]["value"] - plane) / plane
+    outcome["centre_off"] = max(abs(said["centre_" + a]["value"] - c) for a, c in zip("xyz", centre)) / size
+    return outcome
+
+
 def run_case(case, program, work):
+    if case.group == FLOATING:
+        return run_floating(case, program)
     off, planes = case.truth
     told = json.loads(case.path.read_text())["patches"]
     patches = [section_judge.Patch(p) for p in told]
@@ -201,7 +268,7 @@ def judged(section, normal, offset, patches, off, size):
 # --------------------------------------------------------------------------------------- tables
 def summary(outcomes):
     rows = []
-    for name, group in tables.groups_of(outcomes).items():
+    for name, group in tables.groups_of([o for o in outcomes if o["group"] != FLOATING]).items():
         done = [o for o in group if o["exit"] == 0]
         most = lambda key, of=done: tables.number(max((o[key] for o in of), default=None))  # noqa: E731
         count = lambda key, of=done: sum(o[key] for o in of)  # noqa: E731
@@ -214,15 +281,29 @@ def summary(outcomes):
                             "ms a section"], rows)
 
 
+def details(outcomes):
+    group = [o for o in outcomes if o["group"] == FLOATING and o["exit"] == 0]
+    if not group:
+        return ""
+    most = lambda key: tables.number(max(o[key] for o in group))  # noqa: E731
+    return tables.markdown(["bodies", "number", "volume off / volume", "waterplane off / area", "centre off / size", "ms each"],
+                           [[FLOATING, len(group), most("volume_off"), most("plane_off"), most("centre_off"),
+                             tables.number(1e3 * sum(o["process_seconds"] for o in group) / len(group))]])
+
+
 def criteria(outcomes):
-    done = [o for o in outcomes if o["exit"] == 0]
+    floats = [o for o in outcomes if o["group"] == FLOATING and o["exit"] == 0]
+    done = [o for o in outcomes if o["exit"] == 0 and o["group"] != FLOATING]
+    all_done = len(done) + len(floats)
+    off = max((max(o["volume_off"], o["plane_off"], o["centre_off"]) for o in floats), default=0.0)
     most = lambda key: max((o[key] for o in done), default=math.inf)  # noqa: E731
     sections = sum(o["planes"] for o in done)
-    return [("every run is done", f"{len(done)} of {len(outcomes)}", len(done) == len(outcomes)),
+    return [("every run is done", f"{all_done} of {len(outcomes)}", all_done == len(outcomes)),
             ("sections", f"{sections}", sections > 0),
             ("every branch found, closed where closed", f"{sum(o['wrong'] for o in done)} sections not",
              not sum(o["wrong"] for o in done)),
             ("crossings of the grid lie on branches within 2 chord tolerances", f"{most('missed'):.3g}", most("missed") <= 2.0),
             (f"closed forms within {EXACT:g} of the size", f"{most('closed_form'):.2g}", most("closed_form") <= EXACT),
             ("points are those of their parameters within 1e-12 of the size", f"{most('own'):.2g}", most("own") <= 1e-12),
-            ("points lie in the plane within 1e-12 of the size", f"{most('plane'):.2g}", most("plane") <= 1e-12)]
+            ("points lie in the plane within 1e-12 of the size", f"{most('plane'):.2g}", most("plane") <= 1e-12),
+            (f"volumes, waterplanes and centres of closed forms within {EXACT:g}", f"{off:.2g}", off <= EXACT)]

@@ -12,6 +12,7 @@
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/report/stored_contour.h"
 #include "obvid/surface/surface.h"
+#include "obvid/surface_cut/internal/displaced.h"
 #include "obvid/surface_cut/internal/plane_section.h"
 
 namespace obvid {
@@ -37,6 +38,9 @@ struct SurfaceCutJob {
   PlacesAcross buttocks;              ///< y = const, points x, z
   std::optional<double> tolerance;    ///< units: of chords between points [1e-5 of the size]
   std::optional<double> fair;         ///< units, > 0: branches become contours within so much
+  std::optional<double> draught;      ///< units: z of the waterplane, to measure what is below
+  bool half = false;                  ///< the surface is one half of a body, symmetric to y = 0
+  std::optional<double> density;      ///< mass in a unit^3, > 0: of the displacement
 };
 
 /// A branch as the contour that `fit` forms of its points.
@@ -61,13 +65,15 @@ struct MadeSurfaceCut {
   std::vector<MadeSection> sections;
   Units units;
   double size = 0.0, tolerance = 0.0;  ///< units
+  std::optional<Displaced> displaced;
+  std::optional<double> displacement;  ///< mass, as of `density`
   std::vector<std::string> warnings;
 };
 
 /// Cuts by all planes, in the order planes, stations, waterlines, buttocks; on several threads, same
 /// input, same result. Coordinates in a plane are those of the space (y, z of stations; x, y of
 /// waterlines; x, z of buttocks); in other planes the first axis is horizontal and the origin the
-/// place nearest to that of the space. Errors: E201 nothing to cut by; E203 steps that are not above
+/// place nearest to that of the space. Errors: E201 nothing to cut by and no draught; E203 steps that are not above
 /// 0, more than 10,000 planes; those of `ModelCutter`.
 [[nodiscard]] Result<MadeSurfaceCut> cut_surface(const SurfaceModel& model,
                                                  const SurfaceCutJob& job,
@@ -93,7 +99,8 @@ struct MadeSurfaceCut {
 struct SurfaceCutValues {
   std::vector<std::string> planes;  ///< "NX,NY,NZ,D"
   std::optional<std::string> stations, waterlines, buttocks;  ///< "1,2.5", "every:0.5", "count:20"
-  std::optional<double> tolerance, fair;
+  std::optional<double> tolerance, fair, draught, density;
+  bool half = false;
 };
 [[nodiscard]] Result<void> set_surface_cut(const SurfaceCutValues& typed, SurfaceCutJob& job);
 

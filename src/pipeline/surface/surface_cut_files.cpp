@@ -54,6 +54,7 @@ void add_section(JsonText& json, const MadeSection& section, bool points) {
   add_point(json.key("normal"), section.plane.normal);
   json.pair("offset", section.plane.offset);
   json.pair("residual", section.section.residual).pair("undecided", section.section.undecided);
+  json.pair("touching_lines", section.section.touching_lines);
   json.key("touching").begin_array();
   for (const Vec3 p : section.section.touching) add_point(json, p);
   json.end_array().key("patches_in_plane").begin_array();
@@ -63,6 +64,31 @@ void add_section(JsonText& json, const MadeSection& section, bool points) {
     add_branch(json, section, i, points);
   }
   json.end_array().end_object();
+}
+
+void add_displaced(JsonText& json, const MadeSurfaceCut& made) {
+  if (!made.displaced) return;
+  const Displaced& d = *made.displaced;
+  json.key("hydrostatics").begin_object();
+  const auto figure = [&](const char* name, const MeasuredFigure& f) {
+    json.key(name).begin_object().pair("value", f.value).pair("error", f.error).end_object();
+  };
+  figure("volume", d.volume);
+  figure("wetted_area", d.wetted);
+  figure("waterplane_area", d.waterplane);
+  figure("centre_x", d.centre_x);
+  figure("centre_y", d.centre_y);
+  figure("centre_z", d.centre_z);
+  figure("waterplane_centre_x", d.plane_x);
+  figure("waterplane_centre_y", d.plane_y);
+  figure("waterplane_inertia", d.inertia_x);
+  json.key("displacement");
+  if (made.displacement) {
+    json.value(*made.displacement);
+  } else {
+    json.null();
+  }
+  json.pair("parts", d.parts).end_object();
 }
 
 }  // namespace
@@ -75,6 +101,7 @@ std::string surface_cut_json(const MadeSurfaceCut& made, const Written& written,
   json.key("sections").begin_array();
   for (const MadeSection& section : made.sections) add_section(json, section, points);
   json.end_array();
+  add_displaced(json, made);
   const auto list = [&](const char* name, const std::vector<std::string>& all) {
     json.key(name).begin_array();
     for (const std::string& one : all) json.value(one);

@@ -97,9 +97,9 @@ Result<std::vector<MadeSection>> sections_of(const SurfaceCutJob& job, const Box
                  fmt::format("these are more than {} sections", kMostPlanes))
         .value(static_cast<double>(out.size()));
   }
-  if (out.empty()) {
+  if (out.empty() && !job.draught) {
     return error(ErrorCode::kUsage, "nothing says where to cut")
-        .hint("give --plane, --stations, --waterlines or --buttocks");
+        .hint("give --plane, --stations, --waterlines, --buttocks or --draught");
   }
   return out;
 }
@@ -134,9 +134,14 @@ void add_warnings(MadeSurfaceCut& made) {
     };
     if (!s.touching.empty()) {
       const Vec3 p = s.touching.front();
-      say(fmt::format("the surface touches the plane or nearly does at {}, the first at {} {} {}",
+      say(fmt::format("the surface touches the plane or nearly does at {}{}, the first at {} {} {}",
+                      s.touching.size() < 16 ? "" : "at least ",
                       counted(s.touching.size(), "place", "places"), significant(p.x, 6),
                       significant(p.y, 6), significant(p.z, 6)));
+    }
+    if (s.touching_lines > 0) {
+      say(fmt::format("the surface touches the plane along {}, which are no branches",
+                      counted(s.touching_lines, "line", "lines")));
     }
     if (s.undecided > 0) {
       say(fmt::format("{} left undecided where the surface touches the plane along a line; what lies "
@@ -148,6 +153,33 @@ void add_warnings(MadeSurfaceCut& made) {
                       counted(s.in_plane.size(), "patch lies", "patches lie")));
     }
   }
+}
+
+Result<void> measure(const SurfaceModel& model, const SurfaceCutJob& job, const RunContext& run,
+                     MadeSurfaceCut& made) {
+  auto found = displaced(model, {*job.draught, job.half}, run);
+  OBVID_TRY(found);
+  if (!(found->volume.value > 0.0)) {
+    made.warnings.push_back("nothing of the surface encloses water below the draught");
+  }
+  if (found->parts > 1) {
+    made.warnings.push_back(
+        fmt::format("the surfaces are {} parts that do not meet at their borders; each counts as "
+                    "positive, and gaps between them are not noticed",
+                    found->parts));
+  }
+  if (found->twisted > 0) {
+    made.warnings.push_back(fmt::format(
+        "at {} the patches cannot be turned to one side: volume and centres mean nothing",
+        counted(found->twisted, "border", "borders")));
+  }
+  if (found->undecided > 0) {
+    made.warnings.push_back("the surface touches the waterplane along a line; the areas are those "
+                            "without what lies within a thousandth of a span of it");
+  }
+  if (job.density) made.displacement = *job.density * found->volume.value;
+  made.displaced = *found;
+  return {};
 }
 
 }  // namespace
@@ -204,6 +236,7 @@ Result<MadeSurfaceCut> cut_surface(const SurfaceModel& model, const SurfaceCutJo
     OBVID_TRY(may_go_on(run));
   }
   add_warnings(made);
+  if (job.draught) OBVID_TRY(measure(model, job, run, made));
   return made;
 }
 

@@ -72,6 +72,17 @@ Result<void> set_surface_cut(const SurfaceCutValues& typed, SurfaceCutJob& job) 
   OBVID_TRY(set_places(typed.buttocks, "--buttocks", job.buttocks));
   OBVID_TRY(positive_length(typed.tolerance, "--tolerance"));
   OBVID_TRY(positive_length(typed.fair, "--fair"));
+  OBVID_TRY(positive_length(typed.density, "--density"));
+  if (typed.draught && !std::isfinite(*typed.draught)) {
+    return fail(bad_option("the waterplane lies at no finite height", "--draught", ""));
+  }
+  if ((typed.density || typed.half) && !typed.draught) {
+    return fail(bad_option("--density and --half belong to --draught", "",
+                           "give the height z of the waterplane"));
+  }
+  job.draught = typed.draught;
+  job.density = typed.density;
+  job.half = typed.half;
   job.tolerance = typed.tolerance;
   job.fair = typed.fair;
   return {};

@@ -37,9 +37,13 @@ struct SectionBranch {
 struct PlaneSection {
   std::vector<SectionBranch> branches;
   /// Where the surface touches the plane or nearly does: places of a part smaller than 4e-6 of the
-  /// size, and such where branches come so near to each other that they were not told apart before
-  /// cells of 1/65,536 of a knot span.
+  /// size, such where branches come so near to each other that they were not told apart before
+  /// cells of 1/65,536 of a knot span, and points of branches where the tangent plane is the cutting
+  /// one within 1e-5 rad. At most 16, each farther than 1e-4 of the size from the others.
   std::vector<Vec3> touching;
+  /// Lines along which the surface touches the plane within 1e-5 rad (once for each side of the line
+  /// that the plane beside it cuts); they are no branches, and `touching` has places of them.
+  std::size_t touching_lines = 0;
   /// Cells that stayed undecided at the smallest size: the surface touches the plane along a line,
   /// and what lies in them is not there.
   std::size_t undecided = 0;
