@@ -50,8 +50,9 @@ Result<void> check_outputs_of(const SurfaceCutOptions& options) {
     if (ending == ".json" || ending == ".csv" || ending == ".svg" || ending == ".dxf") continue;
     return error(ErrorCode::kUnknownFormat, "sections are not written in this format")
         .where(path)
-        .hint("possible are .json and .csv (points), .svg and .dxf (lines drawing), and names with "
-              "{id}, a file for each branch");
+        .hint(
+            "possible are .json and .csv (points), .svg and .dxf (lines drawing), and names with "
+            "{id}, a file for each branch");
   }
   return {};
 }
@@ -128,8 +129,8 @@ void add_displaced(Facts& facts, const MadeSurfaceCut& made) {
   facts.add("its inertia", figure_text(d.inertia_x, unit, 4));
 }
 
-std::string cut_text(const SurfaceCutOptions& options, const MadeSurfaceCut& made,
-                     const Written& written) {
+std::string sections_text(const SurfaceCutOptions& options, const MadeSurfaceCut& made,
+                          const Written& written) {
   Table table;
   table.column("section", Table::Align::kLeft);
   table.column("branches");
@@ -146,15 +147,19 @@ std::string cut_text(const SurfaceCutOptions& options, const MadeSurfaceCut& mad
       points += branch.points.size();
       off = std::max(off, branch.deviation);
     }
-    std::vector<std::string> row = {section.name, std::to_string(section.section.branches.size()),
-                                    std::to_string(closed), std::to_string(points),
-                                    significant(section.section.residual, 2), significant(off, 2)};
+    std::vector<std::string> row = {section.name,
+                                    std::to_string(section.section.branches.size()),
+                                    std::to_string(closed),
+                                    std::to_string(points),
+                                    significant(section.section.residual, 2),
+                                    significant(off, 2)};
     if (options.job.fair) row.push_back(fair_text(section));
     table.row(row);
   }
   Facts facts;
-  if (!made.sections.empty()) facts.add("tolerance", fmt::format("{} {} of chords, as measured", significant(made.tolerance, 3),
-                                     made.units.text()));
+  if (!made.sections.empty())
+    facts.add("tolerance", fmt::format("{} {} of chords, as measured",
+                                       significant(made.tolerance, 3), made.units.text()));
   add_displaced(facts, made);
   for (const std::string& remark : written.remarks) facts.add("note", remark);
   if (!written.files.empty()) facts.add("written", listed(written.files));
@@ -197,7 +202,7 @@ int run(const SurfaceCutOptions& options) {
   if (options.json) {
     text = surface_cut_json(done->made, done->written, false);
   } else if (!options.quiet) {
-    text = cut_text(options, done->made, done->written);
+    text = sections_text(options, done->made, done->written);
   }
   if (auto put_out = put(text); !put_out) return report(put_out.error());
   if (auto failed = not_proved(done->made)) {

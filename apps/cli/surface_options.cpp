@@ -165,10 +165,11 @@ struct KindOptions {
   void operator()(const SkinKind&) const {
     add_skin_options(app, raw);
     app.add_flag("--straight", raw.values.straight, "Ruled strips between sections [C2 across]");
-    app.add_option("--light", raw.values.light,
-                   "Few control points: no point of the skin farther than this from where the exact "
-                   "skin has it, input units; runs of curvature may be lost, which the table says "
-                   "[exact]")
+    app.add_option(
+           "--light", raw.values.light,
+           "Few control points: no point of the skin farther than this from where the exact "
+           "skin has it, input units; runs of curvature may be lost, which the table says "
+           "[exact]")
         ->type_name("EPS");
   }
   void operator()(const RuledKind&) const {
@@ -260,13 +261,14 @@ void add_check(CLI::App& app, RawSurface& raw) {
 }
 
 void add_cut(CLI::App& app, RawSurface& raw) {
-  CLI::App& cut =
-      *app.add_subcommand("cut", "Sections by planes: stations, waterlines, buttocks; lines drawing");
+  CLI::App& cut = *app.add_subcommand(
+      "cut", "Sections by planes: stations, waterlines, buttocks; lines drawing");
   cut.add_option("INPUT", raw.cut.input, "Surface (.json, STEP, IGES, BREP, control points)");
-  add_output(cut, raw.cut.outputs, raw.format,
-             "File to write: .json, .csv (points), .svg, .dxf (lines drawing); with {id} in its name "
-             "a file for each branch: .csv, or with --fair a contour in any format",
-             "csv");
+  add_output(
+      cut, raw.cut.outputs, raw.format,
+      "File to write: .json, .csv (points), .svg, .dxf (lines drawing); with {id} in its name "
+      "a file for each branch: .csv, or with --fair a contour in any format",
+      "csv");
   cut.add_option("--plane", raw.cut_values.planes,
                  "All points with NX x + NY y + NZ z = D; may repeat")
       ->type_name("NX,NY,NZ,D");
@@ -301,8 +303,9 @@ void add_cut(CLI::App& app, RawSurface& raw) {
   cut.add_flag("--json", raw.cut.json, "JSON on standard output instead of the table");
   cut.add_flag("-q,--quiet", raw.cut.quiet, "No table and no progress bar");
   cut.add_flag("--no-progress", raw.no_progress, "No progress bar");
-  cut.footer(with_exit_codes(
-      "Example: obvid surface cut hull.json --waterlines count:20 --stations every:1 -o lines.svg"));
+  cut.footer(
+      with_exit_codes("Example: obvid surface cut hull.json --waterlines count:20 --stations "
+                      "every:1 -o lines.svg"));
 }
 
 Result<void> check_needs(const RawSurface& raw, const KindText& text) {
@@ -354,7 +357,7 @@ Result<Command> checked_check(RawSurface& raw) {
   return Command{raw.check};
 }
 
-Result<Command> checked_cut(RawSurface& raw) {
+Result<Command> checked_sections(RawSurface& raw) {
   raw.cut.input = input_or_pipe(raw.cut.input);
   if (raw.cut.input.empty()) {
     return fail(usage("surface cut needs a surface", "see obvid surface cut --help"));
@@ -381,7 +384,7 @@ Result<Command> checked_surface(const CLI::App& app, RawSurface& raw) {
   for (const KindText& text : kKinds) {
     if (kind.get_name() == text.name) return checked_maker(raw, text);
   }
-  return kind.get_name() == "cut" ? checked_cut(raw) : checked_check(raw);
+  return kind.get_name() == "cut" ? checked_sections(raw) : checked_check(raw);
 }
 
 }  // namespace

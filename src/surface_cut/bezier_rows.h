@@ -15,8 +15,8 @@ struct BezierRow {
   std::array<double, kMaxNurbsDegree + 1> weight{};
 };
 
-/// All spans of one direction in Bezier form: span s has rows s * degree .. (s + 1) * degree, so that
-/// neighbours share the row between them and get the same bits from it.
+/// All spans of one direction in Bezier form: span s has rows s * degree .. (s + 1) * degree, so
+/// that neighbours share the row between them and get the same bits from it.
 struct BezierRows {
   int degree = 0;
   std::vector<double> knots;  ///< ends of the spans, one more than these

@@ -205,7 +205,8 @@ std::vector<double> heights_of(const NurbsSurface& surface, const CutPlane& plan
 }
 
 Result<void> divide(const CutPatch& patch, std::span<const double> heights, double noise,
-                    const RunContext& run, const std::function<void(const SectionCell&, CellKind)>& take) {
+                    const RunContext& run,
+                    const std::function<void(const SectionCell&, CellKind)>& take) {
   const Divider divider(patch, heights, noise);
   std::vector<SectionCell> open, next;
   const auto sort_out = [&](const SectionCell& cell) {
@@ -233,8 +234,8 @@ Result<void> divide(const CutPatch& patch, std::span<const double> heights, doub
   while (!next.empty()) {
     open = std::exchange(next, {});
     const int halvings = open.front().halvings;
-    const bool enough = halvings >= kMostHalvings || (halvings >= kHalvingsAlongLines &&
-                                                      open.size() > kMostCellsAtOnce);
+    const bool enough = halvings >= kMostHalvings ||
+                        (halvings >= kHalvingsAlongLines && open.size() > kMostCellsAtOnce);
     std::size_t asked = 0;
     for (const SectionCell& cell : open) {
       if (enough) {

@@ -68,8 +68,8 @@ enum class CellKind {
                                           std::size_t side);
 
 /// Roots of a polynomial in Bezier form over [0, 1], ascending: places where its sign changes, zero
-/// counting as positive. Two roots within 1e-12 of each other may both be missed. Divided at halves,
-/// so a half has the roots of the whole in it, apart from their rounding.
+/// counting as positive. Two roots within 1e-12 of each other may both be missed. Divided at
+/// halves, so a half has the roots of the whole in it, apart from their rounding.
 [[nodiscard]] std::vector<double> sign_changes(const std::vector<double>& coefficients);
 
 }  // namespace obvid

@@ -16,8 +16,8 @@
 namespace obvid {
 namespace {
 
-/// Integrals over a part of a patch: area; and with the third component of du x dv 1, x, y, y^2; with
-/// the height above the water too 1, x, y, and half that height.
+/// Integrals over a part of a patch: area; and with the third component of du x dv 1, x, y, y^2;
+/// with the height above the water too 1, x, y, and half that height.
 constexpr std::size_t kIntegrals = 9;
 using Integrals = std::array<double, kIntegrals>;
 constexpr std::array<int, kIntegrals> kDimension = {2, 2, 3, 3, 4, 3, 4, 4, 4};
@@ -91,8 +91,9 @@ class PatchIntegrals {
   [[nodiscard]] Integrals at(const SurfacePoint& p) const {
     const Vec3 normal = cross(p.du, p.dv), r = p.point - origin_;
     const double n = normal.z;
-    return {norm(normal), n, r.x * n, r.y * n, r.y * r.y * n,
-            r.z * n, r.x * r.z * n, r.y * r.z * n, 0.5 * r.z * r.z * n};
+    return {norm(normal),       n,       r.x * n,       r.y * n,
+            r.y * r.y * n,      r.z * n, r.x * r.z * n, r.y * r.z * n,
+            0.5 * r.z * r.z * n};
   }
 
   /// `part` of each of 2^halvings parts of a range, together.
@@ -139,8 +140,8 @@ class PatchIntegrals {
     if (enough) return out;
     const double middle = range.at(0.5);
     const std::array<Range, 2> halves = {Range{range.from, middle}, Range{middle, range.to}};
-    const Integrals both = part(halves[0], Rule<8>{}, halvings + 1) +
-                           part(halves[1], Rule<8>{}, halvings + 1);
+    const Integrals both =
+        part(halves[0], Rule<8>{}, halvings + 1) + part(halves[1], Rule<8>{}, halvings + 1);
     enough = true;
     for (std::size_t i = 0; i < kIntegrals; ++i) {
       out.error[i] = std::abs(fine[i] - both[i]);
@@ -157,10 +158,9 @@ class PatchIntegrals {
   void take_cut(const SectionCell& cell, bool over_u, Range u, Range v) {
     const Range along = over_u ? u : v, across = over_u ? v : u;
     std::vector<double> ends{0.0, 1.0};
-    for (const std::size_t side : over_u ? std::array<std::size_t, 2>{2, 3}
-                                         : std::array<std::size_t, 2>{0, 1}) {
-      for (const double t :
-           sign_changes(side_of(cell, patch_.u.degree, patch_.v.degree, side))) {
+    for (const std::size_t side :
+         over_u ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{0, 1}) {
+      for (const double t : sign_changes(side_of(cell, patch_.u.degree, patch_.v.degree, side))) {
         ends.push_back(t);
       }
     }
@@ -170,8 +170,8 @@ class PatchIntegrals {
     strand.least = across.from;
     strand.most = across.to;
     const auto below = [&](double t, double other) {
-      const SurfaceJet jet = over_u ? evaluate(*patch_.surface, t, other)
-                                    : evaluate(*patch_.surface, other, t);
+      const SurfaceJet jet =
+          over_u ? evaluate(*patch_.surface, t, other) : evaluate(*patch_.surface, other, t);
       return foot_.height(jet.point) < 0.0;
     };
     for (std::size_t i = 1; i < ends.size(); ++i) {
@@ -214,8 +214,8 @@ class PatchIntegrals {
   }
 
   template <std::size_t N>
-  [[nodiscard]] Integrals up_to_water(Range along, const Strand& strand, bool low_is_below,
-                                      Rule<N>, int halvings) const {
+  [[nodiscard]] Integrals up_to_water(Range along, const Strand& strand, bool low_is_below, Rule<N>,
+                                      int halvings) const {
     Integrals out{};
     const auto ts = nodes<N>(along);
     for (std::size_t i = 0; i < N; ++i) {
@@ -225,8 +225,9 @@ class PatchIntegrals {
           std::clamp(strand.over_u ? root.v : root.u, strand.least, strand.most);
       const Range wet = low_is_below ? Range{strand.least, at_water} : Range{at_water, strand.most};
       const double w = 0.5 * along.length() * weight<N>(i);
-      const Integrals line = over_panels(
-          wet, halvings, [&](Range some) { return across_line(ts[i], some, strand.over_u, Rule<N>{}); });
+      const Integrals line = over_panels(wet, halvings, [&](Range some) {
+        return across_line(ts[i], some, strand.over_u, Rule<N>{});
+      });
       for (std::size_t k = 0; k < kIntegrals; ++k) out[k] += w * line[k];
     }
     return out;
@@ -238,7 +239,8 @@ class PatchIntegrals {
   Integrals small_{};
 };
 
-/// Sides of patches that lie on one side of the body: +1 or -1 each, and which part each belongs to.
+/// Sides of patches that lie on one side of the body: +1 or -1 each, and which part each belongs
+/// to.
 struct Turned {
   std::vector<double> sign;
   std::vector<std::size_t> part;
@@ -284,7 +286,8 @@ Turned turned_alike(const SurfaceModel& model) {
 
 MeasuredFigure quotient(double a, double a_error, double b, double b_error, double shift) {
   constexpr double kNothing = 8.0;  // errors
-  if (std::abs(b) <= kNothing * b_error || b == 0.0) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
+  if (std::abs(b) <= kNothing * b_error || b == 0.0)
+    return {std::numeric_limits<double>::quiet_NaN(), 0.0};
   const double value = a / b;
   return {shift + value, (a_error + std::abs(value) * b_error) / std::abs(b)};
 }
@@ -304,11 +307,12 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
   }
   const double size = box.diagonal();
   if (!(size > 0.0)) return error(ErrorCode::kTooFewPoints, "the surface has no size");
-  const double largest = std::max({std::abs(box.low.z), std::abs(box.high.z), std::abs(options.water)});
+  const double largest =
+      std::max({std::abs(box.low.z), std::abs(box.high.z), std::abs(options.water)});
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * largest;
   const CutPlane plane{{0.0, 0.0, 1.0}, options.water};
   const CutPlane decided{plane.normal, options.water - std::max(1e-12 * size, 16.0 * rounding)};
-  const PlaneFoot foot(plane, rounding);
+  const PlaneFoot foot(plane, 0.25 * rounding);
   const double middle_y = options.mirror ? 0.0 : box.middle().y;
   const Vec3 origin{box.middle().x, middle_y, options.water};
   const Turned turned = turned_alike(model);
@@ -317,8 +321,8 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
   out.parts = turned.parts;
   out.twisted = turned.twisted;
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
-    OBVID_TRY(tell(run, "measuring",
-                   static_cast<double>(i) / static_cast<double>(model.patches.size())));
+    OBVID_TRY(
+        tell(run, "measuring", static_cast<double>(i) / static_cast<double>(model.patches.size())));
     const CutPatch patch = cut_patch(model.patches[i].surface);
     PatchIntegrals integrals(patch, foot, origin, size);
     OBVID_TRY(divide(patch, heights_of(*patch.surface, decided), rounding * heaviest, run,
@@ -351,7 +355,8 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
   out.plane_x = centre(kFlatX, kFlat, origin.x);
   out.plane_y = options.mirror ? MeasuredFigure{} : centre(kFlatY, kFlat, origin.y);
   const double off = options.mirror ? 0.0 : out.plane_y.value - origin.y;
-  out.inertia_x = {sides * (flat_sign * all.value[kFlatYy] - (off == 0.0 ? 0.0 : off * off * flat_sign * all.value[kFlat])),
+  out.inertia_x = {sides * (flat_sign * all.value[kFlatYy] -
+                            (off == 0.0 ? 0.0 : off * off * flat_sign * all.value[kFlat])),
                    sides * (all.error[kFlatYy] + off * off * all.error[kFlat])};
   return out;
 }

@@ -40,7 +40,7 @@ class Section {
       : parts_(parts),
         plane_(plane),
         beside_(std::max(kBesidePlane * parts.size, kRoundingsBeside * rounding())),
-        foot_(plane_, 4.0 * rounding()),
+        foot_(plane_, rounding()),
         tolerance_(options.tolerance) {}
 
   Result<PlaneSection> made(const RunContext& run) {
@@ -85,9 +85,8 @@ class Section {
     }
   }
   [[nodiscard]] bool in_plane(const std::vector<Vec3>& points) const {
-    return std::all_of(points.begin(), points.end(), [&](Vec3 p) {
-      return std::abs(foot_.height(p)) <= beside_;
-    });
+    return std::all_of(points.begin(), points.end(),
+                       [&](Vec3 p) { return std::abs(foot_.height(p)) <= beside_; });
   }
 
   /// On which side of the plane it is decided how branches run.
@@ -116,8 +115,8 @@ class Section {
   [[nodiscard]] CellPlace middle_of(const SectionCell& cell, std::size_t patch) const {
     const CutPatch& p = parts_.patches[patch];
     const Range a = cell.shares_u(), b = cell.shares_v();
-    const SurfaceJet jet = evaluate(*p.surface, p.u.at(cell.span_u, a.at(0.5)),
-                                    p.v.at(cell.span_v, b.at(0.5)));
+    const SurfaceJet jet =
+        evaluate(*p.surface, p.u.at(cell.span_u, a.at(0.5)), p.v.at(cell.span_v, b.at(0.5)));
     const Vec3 normal = cross(jet.du, jet.dv);
     return {jet.point, norm(cross(normal, plane_.normal)) <= kParallel * norm(normal)};
   }
@@ -218,12 +217,14 @@ class Section {
         const Vec3 a = at_[left[i]].point, b = at_[left[k]].point;
         if (b.x - a.x > near) break;
         const double far = norm(a - b);
-        if (far <= near && left[i] / 2 != left[k] / 2) pairs.push_back({far, std::minmax(left[i], left[k])});
+        if (far <= near && left[i] / 2 != left[k] / 2)
+          pairs.push_back({far, std::minmax(left[i], left[k])});
       }
     }
     std::sort(pairs.begin(), pairs.end());
     for (const auto& [far, both] : pairs) {
-      if (mate_[both.first] == kNoEnd && mate_[both.second] == kNoEnd) join(both.first, both.second);
+      if (mate_[both.first] == kNoEnd && mate_[both.second] == kNoEnd)
+        join(both.first, both.second);
     }
   }
 
@@ -378,7 +379,8 @@ class Section {
       self(self, a, middle, halvings + 1);
       self(self, middle, b, halvings + 1);
     };
-    const std::vector<double> knots = (along_u ? parts_.patches[use.patch].u : parts_.patches[use.patch].v).knots;
+    const std::vector<double> knots =
+        (along_u ? parts_.patches[use.patch].u : parts_.patches[use.patch].v).knots;
     places.push_back(place(range.from));
     for (std::size_t i = 1; i < knots.size(); ++i) {
       refine(refine, place(knots[i - 1]), place(knots[i]), 0);

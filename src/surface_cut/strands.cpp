@@ -76,8 +76,7 @@ class StrandFinder {
     const std::size_t span = on_u_line ? cell.span_u : cell.span_v;
     const std::size_t other = on_u_line ? cell.span_v : cell.span_u;
     const double share = far ? across.to : across.from;
-    for (const double t :
-         sign_changes(side_of(cell, patch_.u.degree, patch_.v.degree, side))) {
+    for (const double t : sign_changes(side_of(cell, patch_.u.degree, patch_.v.degree, side))) {
       StrandEnd end;
       end.on_u_line = on_u_line;
       end.low = far;
@@ -122,7 +121,7 @@ class StrandFinder {
 }  // namespace
 
 Result<PatchStrands> strands_of(const CutPatch& patch, std::size_t number, const CutPlane& plane,
-                              double noise, const RunContext& run) {
+                                double noise, const RunContext& run) {
   StrandFinder finder(patch, number);
   const std::vector<double> heights = heights_of(*patch.surface, plane);
   OBVID_TRY(divide(patch, heights, noise, run,

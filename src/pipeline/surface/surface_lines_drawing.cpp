@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "obvid/core/internal/figures.h"
@@ -24,7 +25,8 @@ class LinesDrawing {
     for (const MadeSection& section : made.sections) {
       if (section.kind == SectionKind::kPlane) continue;
       for (const SectionBranch& branch : section.section.branches) {
-        for (const SectionPoint& p : branch.points) box_.add({p.point.x, std::abs(p.point.y), p.point.z});
+        for (const SectionPoint& p : branch.points)
+          box_.add({p.point.x, std::abs(p.point.y), p.point.z});
       }
     }
   }
@@ -36,11 +38,15 @@ class LinesDrawing {
       space_ = kApart * std::max(box_.size().x, std::max(breadth_, box_.size().z));
       draw_grid();
       for (const MadeSection& section : made_.sections) draw(section);
+      for (const SectionKind kind :
+           {SectionKind::kStation, SectionKind::kWaterline, SectionKind::kButtock}) {
+        label(kind);
+      }
       label_views();
       draw_scale();
-      out_.remarks.push_back(fmt::format(
-          "length {}, half breadth {}, height {} {}", significant(box_.size().x, 5),
-          significant(breadth_, 5), significant(box_.size().z, 5), made_.units.text()));
+      out_.remarks.push_back(fmt::format("length {}, half breadth {}, height {} {}",
+                                         significant(box_.size().x, 5), significant(breadth_, 5),
+                                         significant(box_.size().z, 5), made_.units.text()));
     }
     draw_planes();
     out_.layers = {std::move(grid_), std::move(stations_), std::move(waterlines_),
@@ -100,13 +106,32 @@ class LinesDrawing {
       if (branch.closed) points.push_back(points.front());
       layer.polylines.push_back(std::move(points));
     }
-    if (section.section.branches.empty()) return;
-    const std::string text = significant(section.at, 4);
-    switch (section.kind) {
-      case SectionKind::kStation: word(in_profile(section.at, box_.low.z), text); break;
-      case SectionKind::kWaterline: word(in_profile(box_.high.x, section.at), text); break;
-      case SectionKind::kButtock: word(in_plan(box_.high.x, section.at), text); break;
-      case SectionKind::kPlane: break;
+  }
+
+  /// The places of one kind of sections beside their traces, where there is room for the words.
+  void label(SectionKind kind) {
+    std::vector<double> places;
+    for (const MadeSection& section : made_.sections) {
+      if (section.kind == kind && !section.section.branches.empty()) places.push_back(section.at);
+    }
+    std::sort(places.begin(), places.end());
+    // letters as they come out in the picture, whose drawing is 900 wide or high
+    constexpr double kDrawing = 900.0, kLetter = 8.0, kLine = 14.0;
+    const double wide = body_centre() + breadth_ - box_.low.x;
+    const double high = box_.size().z + 2.6 * space_ + breadth_;
+    const double pixel = std::max(wide, high) / kDrawing;
+    double free_from = -std::numeric_limits<double>::infinity();
+    for (const double at : places) {
+      const double shown = kind == SectionKind::kButtock ? std::abs(at) : at;
+      if (shown < free_from) continue;
+      const std::string text = significant(at, 4);
+      const bool station = kind == SectionKind::kStation;
+      free_from =
+          shown + pixel * (station ? kLetter * static_cast<double>(text.size() + 1) : kLine);
+      word(station                         ? in_profile(at, box_.low.z - 0.3 * space_)
+           : kind == SectionKind::kButtock ? in_plan(box_.high.x, at)
+                                           : in_profile(box_.high.x, at),
+           text);
     }
   }
 
@@ -126,7 +151,8 @@ class LinesDrawing {
     const double length = ten * (wanted >= 5.0 * ten ? 5.0 : wanted >= 2.0 * ten ? 2.0 : 1.0);
     const double y = box_.low.z - 1.6 * space_ - breadth_, tick = 0.1 * space_;
     line(grid_, {box_.low.x, y}, {box_.low.x + length, y});
-    for (const double x : {box_.low.x, box_.low.x + length}) line(grid_, {x, y - tick}, {x, y + tick});
+    for (const double x : {box_.low.x, box_.low.x + length})
+      line(grid_, {x, y - tick}, {x, y + tick});
     word({box_.low.x, y}, "0");
     word({box_.low.x + length, y}, significant(length, 3) + " " + made_.units.text());
     lowest_ = y - space_;
@@ -159,7 +185,8 @@ class LinesDrawing {
   Sketch out_;
   Box3 box_;  ///< of lines; y without its sign
   double middle_ = 0.0, breadth_ = 0.0, space_ = 0.0, lowest_ = 0.0;
-  SketchLayer grid_ = sketch_layer("GRID", "traces of the planes, centre line, scale", "#b9c2cc", 8, 0.6);
+  SketchLayer grid_ =
+      sketch_layer("GRID", "traces of the planes, centre line, scale", "#b9c2cc", 8, 0.6);
   SketchLayer stations_ = sketch_layer("STATIONS", "stations", "#1c2733", 7, 1.2);
   SketchLayer waterlines_ = sketch_layer("WATERLINES", "waterlines", "#1b6ec2", 5, 1.2);
   SketchLayer buttocks_ = sketch_layer("BUTTOCKS", "buttocks", "#cf5a12", 30, 1.2);

@@ -38,11 +38,11 @@ struct PlaneSection {
   std::vector<SectionBranch> branches;
   /// Where the surface touches the plane or nearly does: places of a part smaller than 4e-6 of the
   /// size, such where branches come so near to each other that they were not told apart before
-  /// cells of 1/65,536 of a knot span, and points of branches where the tangent plane is the cutting
-  /// one within 1e-5 rad. At most 16, each farther than 1e-4 of the size from the others.
+  /// cells of 1/65,536 of a knot span, and points of branches where the tangent plane is the
+  /// cutting one within 1e-5 rad. At most 16, each farther than 1e-4 of the size from the others.
   std::vector<Vec3> touching;
-  /// Lines along which the surface touches the plane within 1e-5 rad (once for each side of the line
-  /// that the plane beside it cuts); they are no branches, and `touching` has places of them.
+  /// Lines along which the surface touches the plane within 1e-5 rad (once for each side of the
+  /// line that the plane beside it cuts); they are no branches, and `touching` has places of them.
   std::size_t touching_lines = 0;
   /// Cells that stayed undecided at the smallest size: the surface touches the plane along a line,
   /// and what lies in them is not there.
@@ -63,8 +63,8 @@ struct PlaneSectionOptions {
 ///   follow from the roots at its sides. So no loop is missed that is larger than 4e-6 of the size;
 ///   smaller ones are `touching`.
 /// - How branches run is decided 1e-12 of the size (64 roundings of the largest coordinate where
-///   that is more) beside the plane: on the side of the normal, or on the other where nothing of the
-///   model lies there. Knots, borders and corners in the plane are met in this way once and not
+///   that is more) beside the plane: on the side of the normal, or on the other where nothing of
+///   the model lies there. Knots, borders and corners in the plane are met in this way once and not
 ///   twice. Points are then moved into the plane by Newton's method, to rounding where surface and
 ///   plane cross at an angle; `residual` tells the largest distance.
 /// - A border that lies in the plane is a branch (or a part of one), exactly.
@@ -80,9 +80,10 @@ class ModelCutter {
   ModelCutter(const ModelCutter&) = delete;
   ModelCutter& operator=(const ModelCutter&) = delete;
 
-  /// Errors: E203 a normal that has not length 1 within 1e-12, a tolerance that is not above 0; E303
-  /// an offset that is not finite; E304 a model without size; E103.
-  [[nodiscard]] Result<PlaneSection> section(const CutPlane& plane, const PlaneSectionOptions& options,
+  /// Errors: E203 a normal that has not length 1 within 1e-12, a tolerance that is not above 0;
+  /// E303 an offset that is not finite; E304 a model without size; E103.
+  [[nodiscard]] Result<PlaneSection> section(const CutPlane& plane,
+                                             const PlaneSectionOptions& options,
                                              const RunContext& run = {}) const;
 
  private:
