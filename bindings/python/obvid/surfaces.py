@@ -39,7 +39,7 @@ class Toolpath(NamedTuple):
     not_kept: Optional[ObvidError]  #: what was asked for and is not so; None: all is kept
 
 
-class Branch(NamedTuple):
+class SurfaceBranch(NamedTuple):
     """One branch of a plane section."""
 
     points: Array  #: n x 3, units; of closed ones the first point is not repeated
@@ -48,17 +48,17 @@ class Branch(NamedTuple):
     closed: bool
 
 
-class Section(NamedTuple):
+class SurfaceSection(NamedTuple):
     """All branches of a surface in a plane."""
 
     name: str
-    branches: Tuple[Branch, ...]
+    branches: Tuple[SurfaceBranch, ...]
 
 
-class Cut(NamedTuple):
+class SurfaceCut(NamedTuple):
     """What planes have in common with a surface."""
 
-    sections: Tuple[Section, ...]
+    sections: Tuple[SurfaceSection, ...]
     report: Json  #: as of `obvid surface cut --json`; "hydrostatics" where a draught was given
     files: Dict[str, bytes]  #: by ending: ".csv", ".svg", ".dxf", ".json"
     remarks: Tuple[str, ...]
@@ -141,7 +141,7 @@ class Surface:
         target = pathlib.Path(path)
         return write_all(target, self._files(target.suffix.lstrip("."), options))
 
-    def cut(self, **options: Any) -> Cut:
+    def cut(self, **options: Any) -> SurfaceCut:
         """Sections by planes and what floats. Options as of `obvid surface cut`: plane ("nx,ny,nz,d" or a
         list of these), stations, waterlines, buttocks ("1,2.5", "every:0.5", "count:20"), tolerance,
         fair, draught, half, density.
@@ -166,19 +166,10 @@ class Surface:
         by_ending = dict(made)
         told: Json = json.loads(by_ending[".json"])
         sections = tuple(
-            Section(
-                one["name"],
-                tuple(
-                    Branch(
-                        *(np.array(b[key], dtype=np.float64) for key in ("points", "in_plane", "parameters")),
-                        closed=b["closed"],
-                    )
-                    for b in one["branches"]
-                ),
-            )
+            SurfaceSection(one["name"], tuple(_branch(b) for b in one["branches"]))
             for one in told["sections"]
         )
-        return Cut(sections, json.loads(report or "{}"), by_ending, remarks, failed)
+        return SurfaceCut(sections, json.loads(report or "{}"), by_ending, remarks, failed)
 
     def toolpath(self, **options: Any) -> Toolpath:
         """A program for a three-axis mill. Options as of `obvid toolpath`: cutter, diameter, strategy,
@@ -206,6 +197,13 @@ class Surface:
             ):
                 raise raise_error(error)
         return taken_files(out)
+
+
+def _branch(told: Json) -> SurfaceBranch:
+    points, in_plane, parameters = (
+        np.array(told[key], dtype=np.float64) for key in ("points", "in_plane", "parameters")
+    )
+    return SurfaceBranch(points, in_plane, parameters, bool(told["closed"]))
 
 
 def _input(points: SurfacePoints) -> Source:
