@@ -6,8 +6,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 
-def basis(degree, knots, at):
-    """Rows of B-spline values at places of the parameter; (places, control points)."""
+def local_basis(degree, knots, at):
+    """First control point of each place of the parameter, and the values of the degree + 1 B-splines there."""
     knots, at = np.asarray(knots, float), np.asarray(at, float)
     last = len(knots) - degree - 2
     span = np.clip(np.searchsorted(knots, at, side="right") - 1, degree, last)
@@ -21,9 +21,15 @@ def basis(degree, knots, at):
             share = (at - left) / (right - left)
             values[:, r] += (1.0 - share) * before[:, r]
             values[:, r + 1] += share * before[:, r]
-    rows = np.zeros((len(at), len(knots) - degree - 1))
+    return span - degree, values
+
+
+def basis(degree, knots, at):
+    """The same as rows over all control points; (places, control points)."""
+    first, values = local_basis(degree, knots, at)
+    rows = np.zeros((len(first), len(knots) - degree - 1))
     for r in range(degree + 1):
-        rows[np.arange(len(at)), span - degree + r] = values[:, r]
+        rows[np.arange(len(first)), first + r] = values[:, r]
     return rows
 
 
@@ -47,8 +53,12 @@ class Patch:
 
     def points(self, uv):
         """At pairs of parameters, (places, 3)."""
-        a, b = basis(self.degree[0], self.knots[0], uv[:, 0]), basis(self.degree[1], self.knots[1], uv[:, 1])
-        out = np.einsum("pi,pj,jix->px", a, b, self.net, optimize=True)
+        i, a = local_basis(self.degree[0], self.knots[0], uv[:, 0])
+        j, b = local_basis(self.degree[1], self.knots[1], uv[:, 1])
+        out = np.zeros((len(uv), 4))
+        for q in range(self.degree[1] + 1):
+            for p in range(self.degree[0] + 1):
+                out += (a[:, p] * b[:, q])[:, None] * self.net[j + q, i + p]
         return out[:, :3] / out[:, 3:]
 
     def places(self, axis, count):
@@ -93,7 +103,7 @@ def components(patch, normal, offset, count):
         return np.concatenate([first, second])
     low, high = np.zeros(len(where)), np.ones(len(where))
     rising = np.concatenate([sign[:, 1:][along], sign[1:, :][across]])
-    for _ in range(45):
+    for _ in range(30):
         middle = (low + high) / 2
         up = (patch.points(uv_of(middle)) @ normal - offset >= 0.0) == rising
         high, low = np.where(up, middle, high), np.where(up, low, middle)
