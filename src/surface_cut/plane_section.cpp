@@ -27,11 +27,13 @@ namespace {
 
 constexpr double kBesidePlane = 1e-12;   ///< of the size
 constexpr double kRoundingsBeside = 64;  ///< of the largest coordinate, where that is more
-constexpr double kTouching = 4e-6;       ///< of the size: branches smaller than this
-constexpr double kEndsMeet = 1e-6;       ///< of the size
-constexpr double kSamePlace = 1e-4;      ///< of the size: places that are told once
-constexpr double kTangent = 1e-5;        ///< rad: where branches beside the plane run along it
-constexpr double kParallel = 1e-2;       ///< rad: of tangent planes where a plane touches
+constexpr double kForBetween =
+    0.8;  ///< of the tolerance: what lies between the places that are measured
+constexpr double kTouching = 4e-6;   ///< of the size: branches smaller than this
+constexpr double kEndsMeet = 1e-6;   ///< of the size
+constexpr double kSamePlace = 1e-4;  ///< of the size: places that are told once
+constexpr double kTangent = 1e-5;    ///< rad: where branches beside the plane run along it
+constexpr double kParallel = 1e-2;   ///< rad: of tangent planes where a plane touches
 
 template <class Parts>
 class Section {
@@ -41,7 +43,7 @@ class Section {
         plane_(plane),
         beside_(std::max(kBesidePlane * parts.size, kRoundingsBeside * rounding())),
         foot_(plane_, rounding()),
-        tolerance_(options.tolerance) {}
+        tolerance_(kForBetween * options.tolerance) {}
 
   Result<PlaneSection> made(const RunContext& run) {
     find_borders_in_plane();
