@@ -39,7 +39,7 @@ class Sections(unittest.TestCase):
                 found = self.case(work, name, told, [], name, (off, self.cuts.planes_of([told], 6, dice)))
                 self.assertEqual(found["wrong"], 0, name)
                 self.assertGreater(found["branches"], 0)
-                self.assertLessEqual(found["missed"], 2.0)
+                self.assertLessEqual(found["missed"], 1.0)
                 for figure in ("closed_form", "own", "plane"):
                     self.assertLessEqual(found[figure], 1e-12, (name, figure))
 

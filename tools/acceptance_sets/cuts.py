@@ -302,7 +302,7 @@ def criteria(outcomes):
             ("sections", f"{sections}", sections > 0),
             ("every branch found, closed where closed", f"{sum(o['wrong'] for o in done)} sections not",
              not sum(o["wrong"] for o in done)),
-            ("crossings of the grid lie on branches within 2 chord tolerances", f"{most('missed'):.3g}", most("missed") <= 2.0),
+            ("crossings of the grid lie on branches within the chord tolerance", f"{most('missed'):.3g}", most("missed") <= 1.0),
             (f"closed forms within {EXACT:g} of the size", f"{most('closed_form'):.2g}", most("closed_form") <= EXACT),
             ("points are those of their parameters within 1e-12 of the size", f"{most('own'):.2g}", most("own") <= 1e-12),
             ("points lie in the plane within 1e-12 of the size", f"{most('plane'):.2g}", most("plane") <= 1e-12),
