@@ -24,6 +24,7 @@ int run(const VerifyOptions& options);
 int run(const ExplainOptions& options);
 int run(const SurfaceOptions& options);
 int run(const SurfaceCheckOptions& options);
+int run(const SurfaceCutOptions& options);
 int run(const SplineOptions& options);
 int run(const NurbsOptions& options);
 int run(const ToolpathCommand& command);

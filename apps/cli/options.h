@@ -129,7 +129,7 @@ struct BatchOptions {
 
 using Command = std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, AnalyseOptions,
                              RegionOptions, CompareOptions, ConvertOptions, VerifyOptions,
-                             ExplainOptions, SurfaceOptions, SurfaceCheckOptions, SplineOptions,
+                             ExplainOptions, SurfaceOptions, SurfaceCheckOptions, SurfaceCutOptions, SplineOptions,
                              NurbsOptions, ToolpathCommand, AlignmentCommand, CutCommand>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.

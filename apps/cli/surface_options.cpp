@@ -21,6 +21,8 @@ struct RawSurface {
   SurfaceOptions make;
   std::vector<std::string> inputs, across;
   SurfaceCheckOptions check;
+  SurfaceCutOptions cut;
+  SurfaceCutValues cut_values;
   TypedValues typed;
   SurfaceValues values;
   SurfaceFormatValues formats;
@@ -84,6 +86,7 @@ constexpr const char* kSurfaceHelp =
   obvid surface offset SURFACE --distance D -o OUT
   obvid surface convert SURFACE -o OUT         another format
   obvid surface check SURFACE                  curvature, joints, monotone sections
+  obvid surface cut SURFACE -o OUT             sections by planes, lines drawing
 
 `obvid surface KIND --help` shows options, units and defaults.
 )";
@@ -162,10 +165,11 @@ struct KindOptions {
   void operator()(const SkinKind&) const {
     add_skin_options(app, raw);
     app.add_flag("--straight", raw.values.straight, "Ruled strips between sections [C2 across]");
-    app.add_option("--light", raw.values.light,
-                   "Few control points: no point of the skin farther than this from where the exact "
-                   "skin has it, input units; runs of curvature may be lost, which the table says "
-                   "[exact]")
+    app.add_option(
+           "--light", raw.values.light,
+           "Few control points: no point of the skin farther than this from where the exact "
+           "skin has it, input units; runs of curvature may be lost, which the table says "
+           "[exact]")
         ->type_name("EPS");
   }
   void operator()(const RuledKind&) const {
@@ -256,6 +260,54 @@ void add_check(CLI::App& app, RawSurface& raw) {
   check.footer(with_exit_codes("Example: obvid surface check hull.step -o hull.svg"));
 }
 
+void add_cut(CLI::App& app, RawSurface& raw) {
+  CLI::App& cut = *app.add_subcommand(
+      "cut", "Sections by planes: stations, waterlines, buttocks; lines drawing");
+  cut.add_option("INPUT", raw.cut.input, "Surface (.json, STEP, IGES, BREP, control points)");
+  add_output(
+      cut, raw.cut.outputs, raw.format,
+      "File to write: .json, .csv (points), .svg, .dxf (lines drawing); with {id} in its name "
+      "a file for each branch: .csv, or with --fair a contour in any format",
+      "csv");
+  cut.add_option("--plane", raw.cut_values.planes,
+                 "All points with NX x + NY y + NZ z = D; may repeat")
+      ->type_name("NX,NY,NZ,D");
+  const char* places = "X,...|every:D|count:N";
+  cut.add_option("--stations", raw.cut_values.stations,
+                 "Sections x = const: places, multiples of D, or N between the ends, input units")
+      ->type_name(places);
+  cut.add_option("--waterlines", raw.cut_values.waterlines, "Sections z = const, likewise")
+      ->type_name(places);
+  cut.add_option("--buttocks", raw.cut_values.buttocks, "Sections y = const, likewise")
+      ->type_name(places);
+  cut.add_option("--tolerance", raw.cut_values.tolerance,
+                 "Largest distance of chords between neighbouring points from the section, input "
+                 "units [1e-5 of the size]")
+      ->type_name("T");
+  cut.add_option("--fair", raw.cut_values.fair,
+                 "Each branch becomes a contour within this distance of its points, proved as by "
+                 "obvid fit, input units [points alone]")
+      ->type_name("EPS");
+  const char* group = "What floats";
+  cut.add_option("--draught", raw.cut_values.draught,
+                 "Height z of the waterplane, input units: volume, centres and areas below it")
+      ->type_name("Z")
+      ->group(group);
+  cut.add_flag("--half", raw.cut_values.half,
+               "The surface is one half of a body that is symmetric to y = 0")
+      ->group(group);
+  cut.add_option("--density", raw.cut_values.density,
+                 "Mass of water in a cubic input unit: the displacement is told too")
+      ->type_name("RHO")
+      ->group(group);
+  cut.add_flag("--json", raw.cut.json, "JSON on standard output instead of the table");
+  cut.add_flag("-q,--quiet", raw.cut.quiet, "No table and no progress bar");
+  cut.add_flag("--no-progress", raw.no_progress, "No progress bar");
+  cut.footer(
+      with_exit_codes("Example: obvid surface cut hull.json --waterlines count:20 --stations "
+                      "every:1 -o lines.svg"));
+}
+
 Result<void> check_needs(const RawSurface& raw, const KindText& text) {
   const std::string name = std::string("surface ") + text.name;
   const std::string see = "see obvid " + name + " --help";
@@ -305,10 +357,21 @@ Result<Command> checked_check(RawSurface& raw) {
   return Command{raw.check};
 }
 
+Result<Command> checked_sections(RawSurface& raw) {
+  raw.cut.input = input_or_pipe(raw.cut.input);
+  if (raw.cut.input.empty()) {
+    return fail(usage("surface cut needs a surface", "see obvid surface cut --help"));
+  }
+  OBVID_TRY(set_surface_cut(raw.cut_values, raw.cut.job));
+  OBVID_TRY(settle_streams(raw.cut, raw.format, false, "csv"));
+  raw.cut.progress = !raw.no_progress && !raw.cut.json && !raw.cut.quiet;
+  return Command{raw.cut};
+}
+
 Result<Command> checked_surface(const CLI::App& app, RawSurface& raw) {
   std::vector<std::string> extras = app.remaining();
   if (app.get_subcommands().empty()) {
-    std::vector<std::string> names = {"check"};
+    std::vector<std::string> names = {"check", "cut"};
     for (const KindText& text : kKinds) names.emplace_back(text.name);
     return fail(usage(
         "unknown kind of surface '" + (extras.empty() ? "" : extras.front()) + "'",
@@ -321,7 +384,7 @@ Result<Command> checked_surface(const CLI::App& app, RawSurface& raw) {
   for (const KindText& text : kKinds) {
     if (kind.get_name() == text.name) return checked_maker(raw, text);
   }
-  return checked_check(raw);
+  return kind.get_name() == "cut" ? checked_sections(raw) : checked_check(raw);
 }
 
 }  // namespace
@@ -336,6 +399,7 @@ Result<Command> parse_surface(int argc, const char* const* argv) {
   RawSurface raw;
   for (const KindText& text : kKinds) add_maker(app, raw, text).allow_extras();
   add_check(app, raw);
+  add_cut(app, raw);
   for (CLI::App* kind : app.get_subcommands(nullptr)) kind->allow_extras();
   try {
     app.parse(argc, argv);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
 
@@ -26,6 +27,16 @@ struct SurfaceCheckOptions {
   std::string input;
   std::vector<std::string> outputs;  ///< pictures and pages of the curvature
   std::size_t samples = 65;
+  bool json = false;
+  bool quiet = false;
+  bool progress = true;
+};
+
+/// `obvid surface cut`
+struct SurfaceCutOptions {
+  std::string input;
+  std::vector<std::string> outputs;  ///< points, drawings; with {id} a file for each branch
+  SurfaceCutJob job;
   bool json = false;
   bool quiet = false;
   bool progress = true;

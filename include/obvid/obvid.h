@@ -128,8 +128,8 @@ OBVID_API int obvid_worksheet(const obvid_input* input, const char* options, con
 OBVID_API int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
 /* Curves laid over each other: points are formed, contour files and curves of drawings are taken as
- * they are. How far all are from the first one; `files`: a picture (suffix ".svg") and the deviation
- * at every place (".csv"); NULL: not wanted. Remarks are the warnings of the inputs. */
+ * they are. How far all are from the first one; `files`: a picture (suffix ".svg") and the
+ * deviation at every place (".csv"); NULL: not wanted. Remarks are the warnings of the inputs. */
 OBVID_API int obvid_compare_curves(const obvid_input* const* inputs, size_t count,
                                    const char* options, const obvid_run* run, obvid_files** files,
                                    char** report, obvid_error** error);
@@ -250,6 +250,12 @@ OBVID_API int obvid_surface_make(const char* kind, const obvid_input* const* inp
 /* Curvatures, joints of patches, monotone parameter lines. */
 OBVID_API int obvid_surface_check(const obvid_surface* surface, const char* options,
                                   const obvid_run* run, char** report, obvid_error** error);
+/* Sections by planes, and what is below a waterplane; `files`: all points (suffixes ".json",
+ * ".csv"), and the lines drawing (".svg", ".dxf"). Where contours were asked for that are refused
+ * or not proved the call fails, and files and report are there. NULL: not wanted. */
+OBVID_API int obvid_surface_cut(const obvid_surface* surface, const char* options,
+                                const obvid_run* run, obvid_files** files, char** report,
+                                obvid_error** error);
 /* "json", "step", "iges", "brep", "stl", "obj", "glb", "ply", "html", "svg"; glb is no text. */
 OBVID_API int obvid_surface_export(const obvid_surface* surface, const char* ending,
                                    const char* options, const obvid_run* run, obvid_files** files,
@@ -259,8 +265,8 @@ OBVID_API int obvid_surface_export(const obvid_surface* surface, const char* end
 OBVID_API int obvid_surface_toolpath(const obvid_surface* surface, const char* options,
                                      const obvid_run* run, obvid_files** files, char** report,
                                      obvid_error** error);
-/* The fewest lines, arcs and clothoids that pass within a tolerance of the points, and of heights in
- * a column z, or in `heights` (stations and heights; NULL: none), the fewest grades and vertical
+/* The fewest lines, arcs and clothoids that pass within a tolerance of the points, and of heights
+ * in a column z, or in `heights` (stations and heights; NULL: none), the fewest grades and vertical
  * curves. `contour` is what was found, with stations and profile in LandXML and OpenDRIVE; `files`
  * are tables of the elements (suffix ".csv"), of all offsets (".deviations.csv"), of the profile
  * where there is one (".profile.csv"), and a picture over the stations (".svg"). NULL: not
@@ -268,8 +274,9 @@ OBVID_API int obvid_surface_toolpath(const obvid_surface* surface, const char* o
 OBVID_API int obvid_alignment(const obvid_input* input, const obvid_input* heights,
                               const char* options, const obvid_run* run, obvid_contour** contour,
                               obvid_files** files, char** report, obvid_error** error);
-/* Every curve of drawings and contour files as one program for a mill, a laser or a torch: files are
- * the G-code, a picture (suffix ".svg") and a drawing of the paths (".dxf"). Points are refused. */
+/* Every curve of drawings and contour files as one program for a mill, a laser or a torch: files
+ * are the G-code, a picture (suffix ".svg") and a drawing of the paths (".dxf"). Points are
+ * refused. */
 OBVID_API int obvid_cut(const obvid_input* const* inputs, size_t count, const char* options,
                         const obvid_run* run, obvid_files** files, char** report,
                         obvid_error** error);

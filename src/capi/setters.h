@@ -55,6 +55,22 @@ Setter text(To& to) {
   };
 }
 
+/// A text, or a list of them.
+inline Setter texts(std::vector<std::string>& to) {
+  return [&to](const Json& value) {
+    if (value.is_string()) {
+      to = {value.get<std::string>()};
+      return true;
+    }
+    if (!value.is_array()) return false;
+    for (const Json& one : value) {
+      if (!one.is_string()) return false;
+      to.push_back(one.get<std::string>());
+    }
+    return true;
+  };
+}
+
 /// {"5": 90}: a value for each of some points.
 inline Setter at_points(std::vector<std::string>& to) {
   return [&to](const Json& value) {

@@ -17,6 +17,7 @@ struct SurfaceWritten {
   SurfaceValues surface;
   SurfaceFormatValues formats;
   ToolpathValues toolpath;
+  SurfaceCutValues cut;
   std::optional<long> samples;
   std::optional<std::string> units;
 };
@@ -63,6 +64,18 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"step", text(f.step)}});
   }
   if (known.check) all.insert({{"samples", count(w.samples)}});
+  if (known.cut) {
+    SurfaceCutValues& c = w.cut;
+    all.insert({{"plane", texts(c.planes)},
+                {"stations", text(c.stations)},
+                {"waterlines", text(c.waterlines)},
+                {"buttocks", text(c.buttocks)},
+                {"tolerance", number(c.tolerance)},
+                {"fair", number(c.fair)},
+                {"draught", number(c.draught)},
+                {"half", flag(c.half)},
+                {"density", number(c.density)}});
+  }
   if (known.toolpath) {
     ToolpathJob& job = out.toolpath;
     all.insert({{"cutter", text(w.toolpath.cutter)},
@@ -101,6 +114,7 @@ Result<void> check_written(SurfaceWritten& w, const SurfaceKnown& known, Surface
     OBVID_TRY(samples);
     out.samples = *samples;
   }
+  if (known.cut) OBVID_TRY(set_surface_cut(w.cut, out.cut));
   return set_toolpath(w.toolpath, out.toolpath);
 }
 

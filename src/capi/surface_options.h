@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "obvid/core/result.h"
+#include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
 #include "obvid/pipeline/toolpath_job.h"
@@ -16,6 +17,7 @@ struct SurfaceRequest {
   SurfaceJob make;  ///< how contours are formed is in `make.curves.sections`
   SurfaceExportOptions formats;
   ToolpathJob toolpath;
+  SurfaceCutJob cut;
   std::size_t samples = 65;  ///< lines of each family of a check
 };
 
@@ -25,6 +27,7 @@ struct SurfaceKnown {
   bool formats = false;               ///< of files
   bool toolpath = false;
   bool check = false;
+  bool cut = false;  ///< sections
 };
 
 /// As `request_of`, for surfaces.

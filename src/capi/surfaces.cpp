@@ -9,6 +9,7 @@
 #include "handles.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
 #include "obvid/pipeline/internal/surface_values.h"
+#include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
 #include "obvid/pipeline/toolpath_job.h"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr SurfaceKnown kSurfaceFiles{.formats = true};
 constexpr SurfaceKnown kChecking{.check = true};
+constexpr SurfaceKnown kSections{.cut = true};
 constexpr SurfaceKnown kMilling{.toolpath = true};
 
 /// What the library reads surfaces from.
@@ -139,6 +141,29 @@ int obvid_surface_toolpath(const obvid_surface* surface, const char* options, co
       *files = out.release();
     }
     if (!made->path.not_kept.empty()) return fail(made->path.not_kept.front());
+    return {};
+  });
+}
+
+int obvid_surface_cut(const obvid_surface* surface, const char* options, const obvid_run* run,
+                      obvid_files** files, char** report, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const auto request = surface_request_of(options, kSections);
+    OBVID_TRY(request);
+    auto made = cut_surface(surface->model, request->cut, context_of(run));
+    OBVID_TRY(made);
+    if (report != nullptr) *report = text_of(surface_cut_json(*made, {}, false));
+    if (files != nullptr) {
+      auto out = std::make_unique<obvid_files>();
+      const Sketch sketch = lines_drawing(*made, surface->model.name);
+      out->files.push_back({".json", surface_cut_json(*made, {}, true)});
+      out->files.push_back({".csv", sections_csv(*made)});
+      out->files.push_back({".svg", sketch_svg(sketch)});
+      out->files.push_back({".dxf", sketch_dxf(sketch)});
+      out->remarks = made->warnings;
+      *files = out.release();
+    }
+    if (const auto failed = not_proved(*made)) return fail(*failed);
     return {};
   });
 }

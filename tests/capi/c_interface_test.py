@@ -728,6 +728,11 @@ class Surfaces(unittest.TestCase):
             report = C.c_void_p()
             checked = call(lib.obvid_surface_check, handle, b'{"samples": 20}', None, C.byref(report), report=report)
             self.assertEqual(json.loads(checked), json.loads(told))
+            told, _ = program("surface", "cut", stored, "--plane", "1,0,0,40", "--waterlines", "count:2", "--draught", "3", "--json")
+            files, report = C.c_void_p(), C.c_void_p()
+            where = json.dumps({"plane": "1,0,0,40", "waterlines": "count:2", "draught": 3}).encode()
+            cut = call(lib.obvid_surface_cut, handle, where, None, C.byref(files), C.byref(report), report=report)
+            self.assertEqual(json.loads(cut), json.loads(told))
             again, _, _ = surface("convert", [read(stored)])
             self.assertEqual(surface_file(again, "json"), surface_file(handle, "json"))
             nc, plan = os.path.join(folder, "s.nc"), {"diameter": 6, "scallop": 0.1, "tolerance": 0.02}
@@ -805,6 +810,8 @@ class Surfaces(unittest.TestCase):
         for work in (lambda: call(lib.obvid_surface_check, handle, None, C.byref(run), C.byref(report)),
                      lambda: call(lib.obvid_surface_export, handle, b"html", None, C.byref(run), C.byref(out)),
                      lambda: call(lib.obvid_surface_export, handle, b"stl", None, C.byref(run), C.byref(out)),
+                     lambda: call(lib.obvid_surface_cut, handle, b'{"waterlines": "count:9"}', C.byref(run), C.byref(out),
+                                  C.byref(report)),
                      lambda: call(lib.obvid_surface_toolpath, handle, None, C.byref(run), C.byref(out), C.byref(report)),
                      lambda: surface("grid", [read(self.example("wavy_grid.csv"))], {"near": True, "tolerance": 1e-3}, (), run)):
             with self.assertRaises(Failed) as caught:

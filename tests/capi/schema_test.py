@@ -208,6 +208,10 @@ class Reports(unittest.TestCase):
         self.holds("surface_check", json.loads(c.call(
             c.lib.obvid_surface_check, handle, None, None, C.byref(out), report=out)))
         out = C.c_void_p()
+        where = json.dumps({"waterlines": "count:3", "plane": ["1,0,1,20", "0,1,0,10"], "draught": 1.0}).encode()
+        self.holds("surface_cut", json.loads(c.call(
+            c.lib.obvid_surface_cut, handle, where, None, C.byref(files), C.byref(out), report=out)))
+        out, files = C.c_void_p(), C.c_void_p()
         plan = json.dumps({"diameter": 6, "scallop": 0.1, "tolerance": 0.02}).encode()
         self.holds("surface_toolpath", report_of(lambda: c.call(
             c.lib.obvid_surface_toolpath, handle, plan, None, C.byref(files), C.byref(out), report=out)))
@@ -272,6 +276,7 @@ class Options(unittest.TestCase):
         yield "alignment", lambda o: c.call(lib.obvid_alignment, points, None, o, None, None, ref(out), ref(text))
         yield "compare_curves", lambda o: c.call(lib.obvid_compare_curves, inputs, C.c_size_t(1), o, None, ref(out), ref(text))
         yield "cut", lambda o: c.call(lib.obvid_cut, inputs, C.c_size_t(1), o, None, ref(out), ref(text))
+        yield "surface_cut", lambda o: c.call(lib.obvid_surface_cut, surface, o, None, ref(out), ref(text))
         yield "surface_toolpath", lambda o: c.call(lib.obvid_surface_toolpath, surface, o, None, ref(out), ref(text))
 
     def test_of_every_job_are_those_of_its_schema(self):
@@ -291,7 +296,7 @@ class Options(unittest.TestCase):
                     ("convert",): names_of("stored") | names_of("export"),
                     ("surface", "grid"): names_of("surface_make") | names_of("surface_export"),
                     ("surface", "skin"): names_of("surface_make") | names_of("surface_export"),
-                    ("surface", "check"): names_of("surface_check"),
+                    ("surface", "check"): names_of("surface_check"), ("surface", "cut"): names_of("surface_cut"),
                     ("cut",): names_of("cut"), ("alignment",): names_of("alignment"),
                     ("toolpath",): names_of("surface_toolpath") | names_of("surface_export"),
                     ("region",): names_of("region"), ("compare",): names_of("compare_curves") | names_of("export"),
@@ -301,7 +306,7 @@ class Options(unittest.TestCase):
             with self.subTest(command=command):
                 self.assertEqual(typed(*command) - known, set())
         for command in [("fit",), ("region",), ("compare",), ("convert",), ("toolpath",), ("cut",), ("alignment",),
-                        ("surface", "check")] + [
+                        ("surface", "check"), ("surface", "cut")] + [
                 ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "offset")]:
             every |= typed(*command)
         self.assertEqual(typed("fit"), commands[("fit",)])

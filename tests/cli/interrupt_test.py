@@ -35,6 +35,7 @@ JOBS = {
     "surface skin": ["surface", "skin", "sections.csv", "-o", "o.stl"],
     "surface offset": ["surface", "offset", "hills.json", "--distance", "0.01", "--tolerance",
                        "1e-9", "-o", "o.json"],
+    "surface cut": ["surface", "cut", "hills.json", "--waterlines", "count:4000", "-o", "o.csv"],
     "surface check": ["surface", "check", "hills.json", "--samples", "2000", "-o", "o.svg"],
     "spline": ["spline", "table.csv", "--samples", "3000000", "-o", "o.csv"],
     "cut": ["cut", "endless.json", "--depth", "1", "--tolerance", "1e-7", "-o", "o.nc"],

@@ -782,6 +782,15 @@ class Surfaces(unittest.TestCase):
             checked = json.loads(subprocess.run([PROGRAM, "surface", "check", name, "--json"], check=True,
                                                 capture_output=True, text=True).stdout)
             self.assertEqual(again.check(), checked)
+            told = json.loads(subprocess.run([PROGRAM, "surface", "cut", name, "--waterlines", "count:3", "--draught", "-0.1", "--half",
+                                              "--json"], check=True, capture_output=True, text=True).stdout)
+            cut = hull.cut(waterlines="count:3", draught=-0.1, half=True)
+            self.assertEqual(cut.report, told)
+            for section in cut.sections:
+                for branch in section.branches:
+                    self.assertEqual(branch.points.shape[0], branch.in_plane.shape[0])
+                    self.assertEqual(branch.parameters.shape, branch.points.shape)
+            self.assertTrue(cut.files[".dxf"].startswith(b"  0") and b"<svg" in cut.files[".svg"])
             hull.write(os.path.join(folder, "hull.stl"))
             self.assertGreater(os.path.getsize(os.path.join(folder, "hull.stl")), 84)
 

@@ -52,13 +52,25 @@ from .reports import (
     Verification,
 )
 from .space import Corner, SpaceCurve, SpaceSamples, SpaceVerification
-from .surfaces import Surface, SurfaceSamples, Toolpath, read_surface, skin, surface, toolpath
+from .surfaces import (
+    Surface,
+    SurfaceBranch,
+    SurfaceCut,
+    SurfaceSamples,
+    SurfaceSection,
+    Toolpath,
+    read_surface,
+    skin,
+    surface,
+    toolpath,
+)
 
 __all__ = [
     "Alignment", "Analysis", "BSpline", "CancelledError", "CarrierRow", "Certificate", "Contour",
     "Corner", "CutProgram", "DrawingAnalysis", "FitReport", "InputError", "InternalError", "NoContourError",
     "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "SpaceCurve",
-    "SpaceSamples", "SpaceVerification", "Suggestion", "Surface", "SurfaceSamples", "Table", "Toolpath",
+    "SpaceSamples", "SpaceVerification", "Suggestion", "Surface", "SurfaceBranch", "SurfaceCut",
+    "SurfaceSamples", "SurfaceSection", "Table", "Toolpath",
     "UsageError", "Verification",
     "__version__", "alignment", "analyse", "compare", "compare_curves", "cut", "fit", "fit_many", "fit_space", "read", "read_contour",
     "read_space", "read_surface", "read_text", "region", "skin", "suggest", "surface", "toolpath",

@@ -105,6 +105,7 @@ def _load() -> C.CDLL:
         "obvid_compare_curves": (C.c_int, [handle, size, text, run, out, out, error]),
         "obvid_cut": (C.c_int, [handle, size, text, run, out, out, error]),
         "obvid_surface_toolpath": (C.c_int, [handle, text, run, out, out, error]),
+        "obvid_surface_cut": (C.c_int, [handle, text, run, out, out, error]),
         "obvid_surface_patches": (size, [handle]),
         "obvid_surface_warning": (text, [handle, size]),
         "obvid_surface_evaluate": (

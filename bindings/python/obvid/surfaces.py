@@ -39,6 +39,32 @@ class Toolpath(NamedTuple):
     not_kept: Optional[ObvidError]  #: what was asked for and is not so; None: all is kept
 
 
+class SurfaceBranch(NamedTuple):
+    """One branch of a plane section."""
+
+    points: Array  #: n x 3, units; of closed ones the first point is not repeated
+    in_plane: Array  #: n x 2: y, z of stations, x, y of waterlines, x, z of buttocks
+    parameters: Array  #: n x 3: patch, u, v
+    closed: bool
+
+
+class SurfaceSection(NamedTuple):
+    """All branches of a surface in a plane."""
+
+    name: str
+    branches: Tuple[SurfaceBranch, ...]
+
+
+class SurfaceCut(NamedTuple):
+    """What planes have in common with a surface."""
+
+    sections: Tuple[SurfaceSection, ...]
+    report: Json  #: as of `obvid surface cut --json`; "hydrostatics" where a draught was given
+    files: Dict[str, bytes]  #: by ending: ".csv", ".svg", ".dxf", ".json"
+    remarks: Tuple[str, ...]
+    not_kept: Optional[ObvidError]  #: contours that were refused or not proved
+
+
 class Surface:
     """A model of NURBS patches: made by `skin`, `surface` and `read_surface`. May be read by several
     threads at once.
@@ -115,6 +141,36 @@ class Surface:
         target = pathlib.Path(path)
         return write_all(target, self._files(target.suffix.lstrip("."), options))
 
+    def cut(self, **options: Any) -> SurfaceCut:
+        """Sections by planes and what floats. Options as of `obvid surface cut`: plane ("nx,ny,nz,d" or a
+        list of these), stations, waterlines, buttocks ("1,2.5", "every:0.5", "count:20"), tolerance,
+        fair, draught, half, density.
+
+        >>> import obvid
+        >>> tube = obvid.surface("revolve", [[(3, 0, 0), (3, 0, 5)]], axis="z")
+        >>> [len(section.branches) for section in tube.cut(waterlines="1,2").sections]
+        [1, 1]
+        """
+        files, said, error = C.c_void_p(), C.c_void_p(), C.POINTER(ErrorStruct)()
+        text = options_text({k.replace("_", "-"): v for k, v in options.items() if v is not None})
+        with Run(None, None) as run:
+            code = lib.obvid_surface_cut(
+                self._handle, text, run, C.byref(files), C.byref(said), C.byref(error)
+            )
+            report = taken_text(said)
+        failed = raise_error(error, report) if code else None
+        if not files.value:
+            assert failed is not None
+            raise failed
+        made, remarks = taken_files(files)
+        by_ending = dict(made)
+        told: Json = json.loads(by_ending[".json"])
+        sections = tuple(
+            SurfaceSection(one["name"], tuple(_branch(b) for b in one["branches"]))
+            for one in told["sections"]
+        )
+        return SurfaceCut(sections, json.loads(report or "{}"), by_ending, remarks, failed)
+
     def toolpath(self, **options: Any) -> Toolpath:
         """A program for a three-axis mill. Options as of `obvid toolpath`: cutter, diameter, strategy,
         scallop, step_over, angle, tolerance, feed, controller, motion, ..."""
@@ -141,6 +197,13 @@ class Surface:
             ):
                 raise raise_error(error)
         return taken_files(out)
+
+
+def _branch(told: Json) -> SurfaceBranch:
+    points, in_plane, parameters = (
+        np.array(told[key], dtype=np.float64) for key in ("points", "in_plane", "parameters")
+    )
+    return SurfaceBranch(points, in_plane, parameters, bool(told["closed"]))
 
 
 def _input(points: SurfacePoints) -> Source:

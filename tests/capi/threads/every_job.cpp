@@ -188,6 +188,15 @@ std::vector<Job> jobs() {
                                     &files, &text, nullptr);
          return told(files) + taken(text) + code_text(code);
        }},
+      {"surface_cut",
+       [](const Handles& h, const obvid_run* run) {
+         obvid_files* files = nullptr;
+         char* text = nullptr;
+         const int code = obvid_surface_cut(
+             h.surface, "{\"waterlines\": \"count:5\", \"plane\": \"1,1,0,40\", \"draught\": 2}",
+             run, &files, &text, nullptr);
+         return told(files) + taken(text) + code_text(code);
+       }},
       {"surface_toolpath", [](const Handles& h, const obvid_run* run) {
          obvid_files* files = nullptr;
          char* text = nullptr;

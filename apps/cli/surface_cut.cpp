@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "obvid/core/files.h"
+#include "obvid/pipeline/surface_cut_job.h"
+#include "obvid/pipeline/surface_job.h"
+#include "outputs.h"
+#include "table.h"
+#include "terminal.h"
+#include "text.h"
+
+namespace obvid {
+namespace {
+
+constexpr std::string_view kId = "{id}";
+
+bool is_of_branches(const std::string& path) { return path.find(kId) != std::string::npos; }
+
+std::string path_of_branch(std::string path, const std::string& id) {
+  for (std::size_t at; (at = path.find(kId)) != std::string::npos;) {
+    path.replace(at, kId.size(), id);
+  }
+  return path;
+}
+
+std::string ending_of(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
+}
+
+Result<void> check_outputs_of(const SurfaceCutOptions& options) {
+  OBVID_TRY(check_outputs(options.outputs, {&options.input, 1}));
+  for (const std::string& path : options.outputs) {
+    const std::string ending = ending_of(path);
+    if (is_of_branches(path)) {
+      if (ending == ".csv" && !options.job.fair) continue;
+      if (!options.job.fair) {
+        return error(ErrorCode::kUnknownFormat, "points of branches are written as .csv")
+            .where(path)
+            .hint("--fair EPS makes contours of them, in all formats of contours");
+      }
+      OBVID_TRY(output_of(path));
+      continue;
+    }
+    if (ending == ".json" || ending == ".csv" || ending == ".svg" || ending == ".dxf") continue;
+    return error(ErrorCode::kUnknownFormat, "sections are not written in this format")
+        .where(path)
+        .hint(
+            "possible are .json and .csv (points), .svg and .dxf (lines drawing), and names with "
+            "{id}, a file for each branch");
+  }
+  return {};
+}
+
+/// Files of single branches: their points, or their contours.
+Result<void> add_branches(const SurfaceCutOptions& options, const MadeSurfaceCut& made,
+                          const std::string& path, std::vector<Output>& files, FileNotes& notes) {
+  for (std::size_t i = 0; i < made.sections.size(); ++i) {
+    const MadeSection& section = made.sections[i];
+    for (std::size_t k = 0; k < section.section.branches.size(); ++k) {
+      const std::string id = fmt::format("{}-{}", section.id, k + 1);
+      Output out{path_of_branch(path, id), {}, {}};
+      if (!options.job.fair) {
+        out.text = branch_csv(made, i, k);
+        files.push_back(std::move(out));
+        continue;
+      }
+      const FairBranch& fair = section.fair[k];
+      if (fair.error) continue;
+      const auto named = output_of(out.path);
+      OBVID_TRY(named);
+      auto texts = exported({*named}, fair.stored, ExportOptions{}, notes);
+      OBVID_TRY(texts);
+      files.insert(files.end(), texts->begin(), texts->end());
+    }
+  }
+  return {};
+}
+
+Result<std::vector<Output>> files_of(const SurfaceCutOptions& options, const MadeSurfaceCut& made,
+                                     FileNotes& notes) {
+  std::vector<Output> files;
+  const std::string title = std::filesystem::path(options.input).stem().string();
+  for (const std::string& path : options.outputs) {
+    if (is_of_branches(path)) {
+      OBVID_TRY(add_branches(options, made, path, files, notes));
+      continue;
+    }
+    const std::string ending = ending_of(path);
+    std::string text = ending == ".csv"   ? sections_csv(made)
+                       : ending == ".svg" ? sketch_svg(lines_drawing(made, title))
+                       : ending == ".dxf" ? sketch_dxf(lines_drawing(made, title))
+                                          : surface_cut_json(made, {}, true);
+    files.push_back({path, {}, std::move(text)});
+  }
+  return files;
+}
+
+std::string fair_text(const MadeSection& section) {
+  std::size_t proved = 0;
+  for (const FairBranch& branch : section.fair) proved += branch.proved ? 1 : 0;
+  return fmt::format("{} of {}", proved, section.fair.size());
+}
+
+/// "12.5 m^3, off by 3e-12 as measured"
+std::string figure_text(const MeasuredFigure& figure, const std::string& unit, int power) {
+  return fmt::format("{} {}{}, last step {}", significant(figure.value, 8), unit,
+                     power == 1 ? std::string() : fmt::format("^{}", power),
+                     significant(figure.error, 2));
+}
+
+void add_displaced(Facts& facts, const MadeSurfaceCut& made) {
+  if (!made.displaced) return;
+  const Displaced& d = *made.displaced;
+  const std::string unit = made.units.text();
+  facts.add("volume", figure_text(d.volume, unit, 3));
+  if (made.displacement) facts.add("displacement", significant(*made.displacement, 8));
+  facts.add("centre x", figure_text(d.centre_x, unit, 1));
+  facts.add("centre y", figure_text(d.centre_y, unit, 1));
+  facts.add("centre z", figure_text(d.centre_z, unit, 1));
+  facts.add("wetted", figure_text(d.wetted, unit, 2));
+  facts.add("waterplane", figure_text(d.waterplane, unit, 2));
+  facts.add("its centre x", figure_text(d.plane_x, unit, 1));
+  facts.add("its inertia", figure_text(d.inertia_x, unit, 4));
+}
+
+std::string sections_text(const SurfaceCutOptions& options, const MadeSurfaceCut& made,
+                          const Written& written) {
+  Table table;
+  table.column("section", Table::Align::kLeft);
+  table.column("branches");
+  table.column("closed");
+  table.column("points");
+  table.column("off the\nplane");
+  table.column("chords\noff");
+  if (options.job.fair) table.column("contours\nproved");
+  for (const MadeSection& section : made.sections) {
+    std::size_t closed = 0, points = 0;
+    double off = 0.0;
+    for (const SectionBranch& branch : section.section.branches) {
+      closed += branch.closed ? 1 : 0;
+      points += branch.points.size();
+      off = std::max(off, branch.deviation);
+    }
+    std::vector<std::string> row = {section.name,
+                                    std::to_string(section.section.branches.size()),
+                                    std::to_string(closed),
+                                    std::to_string(points),
+                                    significant(section.section.residual, 2),
+                                    significant(off, 2)};
+    if (options.job.fair) row.push_back(fair_text(section));
+    table.row(row);
+  }
+  Facts facts;
+  if (!made.sections.empty())
+    facts.add("tolerance", fmt::format("{} {} of chords, as measured",
+                                       significant(made.tolerance, 3), made.units.text()));
+  add_displaced(facts, made);
+  for (const std::string& remark : written.remarks) facts.add("note", remark);
+  if (!written.files.empty()) facts.add("written", listed(written.files));
+  return (made.sections.empty() ? std::string() : table.text() + "\n") + facts.text();
+}
+
+struct CutDone {
+  MadeSurfaceCut made;
+  Written written;
+};
+
+Result<CutDone> cut_done(const SurfaceCutOptions& options, ProgressBar& bar) {
+  OBVID_TRY(check_outputs_of(options));
+  bar.tell("reading", 0.0);
+  std::vector<std::string> warnings;
+  const auto model = read_surface(options.input, warnings);
+  OBVID_TRY(model);
+  auto made = cut_surface(*model, options.job, bar.progress());
+  OBVID_TRY(made);
+  made->warnings.insert(made->warnings.begin(), warnings.begin(), warnings.end());
+  bar.tell("writing", 1.0);
+  FileNotes notes;
+  const auto files = files_of(options, *made, notes);
+  OBVID_TRY(files);
+  auto names = write_files(*files, options.input);
+  OBVID_TRY(names);
+  made->warnings.insert(made->warnings.end(), notes.warnings.begin(), notes.warnings.end());
+  return CutDone{std::move(*made), {std::move(*names), std::move(notes.remarks)}};
+}
+
+}  // namespace
+
+int run(const SurfaceCutOptions& options) {
+  ProgressBar bar(options.progress);
+  const auto done = cut_done(options, bar);
+  bar.clear();
+  if (!done) return report(done.error());
+  warn(done->made.warnings);
+  std::string text;
+  if (options.json) {
+    text = surface_cut_json(done->made, done->written, false);
+  } else if (!options.quiet) {
+    text = sections_text(options, done->made, done->written);
+  }
+  if (auto put_out = put(text); !put_out) return report(put_out.error());
+  if (auto failed = not_proved(done->made)) {
+    if (!done->written.files.empty()) failed->hint = "the other files were written";
+    return report(*failed);
+  }
+  return 0;
+}
+
+}  // namespace obvid

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "obvid/core/internal/format_into.h"
+#include "obvid/io/internal/json_text.h"
+#include "obvid/pipeline/surface_cut_job.h"
+
+namespace obvid {
+namespace {
+
+/// "x_m", or "x" where the unit is merely assumed.
+std::string column_in_units(const char* name, const Units& units) {
+  return units.known() ? fmt::format("{}_{}", name, units.name) : std::string(name);
+}
+
+JsonText& add_point(JsonText& json, Vec3 p) {
+  return json.begin_array().value(p.x).value(p.y).value(p.z).end_array();
+}
+
+void add_branch(JsonText& json, const MadeSection& section, std::size_t number, bool points) {
+  const SectionBranch& branch = section.section.branches[number];
+  json.begin_object().pair("closed", branch.closed).pair("count", branch.points.size());
+  json.pair("gap", branch.gap).pair("deviation", branch.deviation);
+  if (number < section.fair.size()) {
+    const FairBranch& fair = section.fair[number];
+    json.key("fair").begin_object().pair("proved", fair.proved);
+    if (fair.error) {
+      json.pair("error", to_line(*fair.error));
+    } else {
+      json.pair("pieces", fair.stored.contour.pieces.size());
+    }
+    json.end_object();
+  }
+  if (points) {
+    json.key("points").begin_array();
+    for (const SectionPoint& p : branch.points) add_point(json, p.point);
+    json.end_array().key("in_plane").begin_array();
+    for (const SectionPoint& p : branch.points) {
+      const Vec2 q = section.frame.in_plane(p.point);
+      json.begin_array().value(q.x).value(q.y).end_array();
+    }
+    json.end_array().key("parameters").begin_array();
+    for (const SectionPoint& p : branch.points) {
+      json.begin_array().value(p.patch).value(p.u).value(p.v).end_array();
+    }
+    json.end_array();
+  }
+  json.end_object();
+}
+
+void add_plane_section(JsonText& json, const MadeSection& section, bool points) {
+  json.begin_object().pair("name", section.name).pair("id", section.id);
+  json.pair("kind", to_string(section.kind));
+  add_point(json.key("normal"), section.plane.normal);
+  json.pair("offset", section.plane.offset);
+  json.pair("residual", section.section.residual).pair("undecided", section.section.undecided);
+  json.pair("touching_lines", section.section.touching_lines);
+  json.key("touching").begin_array();
+  for (const Vec3 p : section.section.touching) add_point(json, p);
+  json.end_array().key("patches_in_plane").begin_array();
+  for (const std::size_t i : section.section.in_plane) json.value(i);
+  json.end_array().key("branches").begin_array();
+  for (std::size_t i = 0; i < section.section.branches.size(); ++i) {
+    add_branch(json, section, i, points);
+  }
+  json.end_array().end_object();
+}
+
+void add_displaced(JsonText& json, const MadeSurfaceCut& made) {
+  if (!made.displaced) return;
+  const Displaced& d = *made.displaced;
+  json.key("hydrostatics").begin_object();
+  const auto figure = [&](const char* name, const MeasuredFigure& f) {
+    json.key(name).begin_object().pair("value", f.value).pair("error", f.error).end_object();
+  };
+  figure("volume", d.volume);
+  figure("wetted_area", d.wetted);
+  figure("waterplane_area", d.waterplane);
+  figure("centre_x", d.centre_x);
+  figure("centre_y", d.centre_y);
+  figure("centre_z", d.centre_z);
+  figure("waterplane_centre_x", d.plane_x);
+  figure("waterplane_centre_y", d.plane_y);
+  figure("waterplane_inertia", d.inertia_x);
+  json.key("displacement");
+  if (made.displacement) {
+    json.value(*made.displacement);
+  } else {
+    json.null();
+  }
+  json.pair("parts", d.parts).end_object();
+}
+
+}  // namespace
+
+std::string surface_cut_json(const MadeSurfaceCut& made, const Written& written, bool points) {
+  JsonText json;
+  json.begin_object();
+  add_units(json, made.units);
+  json.pair("size", made.size).pair("tolerance", made.tolerance);
+  json.key("sections").begin_array();
+  for (const MadeSection& section : made.sections) add_plane_section(json, section, points);
+  json.end_array();
+  add_displaced(json, made);
+  const auto list = [&](const char* name, const std::vector<std::string>& all) {
+    json.key(name).begin_array();
+    for (const std::string& one : all) json.value(one);
+    json.end_array();
+  };
+  list("warnings", made.warnings);
+  list("written", written.files);
+  list("remarks", written.remarks);
+  json.end_object();
+  return json.take();
+}
+
+std::string sections_csv(const MadeSurfaceCut& made) {
+  std::string out = fmt::format("section,branch,{},{},{}\n", column_in_units("x", made.units),
+                                column_in_units("y", made.units), column_in_units("z", made.units));
+  for (const MadeSection& section : made.sections) {
+    for (std::size_t i = 0; i < section.section.branches.size(); ++i) {
+      const SectionBranch& branch = section.section.branches[i];
+      for (const SectionPoint& p : branch.points) {
+        format_into(out, "{},{},{},{},{}\n", section.name, i + 1, p.point.x, p.point.y, p.point.z);
+      }
+    }
+  }
+  return out;
+}
+
+std::string branch_csv(const MadeSurfaceCut& made, std::size_t section, std::size_t branch) {
+  const MadeSection& from = made.sections[section];
+  const SectionBranch& one = from.section.branches[branch];
+  std::string out =
+      fmt::format("{},{}\n", column_in_units("x", made.units), column_in_units("y", made.units));
+  const auto add = [&](const SectionPoint& p) {
+    const Vec2 q = from.frame.in_plane(p.point);
+    format_into(out, "{},{}\n", q.x, q.y);
+  };
+  for (const SectionPoint& p : one.points) add(p);
+  if (one.closed) add(one.points.front());
+  return out;
+}
+
+}  // namespace obvid

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obvid/surface_cut/internal/displaced.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "branches.h"
+#include "cells.h"
+#include "obvid/geom/internal/box.h"
+#include "obvid/numeric/internal/gauss.h"
+#include "obvid/surface/internal/topology.h"
+
+namespace obvid {
+namespace {
+
+/// Integrals over a part of a patch: area; and with the third component of du x dv 1, x, y, y^2;
+/// with the height above the water too 1, x, y, and half that height.
+constexpr std::size_t kIntegrals = 9;
+using Integrals = std::array<double, kIntegrals>;
+constexpr std::array<int, kIntegrals> kDimension = {2, 2, 3, 3, 4, 3, 4, 4, 4};
+enum : std::size_t { kArea, kFlat, kFlatX, kFlatY, kFlatYy, kVolume, kMomentX, kMomentY, kMomentZ };
+
+constexpr double kPartsDiffer = 1e-13;  ///< of the size, to the power of the dimension
+constexpr int kMostHalvingsOfParts = 10;
+
+Integrals operator+(Integrals a, const Integrals& b) {
+  for (std::size_t i = 0; i < kIntegrals; ++i) a[i] += b[i];
+  return a;
+}
+
+/// With what the last step changed.
+struct Sum {
+  Integrals value{}, error{};
+  void add(const Sum& other) {
+    value = value + other.value;
+    error = error + other.error;
+  }
+};
+
+template <std::size_t N>
+std::array<double, N> nodes(Range range) {
+  std::array<double, N> out{};
+  for (std::size_t i = 0; i < N / 2; ++i) {
+    const double step = 0.5 * range.length() * GaussRule<N>::kNode[i];
+    out[N / 2 + i] = 0.5 * (range.from + range.to) + step;
+    out[N / 2 - 1 - i] = 0.5 * (range.from + range.to) - step;
+  }
+  return out;
+}
+template <std::size_t N>
+double weight(std::size_t i) {
+  return GaussRule<N>::kWeight[i >= N / 2 ? i - N / 2 : N / 2 - 1 - i];
+}
+
+/// Integrals of one patch below the water.
+class PatchIntegrals {
+ public:
+  PatchIntegrals(const CutPatch& patch, const PlaneFoot& foot, Vec3 origin, double size)
+      : patch_(patch), foot_(foot), origin_(origin) {
+    for (std::size_t i = 0; i < kIntegrals; ++i) {
+      small_[i] = kPartsDiffer * std::pow(size, kDimension[i]);
+    }
+  }
+
+  void take(const SectionCell& cell, CellKind kind) {
+    const Range u{patch_.u.at(cell.span_u, cell.shares_u().from),
+                  patch_.u.at(cell.span_u, cell.shares_u().to)};
+    const Range v{patch_.v.at(cell.span_v, cell.shares_v().from),
+                  patch_.v.at(cell.span_v, cell.shares_v().to)};
+    if (kind == CellKind::kBelow) {
+      sum.add(refined(u, [&](Range part, auto rule, int halvings) {
+        return over_panels(v, halvings, [&](Range some) { return strip(part, some, rule); });
+      }));
+    } else if (kind == CellKind::kOverU || kind == CellKind::kOverV) {
+      take_cut(cell, kind == CellKind::kOverU, u, v);
+    } else if (kind == CellKind::kUndecided) {
+      ++undecided;
+    }
+  }
+
+  Sum sum;
+  std::size_t undecided = 0;
+
+ private:
+  template <std::size_t N>
+  using Rule = std::integral_constant<std::size_t, N>;
+
+  [[nodiscard]] Integrals at(const SurfacePoint& p) const {
+    const Vec3 normal = cross(p.du, p.dv), r = p.point - origin_;
+    const double n = normal.z;
+    return {norm(normal),       n,       r.x * n,       r.y * n,
+            r.y * r.y * n,      r.z * n, r.x * r.z * n, r.y * r.z * n,
+            0.5 * r.z * r.z * n};
+  }
+
+  /// `part` of each of 2^halvings parts of a range, together.
+  template <class Part>
+  static Integrals over_panels(Range range, int halvings, const Part& part) {
+    constexpr int kMostPanels = 4;  // halvings
+    const int count = 1 << std::min(halvings, kMostPanels);
+    Integrals out{};
+    for (int k = 0; k < count; ++k) {
+      out = out + part(Range{range.at(static_cast<double>(k) / count),
+                             range.at(static_cast<double>(k + 1) / count)});
+    }
+    return out;
+  }
+
+  /// Over a rectangle.
+  template <std::size_t N>
+  [[nodiscard]] Integrals strip(Range u, Range v, Rule<N>) const {
+    const auto us = nodes<N>(u), vs = nodes<N>(v);
+    std::array<SurfacePoint, N * N> points;
+    evaluate_raster(*patch_.surface, us, vs, points);
+    Integrals out{};
+    for (std::size_t j = 0; j < N; ++j) {
+      for (std::size_t i = 0; i < N; ++i) {
+        const double w = 0.25 * u.length() * v.length() * weight<N>(i) * weight<N>(j);
+        const Integrals here = at(points[j * N + i]);
+        for (std::size_t k = 0; k < kIntegrals; ++k) out[k] += w * here[k];
+      }
+    }
+    return out;
+  }
+
+  /// A range halved until 4 and 8 points agree; what lies across it is halved as often.
+  template <class Part>
+  [[nodiscard]] Sum refined(Range range, const Part& part, int halvings = 0) const {
+    const Integrals rough = part(range, Rule<4>{}, halvings);
+    const Integrals fine = part(range, Rule<8>{}, halvings);
+    Sum out{fine, {}};
+    bool enough = true;
+    for (std::size_t i = 0; i < kIntegrals; ++i) {
+      out.error[i] = std::abs(fine[i] - rough[i]);
+      enough = enough && out.error[i] <= small_[i];
+    }
+    if (enough) return out;
+    const double middle = range.at(0.5);
+    const std::array<Range, 2> halves = {Range{range.from, middle}, Range{middle, range.to}};
+    const Integrals both =
+        part(halves[0], Rule<8>{}, halvings + 1) + part(halves[1], Rule<8>{}, halvings + 1);
+    enough = true;
+    for (std::size_t i = 0; i < kIntegrals; ++i) {
+      out.error[i] = std::abs(fine[i] - both[i]);
+      enough = enough && out.error[i] <= small_[i];
+    }
+    out.value = both;
+    if (enough || halvings >= kMostHalvingsOfParts) return out;
+    Sum halved = refined(halves[0], part, halvings + 1);
+    halved.add(refined(halves[1], part, halvings + 1));
+    return halved;
+  }
+
+  /// A cell in which the branch is a function of one parameter: below it, or above.
+  void take_cut(const SectionCell& cell, bool over_u, Range u, Range v) {
+    const Range along = over_u ? u : v, across = over_u ? v : u;
+    std::vector<double> ends{0.0, 1.0};
+    for (const std::size_t side :
+         over_u ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{0, 1}) {
+      for (const double t : sign_changes(side_of(cell, patch_.u.degree, patch_.v.degree, side))) {
+        ends.push_back(t);
+      }
+    }
+    std::sort(ends.begin(), ends.end());
+    Strand strand;
+    strand.over_u = over_u;
+    strand.least = across.from;
+    strand.most = across.to;
+    const auto below = [&](double t, double other) {
+      const SurfaceJet jet =
+          over_u ? evaluate(*patch_.surface, t, other) : evaluate(*patch_.surface, other, t);
+      return foot_.height(jet.point) < 0.0;
+    };
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const Range part{along.at(ends[i - 1]), along.at(ends[i])};
+      if (!(part.length() > 0.0)) continue;
+      const bool low = below(part.at(0.5), across.from), high = below(part.at(0.5), across.to);
+      if (!low && !high) continue;
+      if (low && high) {
+        sum.add(refined(part, [&](Range some, auto rule, int halvings) {
+          return over_panels(across, halvings, [&](Range other) {
+            return over_u ? strip(some, other, rule) : strip(other, some, rule);
+          });
+        }));
+        continue;
+      }
+      sum.add(refined(part, [&](Range some, auto rule, int halvings) {
+        return up_to_water(some, strand, low, rule, halvings);
+      }));
+    }
+  }
+
+  /// Over a part of a line of constant u or v.
+  template <std::size_t N>
+  [[nodiscard]] Integrals across_line(double t, Range range, bool at_u, Rule<N>) const {
+    const auto others = nodes<N>(range);
+    const std::array<double, 1> fixed = {t};
+    std::array<SurfacePoint, N> points;
+    if (at_u) {
+      evaluate_raster(*patch_.surface, fixed, others, points);
+    } else {
+      evaluate_raster(*patch_.surface, others, fixed, points);
+    }
+    Integrals out{};
+    for (std::size_t j = 0; j < N; ++j) {
+      const double w = 0.5 * range.length() * weight<N>(j);
+      const Integrals here = at(points[j]);
+      for (std::size_t k = 0; k < kIntegrals; ++k) out[k] += w * here[k];
+    }
+    return out;
+  }
+
+  template <std::size_t N>
+  [[nodiscard]] Integrals up_to_water(Range along, const Strand& strand, bool low_is_below, Rule<N>,
+                                      int halvings) const {
+    Integrals out{};
+    const auto ts = nodes<N>(along);
+    for (std::size_t i = 0; i < N; ++i) {
+      const SectionPoint root =
+          foot_.on_strand(patch_, strand, ts[i], 0.5 * (strand.least + strand.most));
+      const double at_water =
+          std::clamp(strand.over_u ? root.v : root.u, strand.least, strand.most);
+      const Range wet = low_is_below ? Range{strand.least, at_water} : Range{at_water, strand.most};
+      const double w = 0.5 * along.length() * weight<N>(i);
+      const Integrals line = over_panels(wet, halvings, [&](Range some) {
+        return across_line(ts[i], some, strand.over_u, Rule<N>{});
+      });
+      for (std::size_t k = 0; k < kIntegrals; ++k) out[k] += w * line[k];
+    }
+    return out;
+  }
+
+  const CutPatch& patch_;
+  const PlaneFoot& foot_;
+  Vec3 origin_;
+  Integrals small_{};
+};
+
+/// Sides of patches that lie on one side of the body: +1 or -1 each, and which part each belongs
+/// to.
+struct Turned {
+  std::vector<double> sign;
+  std::vector<std::size_t> part;
+  std::size_t parts = 0, twisted = 0;
+};
+
+/// Whether an edge runs counter-clockwise round a patch.
+double runs_round(const EdgeUse& use) {
+  const bool with = use.side == kVStart || use.side == kUEnd;
+  return with == use.along ? 1.0 : -1.0;
+}
+
+Turned turned_alike(const SurfaceModel& model) {
+  const std::size_t count = model.patches.size();
+  const Topology topology = topology_of(model);
+  Turned out{std::vector<double>(count, 0.0), std::vector<std::size_t>(count, 0), 0, 0};
+  for (std::size_t first = 0; first < count; ++first) {
+    if (out.sign[first] != 0.0) continue;
+    std::vector<std::size_t> open{first};
+    out.sign[first] = 1.0;
+    while (!open.empty()) {
+      const std::size_t patch = open.back();
+      open.pop_back();
+      out.part[patch] = out.parts;
+      for (const PatchSide side : kPatchSides) {
+        const TopologyEdge& edge = topology.edges[topology.edge_of[patch][side]];
+        if (edge.point || edge.uses.size() != 2) continue;
+        const EdgeUse& own = topology.use(patch, side);
+        const EdgeUse& other = &own == &edge.uses[0] ? edge.uses[1] : edge.uses[0];
+        const double wanted = -out.sign[patch] * runs_round(own) * runs_round(other);
+        if (out.sign[other.patch] == 0.0) {
+          out.sign[other.patch] = wanted;
+          open.push_back(other.patch);
+        } else if (out.sign[other.patch] != wanted && &own == &edge.uses[0]) {
+          ++out.twisted;
+        }
+      }
+    }
+    ++out.parts;
+  }
+  return out;
+}
+
+MeasuredFigure quotient(double a, double a_error, double b, double b_error, double shift) {
+  constexpr double kNothing = 8.0;  // errors
+  if (std::abs(b) <= kNothing * b_error || b == 0.0)
+    return {std::numeric_limits<double>::quiet_NaN(), 0.0};
+  const double value = a / b;
+  return {shift + value, (a_error + std::abs(value) * b_error) / std::abs(b)};
+}
+
+}  // namespace
+
+Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& options,
+                            const RunContext& run) {
+  if (!std::isfinite(options.water)) {
+    return error(ErrorCode::kNotFinite, "the waterplane lies at no finite height");
+  }
+  Box3 box;
+  double heaviest = 1.0;
+  for (const NurbsSurface* surface : surfaces_of(model)) {
+    box.add_all(surface->points);
+    for (const double w : surface->weights) heaviest = std::max(heaviest, w);
+  }
+  const double size = box.diagonal();
+  if (!(size > 0.0)) return error(ErrorCode::kTooFewPoints, "the surface has no size");
+  const double largest =
+      std::max({std::abs(box.low.z), std::abs(box.high.z), std::abs(options.water)});
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * largest;
+  const CutPlane plane{{0.0, 0.0, 1.0}, options.water};
+  const CutPlane decided{plane.normal, options.water - std::max(1e-12 * size, 16.0 * rounding)};
+  const PlaneFoot foot(plane, 0.25 * rounding);
+  const double middle_y = options.mirror ? 0.0 : box.middle().y;
+  const Vec3 origin{box.middle().x, middle_y, options.water};
+  const Turned turned = turned_alike(model);
+  std::vector<Sum> parts(turned.parts);
+  Displaced out;
+  out.parts = turned.parts;
+  out.twisted = turned.twisted;
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    OBVID_TRY(
+        tell(run, "measuring", static_cast<double>(i) / static_cast<double>(model.patches.size())));
+    const CutPatch patch = cut_patch(model.patches[i].surface);
+    PatchIntegrals integrals(patch, foot, origin, size);
+    OBVID_TRY(divide(patch, heights_of(*patch.surface, decided), rounding * heaviest, run,
+                     [&](const SectionCell& cell, CellKind kind) { integrals.take(cell, kind); }));
+    for (std::size_t k = 1; k < kIntegrals; ++k) integrals.sum.value[k] *= turned.sign[i];
+    parts[turned.part[i]].add(integrals.sum);
+    out.undecided += integrals.undecided;
+  }
+  Sum all;
+  for (Sum& part : parts) {
+    if (part.value[kVolume] < 0.0) {
+      for (std::size_t k = 1; k < kIntegrals; ++k) part.value[k] = -part.value[k];
+    }
+    all.add(part);
+  }
+  // with the outward normal the flux of (0, 0, 1) through the hull is less than nothing
+  const double flat_sign = -1.0, sides = options.mirror ? 2.0 : 1.0;
+  const auto figure = [&](std::size_t k, double sign) {
+    return MeasuredFigure{sign * sides * all.value[k], sides * all.error[k]};
+  };
+  out.volume = figure(kVolume, 1.0);
+  out.wetted = figure(kArea, 1.0);
+  out.waterplane = figure(kFlat, flat_sign);
+  const auto centre = [&](std::size_t k, std::size_t of, double shift) {
+    return quotient(all.value[k], all.error[k], all.value[of], all.error[of], shift);
+  };
+  out.centre_x = centre(kMomentX, kVolume, origin.x);
+  out.centre_y = options.mirror ? MeasuredFigure{} : centre(kMomentY, kVolume, origin.y);
+  out.centre_z = centre(kMomentZ, kVolume, origin.z);
+  out.plane_x = centre(kFlatX, kFlat, origin.x);
+  out.plane_y = options.mirror ? MeasuredFigure{} : centre(kFlatY, kFlat, origin.y);
+  const double off = options.mirror ? 0.0 : out.plane_y.value - origin.y;
+  out.inertia_x = {sides * (flat_sign * all.value[kFlatYy] -
+                            (off == 0.0 ? 0.0 : off * off * flat_sign * all.value[kFlat])),
+                   sides * (all.error[kFlatYy] + off * off * all.error[kFlat])};
+  return out;
+}
+
+}  // namespace obvid
