@@ -20,8 +20,9 @@ constexpr std::array<double, 3> kShares = {0.99, 0.5, 0.05};
 constexpr double kSharperLength = 0.7;
 /// A clothoid over a length L departs from its best circle by (change of curvature) L^2 / kHidden.
 constexpr double kHidden = 125.0;
-/// Least quality: a stretch of a clothoid has 1, one around a vertex about 12.
-constexpr double kLeastQuality = 16.0;
+/// Least quality: a stretch of a clothoid has 1, one around a vertex about 12, and up to 20 where
+/// noise helps it. What is straight by chance is rarer.
+constexpr double kLeastQuality = 20.0, kLeastQualityOfLines = 16.0;
 constexpr double kLineShare = 0.8;  ///< of a circle's length that a line must reach to be preferred
 constexpr double kSameLength = 0.25;  ///< between an arc and the chords of its points
 constexpr int kJoinings = 3;  ///< times that neighbours are cut where they touch, and fitted
@@ -237,7 +238,8 @@ class Finder {
     const double used = std::max(kShares.back(), share_used(*fit, p.first, p.last));
     p.quality = beside ? *beside * length * length / (kHidden * used * reach)
                        : std::numeric_limits<double>::infinity();
-    if (!(p.quality >= kLeastQuality)) return std::nullopt;
+    const double least = kind == Kind::kLine ? kLeastQualityOfLines : kLeastQuality;
+    if (!(p.quality >= least)) return std::nullopt;
     return p;
   }
 
