@@ -17,7 +17,7 @@ struct SmoothPoints {
   std::vector<bool> free;     ///< nothing is given at the point
   bool closed = false;        ///< the last point is followed by the first
   /// Of the tolerance: how far a transition keeps two primitives apart that touch each other.
-  double shift = 0.1;
+  double shift = 0.2;
 };
 
 /// Points first .. last that mean one circle or line.
