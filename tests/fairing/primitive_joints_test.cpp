@@ -66,11 +66,10 @@ TEST(PrimitiveJoints, AClothoidOfThatLengthKeepsItsCirclesApart) {
   const double length = transition_length(0.0, kKappa, kShift);
   // from the x axis on; the circle at its end stays that far above the axis
   constexpr int kSteps = 20000;
-  double x = 0.0, y = 0.0;
+  double y = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     const double s = (i + 0.5) * length / kSteps;
     const double theta = 0.5 * kKappa / length * s * s;
-    x += std::cos(theta) * length / kSteps;
     y += std::sin(theta) * length / kSteps;
   }
   const double theta = 0.5 * kKappa * length;
