@@ -188,7 +188,7 @@ class Builder {
 
   /// Lines and arcs that the points mean become nodes; the points between stay as they are.
   void set_primitives() {
-    const std::vector<std::size_t> order = points_in_order();
+    std::vector<std::size_t> order = points_in_order();
     SmoothPoints smooth = smooth_points(order);
     std::vector<Primitive> found = find_primitives(smooth, watch_);
     if (found.empty()) return;
@@ -203,16 +203,19 @@ class Builder {
       lay_nodes();
       return;
     }
+    begin_at(found, order);
     std::vector<bool> is_node(series_.points.size(), false);
     for (const std::size_t i : source_) is_node[i] = true;
     knots_.clear();
     auto next = found.begin();
+    bool joined = series_.closed && found.back().joined;  // the last one before: with the next
     for (std::size_t k = 0; k < order.size(); ++k) {
       if (next != found.end() && next->first == k) {
         knots_.push_back({order[next->first], order[next->last], *next});
         k = next->last;
+        joined = next->joined;
         ++next;
-      } else if (is_node[order[k]]) {
+      } else if (is_node[order[k]] && (!joined || given(order[k]))) {
         knots_.push_back({order[k], order[k], std::nullopt});
       }
     }
@@ -222,6 +225,19 @@ class Builder {
     }
     inside_ = smooth_knots();
     if (!inside_) trouble_ = farthest_outside();
+  }
+
+  /// Rotates the order so that it begins with the first primitive, where that has points from over
+  /// the seam, or its last one.
+  static void begin_at(std::vector<Primitive>& found, std::vector<std::size_t>& order) {
+    const std::size_t n = order.size(), begin = found.front().first % n;
+    const bool over = found.front().last >= n || found.back().last >= n;
+    if (!over) return;
+    std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(begin), order.end());
+    for (Primitive& p : found) {
+      p.first = (p.first + n - begin) % n;
+      p.last = (p.last + n - begin) % n;
+    }
   }
 
   /// Node whose points, or those behind it, lie farthest from the curve, in their reaches.
@@ -243,6 +259,7 @@ class Builder {
   /// Points with the arc length and curvature of the smooth curve, linear between its nodes.
   [[nodiscard]] SmoothPoints smooth_points(const std::vector<std::size_t>& order) const {
     SmoothPoints out;
+    out.closed = series_.closed;
     std::vector<std::size_t> node_of(series_.points.size(), series_.points.size());
     for (std::size_t i = 0; i < source_.size(); ++i) node_of[source_[i]] = i;
     std::size_t node = 0;
@@ -308,6 +325,8 @@ class Builder {
     node.fix_kappa = p.kappa == 0.0;
     node.before = p.before;
     node.after = p.after;
+    node.lead = p.lead;
+    node.trail = p.trail;
     node.length = p.before + p.after;
     node.normal = left_normal(unit_at(node.theta));
     node.first_on = tube_.on_primitives.size();

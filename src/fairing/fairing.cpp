@@ -62,15 +62,21 @@ void append_node(const LaidTube& laid, const SmoothTube& smooth, std::size_t i, 
     out.elements.push_back({origin + end.position, n.theta + x[1] + end.kappa * s, end.kappa});
     out.source.push_back(source);
   };
-  append(-n.before, first);
+  const auto reach = [&](double s, std::optional<std::size_t> source) {
+    out.direction.push_back(0);
+    append(s, source);
+  };
+  append(-n.before, n.lead > 0.0 ? std::nullopt : first);
   if (!n.is_primitive()) return;
-  const double length = n.before + n.after, turn = length * place(n, x).in.kappa;
+  const double begin = n.lead - n.before, length = n.after - n.trail - begin;
+  if (n.lead > 0.0) reach(begin, first);
+  const double turn = length * place(n, x).in.kappa;
   const int parts = parts_of_arc(turn, out.feasible);
   for (int k = 1; k <= parts; ++k) {
-    out.direction.push_back(0);
-    const double s = k == parts ? n.after : -n.before + length * k / parts;
-    append(s, k == parts ? std::optional(smooth.last_source[*node]) : std::nullopt);
+    reach(begin + length * k / parts,
+          k == parts ? std::optional(smooth.last_source[*node]) : std::nullopt);
   }
+  if (n.trail > 0.0) reach(n.after, std::nullopt);
 }
 
 /// One circle or line through all points.
@@ -100,6 +106,12 @@ void collect_nodes(const LaidTube& laid, const SmoothTube& smooth, std::size_t t
     if (i < laid.direction.size()) out.direction.push_back(laid.direction[i]);
     out.primitives += laid.tube.nodes[i].is_primitive() ? 1 : 0;
   }
+  if (!laid.tube.closed || out.source.front() || out.elements.size() < 2) return;
+  // a closed series begins at a point
+  std::rotate(out.elements.begin(), out.elements.begin() + 1, out.elements.end());
+  std::rotate(out.source.begin(), out.source.begin() + 1, out.source.end());
+  std::rotate(out.direction.begin(), out.direction.begin() + 1, out.direction.end());
+  out.trouble = (out.trouble + out.elements.size() - 1) % out.elements.size();
 }
 
 FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
@@ -138,9 +150,10 @@ constexpr int kMostTrims = 40;
 /// Work of that, in steps on every point, and for few points.
 constexpr double kTrimSteps = 3000.0, kTrimWork = 2e5;
 
-/// Nothing when no transition fits between the lines and arcs, or the work is used up.
+/// Nothing when no transition fits between the lines and arcs, or the work is used up. `meant`: how
+/// many there are before any is given up.
 std::optional<FairedSeries> keep_primitives(const MeasuredSeries& series, int lower_bound,
-                                            Watch& watch) {
+                                            Watch& watch, int& meant) {
   const Allowance allowance(watch,
                             kTrimWork + kTrimSteps * static_cast<double>(series.points.size()));
   std::vector<std::size_t> loose = series.loose;
@@ -148,6 +161,8 @@ std::optional<FairedSeries> keep_primitives(const MeasuredSeries& series, int lo
     const ProgressShare share = ProgressShare::next_of_many(watch, k);
     FairedSeries out = attempt(series, lower_bound, loose, watch);
     out.loose = loose;
+    meant = std::max(meant, out.primitives);
+    out.given_up = meant - out.primitives;
     const bool broken_off = !out.feasible && !watch.may_go_on();
     if (out.feasible || (out.primitives == 0 && !broken_off)) return out;
     if (out.primitives == 0) break;
@@ -175,12 +190,15 @@ std::optional<std::size_t> nearest_primitive_end(const FairedSeries& faired, std
 
 FairedSeries fair(const MeasuredSeries& series, Watch& watch) {
   const int lower_bound = forced_vertices(series.points, series.reach, series.closed, watch);
+  int meant = 0;
   if (series.primitives) {
-    if (auto out = keep_primitives(series, lower_bound, watch)) return std::move(*out);
+    if (auto out = keep_primitives(series, lower_bound, watch, meant)) return std::move(*out);
   }
   MeasuredSeries without = series;
   without.primitives = false;
-  return attempt(without, lower_bound, {}, watch);
+  FairedSeries out = attempt(without, lower_bound, {}, watch);
+  out.given_up = meant;
+  return out;
 }
 
 }  // namespace obvid

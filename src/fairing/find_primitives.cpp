@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "node_ends.h"
+#include "primitive_joints.h"
 
 namespace obvid::fairing_detail {
 namespace {
@@ -15,14 +16,16 @@ namespace {
 constexpr std::size_t kFewestPoints = 4;
 /// Parts of the tolerance that a fit may use up. Noise of the tolerance's size needs nearly all;
 /// the less it is, the better arcs are told from spirals, and the more room the transitions have.
-constexpr std::array<double, 3> kShares = {0.95, 0.5, 0.05};
+constexpr std::array<double, 3> kShares = {0.99, 0.5, 0.05};
 constexpr double kSharperLength = 0.7;
 /// A clothoid over a length L departs from its best circle by (change of curvature) L^2 / kHidden.
 constexpr double kHidden = 125.0;
-/// Least quality: a stretch of a clothoid has 1, one around a vertex about 12.
-constexpr double kLeastQuality = 16.0;
+/// Least quality: a stretch of a clothoid has 1, one around a vertex about 12, and up to 20 where
+/// noise helps it. What is straight by chance is rarer.
+constexpr double kLeastQuality = 20.0, kLeastQualityOfLines = 16.0;
 constexpr double kLineShare = 0.8;  ///< of a circle's length that a line must reach to be preferred
 constexpr double kSameLength = 0.25;  ///< between an arc and the chords of its points
+constexpr int kJoinings = 3;  ///< times that neighbours are cut where they touch, and fitted
 constexpr int kFitSteps = 8;
 constexpr double kFitted = 1e-12;       ///< last step of a fit, in half lengths of the stretch
 constexpr double kWorkPerPoint = 0.1;   ///< of a fit's step, against a solver's step on a point
@@ -71,7 +74,9 @@ class Finder {
       });
       all.insert(all.end(), sharper.begin(), sharper.end());
     }
-    return best_without_overlap(std::move(all));
+    std::vector<Primitive> kept = best_without_overlap(std::move(all));
+    join(kept);
+    return kept;
   }
 
  private:
@@ -101,12 +106,26 @@ class Finder {
       if (!s_.free[i] || !(s_.reach[i] > 0.0)) return false;
     }
     const auto fit = fit_circle(first, last, kind);
-    if (!fit) return false;
+    return fit && passes(*fit, first, last, share_);
+  }
+
+  [[nodiscard]] bool passes(const CircleFit& fit, std::size_t first, std::size_t last,
+                            double share) const {
     for (std::size_t i = first; i <= last; ++i) {
-      const double d = circle_distance(fit->node, fit->placed, s_.points[i]).value;
-      if (!(std::abs(d) <= share_ * s_.reach[i])) return false;
+      const double d = circle_distance(fit.node, fit.placed, s_.points[i]).value;
+      if (!(std::abs(d) <= share * s_.reach[i])) return false;
     }
     return true;
+  }
+
+  /// Of their tolerances, the most that points are off.
+  [[nodiscard]] double share_used(const CircleFit& fit, std::size_t first, std::size_t last) const {
+    double most = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+      const double d = circle_distance(fit.node, fit.placed, s_.points[i]).value;
+      most = std::max(most, std::abs(d) / s_.reach[i]);
+    }
+    return most;
   }
 
   /// Least squares of the distances, by Gauss-Newton from the chord.
@@ -122,6 +141,13 @@ class Finder {
     n.normal = left_normal(unit_at(n.theta));
     n.kappa = kind == Kind::kLine ? 0.0 : mean_kappa(first, last);
     n.theta += start_turn(first, last, n.kappa);
+    return refined(fit, first, last, kind);
+  }
+
+  /// Gauss-Newton from a circle near the points.
+  [[nodiscard]] std::optional<CircleFit> refined(CircleFit fit, std::size_t first, std::size_t last,
+                                                 Kind kind) const {
+    TubeNode& n = fit.node;
     const std::size_t unknowns = kind == Kind::kLine ? 2 : 3;
     const std::size_t step = std::max<std::size_t>(1, (last - first) / kFitPoints);
     Vec3 x{};
@@ -129,7 +155,7 @@ class Finder {
       fit.placed = place(n, x.data());
       Mat3 a{};
       Vec3 b{};
-      for (std::size_t i = first; i <= last; i += step) add(fit, s_.points[i], a, b);
+      for (std::size_t i = first; i <= last; i += step) add(fit, point(i), a, b);
       watch_.spend(kWorkPerPoint * static_cast<double>((last - first) / step + 1));
       if (!solve(a, b, unknowns)) return std::nullopt;
       double largest = 0.0;
@@ -183,7 +209,10 @@ class Finder {
   }
 
   [[nodiscard]] std::optional<Primitive> describe(std::size_t first, std::size_t last) const {
-    Primitive p{first, last, {}, 0.0, 0.0, 0.0, 0.0, 0.0};
+    Primitive p;
+    p.first = first;
+    p.last = last;
+    p.share = share_;
     Kind kind = Kind::kCircle;
     if (const auto line = line_within(first, last)) {
       p.first = line->first;
@@ -193,11 +222,9 @@ class Finder {
     const auto fit = fit_circle(p.first, p.last, kind);
     if (!fit) return std::nullopt;
     const double length = this->length(p);
-    p.anchor = fit->node.point;
-    p.theta = fit->node.theta;
-    p.kappa = fit->node.kappa;
-    p.before = along(*fit, s_.points[p.first]);
-    p.after = along(*fit, s_.points[p.last]);
+    lay(*fit, p);
+    p.before = foot_on(p, s_.points[p.first]);
+    p.after = foot_on(p, s_.points[p.last]);
     if (!(p.before < 0.0 && p.after > 0.0)) return std::nullopt;
     // feet beyond half a turn from the anchor look as if they lay on its other side
     if (!(std::abs(p.after - p.before - length) <= kSameLength * length)) return std::nullopt;
@@ -205,10 +232,23 @@ class Finder {
     double reach = 0.0;
     for (std::size_t i = p.first; i <= p.last; ++i) reach = std::max(reach, s_.reach[i]);
     const auto beside = change_beside(p);
-    p.quality = beside ? *beside * length * length / (kHidden * share_ * reach)
+    if (kind == Kind::kCircle && share_ < kShares.front() && is_line_with_all(p, reach)) {
+      return std::nullopt;
+    }
+    const double used = std::max(kShares.back(), share_used(*fit, p.first, p.last));
+    p.quality = beside ? *beside * length * length / (kHidden * used * reach)
                        : std::numeric_limits<double>::infinity();
-    if (!(p.quality >= kLeastQuality)) return std::nullopt;
+    const double least = kind == Kind::kLine ? kLeastQualityOfLines : kLeastQuality;
+    if (!(p.quality >= least)) return std::nullopt;
     return p;
+  }
+
+  /// Whether an arc is as flat as the tolerance and a line would do: then it is that line's.
+  [[nodiscard]] bool is_line_with_all(const Primitive& p, double reach) const {
+    const double length = this->length(p);
+    if (!(0.125 * std::abs(p.kappa) * length * length <= reach)) return false;
+    const auto line = fit_circle(p.first, p.last, Kind::kLine);
+    return line && passes(*line, p.first, p.last, kShares.front());
   }
 
   /// The longest line inside a stretch, when it is nearly as long.
@@ -229,17 +269,14 @@ class Finder {
     return best;
   }
 
-  /// Arc length along a circle from its anchor to the foot of a point.
-  static double along(const CircleFit& fit, Vec2 point) {
-    const Vec2 q = point - fit.placed.anchor;
-    const double u = dot(fit.placed.tangent, q), v = cross(fit.placed.tangent, q);
-    const double k = fit.node.kappa;
-    if (k == 0.0) return u;
-    return std::atan2(k * u, 1.0 - k * v) / k;
+  static void lay(const CircleFit& fit, Primitive& p) {
+    p.anchor = fit.node.point;
+    p.theta = fit.node.theta;
+    p.kappa = fit.node.kappa;
   }
 
   /// The best ones whole, the others as far as they lie beside better ones.
-  [[nodiscard]] std::vector<Primitive> best_without_overlap(std::vector<Primitive> all) const {
+  std::vector<Primitive> best_without_overlap(std::vector<Primitive> all) {
     std::sort(all.begin(), all.end(),
               [](const Primitive& a, const Primitive& b) { return a.quality > b.quality; });
     std::vector<Primitive> kept;
@@ -254,6 +291,7 @@ class Finder {
       });
       if (inside || last < first + kFewestPoints - 1) continue;
       const bool whole = first == p.first && last == p.last;
+      share_ = p.share;
       if (whole) {
         kept.push_back(p);
       } else if (const auto part = describe(first, last)) {
@@ -263,6 +301,116 @@ class Finder {
     std::sort(kept.begin(), kept.end(),
               [](const Primitive& a, const Primitive& b) { return a.first < b.first; });
     return kept;
+  }
+
+  /// Points over the seam of a closed series have numbers from its size on.
+  [[nodiscard]] std::size_t wrapped(std::size_t i) const { return i % s_.points.size(); }
+  [[nodiscard]] Vec2 point(std::size_t i) const { return s_.points[wrapped(i)]; }
+
+  [[nodiscard]] double reach_of(const Primitive& p) const {
+    double least = s_.reach[wrapped(p.first)];
+    for (std::size_t i = p.first; i <= p.last; ++i) least = std::min(least, s_.reach[wrapped(i)]);
+    return least;
+  }
+
+  /// Neighbours that touch each other are cut where they do, whatever points each could have too:
+  /// there is room for a transition around that place, and nowhere else.
+  void join(std::vector<Primitive>& all) const {
+    if (all.size() < 2) return;
+    const std::size_t joints = s_.closed ? all.size() : all.size() - 1;
+    for (int round = 0; round < kJoinings; ++round) {
+      if (round > 0) {
+        for (Primitive& p : all) refit(p);
+      }
+      for (std::size_t k = 0; k < joints; ++k) {
+        Primitive a = all[k], b = all[(k + 1) % all.size()];
+        const std::size_t turn = k + 1 == all.size() ? s_.points.size() : 0;
+        b.first += turn;
+        b.last += turn;
+        all[k].joined = false;
+        if (!meet(a, b)) continue;
+        const std::size_t back = std::min(turn, b.first / s_.points.size() * s_.points.size());
+        b.first -= back;
+        b.last -= back;
+        a.joined = true;
+        all[k] = a;
+        all[(k + 1) % all.size()] = b;
+      }
+    }
+  }
+
+  void refit(Primitive& p) const {
+    CircleFit fit;
+    TubeNode& n = fit.node;
+    n.point = p.anchor;
+    n.theta = p.theta;
+    n.kappa = p.kappa;
+    n.reach = n.length = 0.5 * (p.before + p.after);
+    n.normal = left_normal(unit_at(n.theta));
+    const auto better = refined(fit, p.first, p.last, p.kappa == 0.0 ? Kind::kLine : Kind::kCircle);
+    if (!better) return;
+    Primitive next = p;
+    lay(*better, next);
+    next.before = p.lead - foot_on(next, point(p.first));
+    next.after = p.trail + foot_on(next, point(p.last));
+    if (next.before > 0.0 && next.after > 0.0) p = next;
+  }
+
+  /// Cuts a and b, the next one, where they touch each other. False: they do not, or not here.
+  [[nodiscard]] bool meet(Primitive& a, Primitive& b) const {
+    const auto place = tangent_place(a, b);
+    const double reach = std::min(reach_of(a), reach_of(b));
+    if (!place || !(std::abs(place->gap) <= 2.0 * reach)) return false;
+    const double most = transition_length(a.kappa, b.kappa, reach);
+    const double slack = most + norm(point(b.first) - point(a.last));
+    if (std::abs(place->on_first - a.after) > slack ||
+        std::abs(place->on_second + b.before) > slack) {
+      return false;
+    }
+    const double length = transition_length(a.kappa, b.kappa, s_.shift * reach);
+    const double end = place->on_first - 0.5 * length, start = place->on_second + 0.5 * length;
+    return end > 0.0 && start < 0.0 && take_until(a, end) && take_from(b, start) &&
+           a.last < b.first;
+  }
+
+  [[nodiscard]] bool may_take(const Primitive& p, std::size_t i) const {
+    if (!s_.free[wrapped(i)]) return false;
+    CircleFit fit;
+    fit.node.point = p.anchor;
+    fit.node.theta = p.theta;
+    fit.node.kappa = p.kappa;
+    const Vec3 none{};
+    fit.placed = place(fit.node, none.data());
+    return std::abs(circle_distance(fit.node, fit.placed, point(i)).value) <= s_.reach[wrapped(i)];
+  }
+
+  /// The last point becomes the last one whose foot lies before `end`.
+  [[nodiscard]] bool take_until(Primitive& p, double end) const {
+    const std::size_t behind = s_.closed ? p.first + s_.points.size() : s_.points.size();
+    while (p.last > p.first && foot_on(p, point(p.last)) > end) --p.last;
+    while (p.last + 1 < behind) {
+      const double foot = foot_on(p, point(p.last + 1));
+      if (foot > end) break;
+      if (foot <= foot_on(p, point(p.last)) || !may_take(p, p.last + 1)) return false;
+      ++p.last;
+    }
+    p.after = end;
+    p.trail = end - foot_on(p, point(p.last));
+    return p.last + 1 >= p.first + kFewestPoints;
+  }
+
+  /// And the first one the first behind `start`.
+  [[nodiscard]] bool take_from(Primitive& p, double start) const {
+    while (p.first < p.last && foot_on(p, point(p.first)) < start) ++p.first;
+    while (p.first > 0) {
+      const double foot = foot_on(p, point(p.first - 1));
+      if (foot < start) break;
+      if (foot >= foot_on(p, point(p.first)) || !may_take(p, p.first - 1)) return false;
+      --p.first;
+    }
+    p.before = -start;
+    p.lead = foot_on(p, point(p.first)) - start;
+    return p.last + 1 >= p.first + kFewestPoints;
   }
 
   const SmoothPoints& s_;

@@ -15,6 +15,9 @@ struct SmoothPoints {
   std::vector<double> at;     ///< arc length
   std::vector<double> kappa;  ///< of the smooth curve
   std::vector<bool> free;     ///< nothing is given at the point
+  bool closed = false;        ///< the last point is followed by the first
+  /// Of the tolerance: how far a transition keeps two primitives apart that touch each other.
+  double shift = 0.2;
 };
 
 /// Points first .. last that mean one circle or line.
@@ -25,7 +28,11 @@ struct Primitive {
   double kappa = 0.0;    ///< 0: a line
   double before = 0.0;   ///< arc length from the first point's foot to the anchor
   double after = 0.0;    ///< and from the anchor to the last one's
+  double lead = 0.0;     ///< of `before`, how much lies ahead of the first point's foot
+  double trail = 0.0;    ///< of `after`, how much lies behind the last one's
   double quality = 0.0;  ///< change of curvature beside it over the one that the tolerance hides
+  bool joined = false;   ///< the next one touches it: between them is a transition alone
+  double share = 1.0;    ///< of the tolerance that its fit may use up
 };
 
 /// Stretches that fit one circle or line with half their tolerance to spare and that are far longer

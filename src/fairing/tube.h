@@ -27,6 +27,8 @@ struct TubeNode {
   /// A primitive: the arc or line from `before` ahead of the anchor to `after` behind it, arc
   /// lengths; it passes the points first_on .. last_on - 1 of `Tube::on_primitives`.
   double before = 0.0, after = 0.0;
+  /// Of these, how much lies ahead of the first point's foot, and behind the last one's.
+  double lead = 0.0, trail = 0.0;
   std::size_t first_on = 0, last_on = 0;
 
   [[nodiscard]] bool is_primitive() const { return before + after > 0.0; }

@@ -4,6 +4,7 @@
 
 usage: lines_and_arcs_test.py PROGRAM
 """
+import cmath
 import json
 import math
 import pathlib
@@ -62,28 +63,46 @@ class Folder(unittest.TestCase):
         return rows, json.loads((self.at / "c.json").read_text()), done.stderr
 
     def expected(self, contour):
-        """Of each line and arc with four points or more: points, curvature, centre, heading, length, farthest point."""
+        """Of each line and arc with four points or more: points, curvature, centre, heading, length, farthest point.
+        Neighbours of one kind and curvature are one: parts of an arc, and what leads to the first point or on from the
+        last one."""
         out = []
         pieces, elements, points = contour["pieces"], contour["elements"], contour["points"]
-        for k, piece in enumerate(pieces):
-            begin, end = elements[k], elements[(k + 1) % len(elements)]
-            if piece["type"] not in ("line", "arc") or begin.get("source") is None or end.get("source") is None:
-                continue
-            count = (end["source"] - begin["source"]) % len(points) + 1
-            if count < 4:
-                continue
-            mine = [points[(begin["source"] + i) % len(points)] for i in range(count)]
-            kappa, theta, start = begin["kappa"], begin["heading"], begin["point"]
-            left = (-math.sin(theta), math.cos(theta))
-            if piece["type"] == "line":
-                off = max(abs((x - start[0]) * left[0] + (y - start[1]) * left[1]) for x, y in mine)
-                out.append((begin["source"], end["source"], 0.0, None, theta, math.dist(start, end["point"]), off))
-            else:
-                centre = (start[0] + left[0] / kappa, start[1] + left[1] / kappa)
-                turn = (end["heading"] - theta) % (2 * math.pi) if kappa > 0 else (theta - end["heading"]) % (2 * math.pi)
-                off = max(abs(math.dist(centre, p) - abs(1 / kappa)) for p in mine)
-                out.append((begin["source"], end["source"], kappa, centre, theta, turn / abs(kappa), off))
+        size = len(pieces)
+        at = lambda k: elements[k % len(elements)]  # noqa: E731
+
+        def same(a, b):
+            a, b = pieces[a % size], pieces[b % size]
+            return a["type"] == b["type"] and a["type"] in ("line", "arc") and (
+                a["type"] == "line" or math.isclose(a["kappa"], b["kappa"], rel_tol=1e-9))
+
+        begin = next(k for k in range(size) if k == 0 and not contour["closed"] or not same(k - 1, k))
+        while begin < size:
+            end = begin + 1
+            while (contour["closed"] or end < size) and same(end - 1, end):
+                end += 1
+            kind, sources = pieces[begin % size]["type"], [at(k)["source"] for k in range(begin, end + 1)]
+            sources = [k for k in sources if k is not None]
+            if kind in ("line", "arc") and len(sources) > 1 and (sources[-1] - sources[0]) % len(points) >= 3:
+                out.append(self.figures(contour, begin, end, sources[0], sources[-1]))
+            begin = end
+        if contour["closed"]:  # what goes over the start was met last
+            out.sort(key=lambda row: row[0])
         return out
+
+    def figures(self, contour, begin, end, first, last):
+        pieces, elements, points = contour["pieces"], contour["elements"], contour["points"]
+        parts = [pieces[k % len(pieces)] for k in range(begin, end)]
+        mine = [points[(first + i) % len(points)] for i in range((last - first) % len(points) + 1)]
+        if parts[0]["type"] == "line":
+            start, stop = parts[0]["start"], parts[-1]["end"]
+            along = complex(stop[0] - start[0], stop[1] - start[1])
+            off = max(abs((complex(x - start[0], y - start[1]) / along).imag) * abs(along) for x, y in mine)
+            return first, last, 0.0, None, cmath.phase(along), abs(along), off
+        theta, kappa, start = parts[0]["theta0"], parts[0]["kappa"], parts[0]["start"]
+        centre = (start[0] - math.sin(theta) / kappa, start[1] + math.cos(theta) / kappa)
+        off = max(abs(math.dist(centre, p) - abs(1 / kappa)) for p in mine)
+        return first, last, kappa, centre, theta, sum(p["length"] for p in parts), off
 
     def check(self, rows, contour):
         expected = self.expected(contour)

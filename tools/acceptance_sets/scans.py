@@ -228,9 +228,7 @@ def held_against(row, case, contour):
     out = {"kind": row["kind"], "found": False, "flat": False, "loud": case.tolerance >= LOUD}
     inner = [complex(*p) for p in case.truth["points"][row["first"] + 1:row["last"]]]
     best, share = None, 0
-    for piece in contour["pieces"] if contour else []:
-        if piece["type"] not in ("line", "arc"):
-            continue
+    for piece in whole(contour["pieces"]) if contour else []:
         near = sum(abs(offset(piece, z)) <= 6 * case.tolerance and beside(piece, z) for z in inner)
         if near > share:
             best, share = piece, near
@@ -248,6 +246,30 @@ def held_against(row, case, contour):
         deviation = case.tolerance * math.sqrt(720 / n) / row["length"] ** 2
         out["known"] = deviation / abs(row["kappa"])
     return out
+
+
+def whole(pieces):
+    """Lines and arcs; neighbours that are parts of one, with the same curvature and common tangents, as one."""
+    out, before = [], None
+    for piece in pieces:
+        if piece["type"] not in ("line", "arc"):
+            before = None
+            continue
+        if before and goes_on(before, piece):
+            before["end"], before["length"] = piece["end"], before.get("length", 0) + piece.get("length", 0)
+            continue
+        before = dict(piece)
+        out.append(before)
+    return out
+
+
+def goes_on(a, b):
+    if a["type"] != b["type"] or math.dist(a["end"], b["start"]) > 1e-9:
+        return False
+    if a["type"] == "line":
+        return abs(cmath.phase((complex(*b["end"]) - complex(*b["start"])) / (complex(*a["end"]) - complex(*a["start"])))) < 1e-9
+    turn = b["theta0"] - a["theta0"] - a["kappa"] * a["length"]
+    return abs(a["kappa"] / b["kappa"] - 1) < 1e-9 and abs(math.remainder(turn, 2 * math.pi)) < 1e-9
 
 
 def offset(piece, z):

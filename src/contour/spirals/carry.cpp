@@ -27,6 +27,9 @@ constexpr double kLargestBlurOfChange = 1e-3;
 constexpr double kLargestBlurOfChangeG3 = 1e-11;  // slopes feel it some ten times as much, and are
                                                   // as small as 1e-9 at vertices
 constexpr double kLargestBlur = 2.5e-10;
+/// Where a piece ends straight, its largest curvature times 1e-6 takes the place of the curvature
+/// there: a quarter of what is called continuous then.
+constexpr double kLargestBlurWhereStraight = 2.5e-13;
 /// Curvature error at an end per rounding of a control point, over the square of the end's leg.
 constexpr double kCurvaturePerRounding = 8.0;
 
@@ -38,8 +41,9 @@ bool fits_global_coordinates(const RationalBezier& piece, double kappa_start, do
   const double leg2 = std::min(dot(first, first), dot(last, last));
   const double blur = kCurvaturePerRounding * 0x1p-53 * extent / leg2;
   const double kappa = std::max(std::abs(kappa_start), std::abs(kappa_end));
+  const bool straight = kappa_start == 0.0 || kappa_end == 0.0;
   return blur <= largest_blur_of_change * std::abs(kappa_end - kappa_start) &&
-         blur <= kLargestBlur * kappa;
+         blur <= (straight ? kLargestBlurWhereStraight : kLargestBlur) * kappa;
 }
 
 RationalBezier in_global_coordinates(RationalBezier piece, Vec2 end) {

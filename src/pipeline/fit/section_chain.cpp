@@ -597,11 +597,7 @@ class SectionChooser {
     give_nodes(measured, whole, series_.convex);
     FairedSeries faired;
     if (auto chain = follow_runs(measured, faired)) {
-      if (measured.primitives && faired.primitives == 0) {
-        out_.warnings.emplace_back(
-            "no line and no arc was found: no stretch of 4 points or more fits one with room to "
-            "spare and is far longer than a spiral that fits as well");
-      }
+      if (measured.primitives) tell_primitives(faired);
       if (bends_without_need(*chain)) {
         give_nodes(measured, whole, true);
         FairedSeries one_way;
@@ -627,6 +623,23 @@ class SectionChooser {
         "the points were moved within their tolerances onto a smooth curve, but runs of monotone "
         "curvature along it were not found; the contour runs through the moved points");
     return through_moved(faired);
+  }
+
+  void tell_primitives(const FairedSeries& faired) {
+    if (faired.given_up > 0) {
+      const auto all = static_cast<std::size_t>(faired.primitives + faired.given_up);
+      out_.warnings.push_back(fmt::format(
+          "the points mean {}, of which {} kept: beside the others no transition was found that "
+          "stays within the tolerance",
+          counted(all, "line or arc", "lines and arcs"),
+          faired.primitives == 0   ? "none is"
+          : faired.primitives == 1 ? "1 is"
+                                   : fmt::format("{} are", faired.primitives)));
+    } else if (faired.primitives == 0) {
+      out_.warnings.emplace_back(
+          "no line and no arc was found: no stretch of 4 points or more fits one with room to "
+          "spare and is far longer than a spiral that fits as well");
+    }
   }
 
   /// Whether the points, none of which need move then, lie on one circle or line that has what is

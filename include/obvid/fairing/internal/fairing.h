@@ -37,6 +37,7 @@ struct FairedSeries {
   int vertices_lower_bound = 0;  ///< what the points force within their tolerances
   std::size_t trouble = 0;       ///< when not feasible: node near which it failed
   int primitives = 0;            ///< exact lines and arcs
+  int given_up = 0;  ///< further ones, that the points mean: no transitions beside them were found
   std::vector<std::size_t>
       loose;  ///< points taken off the primitives so that transitions have room
   int newton_steps = 0;

@@ -15,8 +15,8 @@ struct LineOrArc {
   double kappa = 0.0;            ///< signed curvature, 1/unit; 0: a line
   Vec2 centre;                   ///< of an arc; not of a line
   double theta = 0.0;            ///< heading of a line at its start, rad
-  double length = 0.0;           ///< units
-  double off = 0.0;              ///< largest distance of those points from its line or circle, units
+  double length = 0.0;  ///< units, with what lies ahead of its first point and behind its last
+  double off = 0.0;     ///< largest distance of those points from its line or circle, units
 };
 
 /// Those of at least four points, in order; pieces taken over from a drawing are not among them.
