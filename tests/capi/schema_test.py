@@ -302,7 +302,7 @@ class Options(unittest.TestCase):
                 self.assertEqual(typed(*command) - known, set())
         for command in [("fit",), ("region",), ("compare",), ("convert",), ("toolpath",), ("cut",), ("alignment",),
                         ("surface", "check")] + [
-                ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "offset")]:
+                ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "scatter", "offset")]:
             every |= typed(*command)
         self.assertEqual(typed("fit"), commands[("fit",)])
         ours = set(ALL["options.schema.json"]["$defs"]["options"])
