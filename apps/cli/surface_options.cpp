@@ -237,6 +237,10 @@ struct KindOptions {
     app.add_option("--spread", raw.values.spread,
                    "Parameters by chord, centripetal or uniform [chord]")
         ->type_name("NAME");
+    app.add_option("--row", raw.values.row,
+                   "How many points of a list x y z are in a row [blank lines, counts or scan "
+                   "lines tell]")
+        ->type_name("N");
     app.add_option("--spacing", raw.values.spacing, "Distance of rows and columns of heights [1]")
         ->type_name("D");
   }

@@ -69,7 +69,7 @@ struct GordonKind {
 struct GridReading {
   Spread spread = Spread::kChord;
   std::optional<double> spacing{};   ///< of rows and columns of height matrices [1]
-  std::optional<std::size_t> row{};  ///< of points in memory: how many are in a row
+  std::optional<std::size_t> row{};  ///< of a list of points: how many are in a row
 };
 /// Through, near or controlled by a grid of points.
 struct GridKind {

@@ -120,7 +120,7 @@ Result<void> set_kind(const SurfaceValues& raw, GridReading& reading) {
   reading.spread = *spread;
   reading.spacing = raw.spacing;
   if (raw.row) {
-    if (*raw.row < 1) return fail(bad_option("rows have points", "row", "give 2 or more"));
+    if (*raw.row < 1) return fail(bad_option("rows have points", "--row", "give 2 or more"));
     reading.row = static_cast<std::size_t>(*raw.row);
   }
   return {};
