@@ -59,6 +59,9 @@ constexpr std::array kKinds = {
              "obvid surface grid terrain.csv --near --tolerance 0.5 -o terrain.step"},
     KindText{"id", "Integro-differential spline through a grid", "Grid as above",
              "obvid surface id grid.csv --smooth -o surface.step"},
+    KindText{"scatter", "Near points in any order, as heights over a plane",
+             "Points: x y z rows, STL, PLY, OBJ",
+             "obvid surface scatter terrain.csv --tolerance 0.5 --up z -o terrain.step"},
     KindText{"offset", "At a distance along the normals, folds refused",
              "Surface (.json, STEP, IGES, BREP, control points)",
              "obvid surface offset skin.json --distance -2 -o inner.step"},
@@ -83,6 +86,7 @@ constexpr const char* kSurfaceHelp =
   obvid surface gordon A... --across B... -o OUT   through a net of curves
   obvid surface grid GRID -o OUT               through, near or controlled by points
   obvid surface id GRID -o OUT                 integro-differential spline
+  obvid surface scatter POINTS --tolerance T -o OUT  near points in any order
   obvid surface offset SURFACE --distance D -o OUT
   obvid surface convert SURFACE -o OUT         another format
   obvid surface check SURFACE                  curvature, joints, monotone sections
@@ -212,6 +216,20 @@ struct KindOptions {
         ->type_name("D");
     add_surface_tolerance(app, raw, "Largest distance from the exact offset");
   }
+  void operator()(const ScatterKind&) const {
+    app.add_option("--tolerance", raw.values.tolerance,
+                   "Largest distance of the points along the heights, input units")
+        ->type_name("T");
+    app.add_option("--up", raw.values.up,
+                   "Direction of the heights: x, y, z, a direction X,Y,Z, or best: normal of the "
+                   "best plane [best]")
+        ->type_name("AXIS");
+    app.add_option("--steepest", raw.values.steepest_deg,
+                   "Neighbours that force a steeper slope are refused, degrees [85]")
+        ->type_name("DEG");
+    app.add_flag("--drop-outliers", raw.values.drop_outliers,
+                 "Leave out points that their neighbours pass by [named alone]");
+  }
   void operator()(const ConvertKind&) const {}
 
  private:
@@ -222,6 +240,10 @@ struct KindOptions {
     app.add_option("--spread", raw.values.spread,
                    "Parameters by chord, centripetal or uniform [chord]")
         ->type_name("NAME");
+    app.add_option("--row", raw.values.row,
+                   "How many points of a list x y z are in a row [blank lines, counts or scan "
+                   "lines tell]")
+        ->type_name("N");
     app.add_option("--spacing", raw.values.spacing, "Distance of rows and columns of heights [1]")
         ->type_name("D");
   }
@@ -317,6 +339,9 @@ Result<void> check_needs(const RawSurface& raw, const KindText& text) {
   }
   if (is_kind<OffsetKind>(text) && !raw.values.distance) {
     return fail(usage("surface offset needs --distance", see));
+  }
+  if (is_kind<ScatterKind>(text) && !raw.values.tolerance) {
+    return fail(usage("surface scatter needs --tolerance", see));
   }
   return {};
 }

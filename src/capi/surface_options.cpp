@@ -53,7 +53,10 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"spread", text(s.spread)},
                 {"smooth", flag(s.smooth)},
                 {"distance", number(s.distance)},
-                {"row", count(s.row)}});
+                {"row", count(s.row)},
+                {"up", text(s.up)},
+                {"steepest", number(s.steepest_deg)},
+                {"drop-outliers", flag(s.drop_outliers)}});
   }
   if (known.formats) {
     SurfaceFormatValues& f = w.formats;

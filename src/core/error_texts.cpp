@@ -145,8 +145,10 @@ constexpr std::array kTexts{
         ErrorCode::kSurfaceFolds, "The surface would fold back on itself",
         "At the distance that was asked for, the offset passes a centre of curvature of the "
         "surface and turns inside out there. The error names the places and the largest distance "
-        "on this side at which it does not.",
-        "Take a smaller distance, or smooth the surface where it bends most."},
+        "on this side at which it does not. Of scattered points: neighbours in the plane lie at such "
+        "different heights that a surface over this plane would have to be a wall.",
+        "Take a smaller distance, or smooth the surface where it bends most. For points give another "
+        "direction of the heights, leave outliers out, or raise the tolerance above the noise."},
     ErrorText{
         ErrorCode::kToolTooLarge, "The tool does not fit",
         "At half its diameter from the outline the tool would have to turn in a hollow that is "

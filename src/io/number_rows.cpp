@@ -16,28 +16,6 @@ namespace {
 
 using std::string_view;
 
-/// Fields of a line, however many.
-void split_all(string_view line, text::Separator separator, std::vector<string_view>& fields) {
-  fields.clear();
-  if (separator == text::Separator::kWhite) {
-    for (std::size_t at = 0; at < line.size();) {
-      while (at < line.size() && text::is_blank(line[at])) ++at;
-      const std::size_t start = at;
-      while (at < line.size() && !text::is_blank(line[at])) ++at;
-      if (at > start) fields.push_back(line.substr(start, at - start));
-    }
-    return;
-  }
-  const char mark = separator == text::Separator::kTab     ? '\t'
-                    : separator == text::Separator::kComma ? ','
-                                                           : ';';
-  for (std::size_t start = 0; start <= line.size();) {
-    const std::size_t end = std::min(line.find(mark, start), line.size());
-    fields.push_back(text::trim(line.substr(start, end - start)));
-    start = end + 1;
-  }
-}
-
 class NumberRowReader {
  public:
   NumberRowReader(string_view text, string_view name) : cursor_(text), name_(name) {}
@@ -72,9 +50,9 @@ class NumberRowReader {
     if (marked && fields_.size() != out_.header.size()) fields_.pop_back();
     NumberRow row{cursor_.line_number(), gap_, {}};
     std::size_t words = 0, empty = 0;
-    string_view word;
+    string_view word, gap;
     for (const string_view field : fields_) {
-      empty += field.empty() ? 1 : 0;
+      if (field.empty() && empty++ == 0) gap = field;
       const text::ParsedNumber number = text::parse_number(field, true);
       if (number.kind == text::NumberKind::kNotFinite) {
         return fail(error_at(ErrorCode::kNotFinite, text::shown(field) + " is not a finite number",
@@ -92,7 +70,8 @@ class NumberRowReader {
       gap_ = false;
       return {};
     }
-    if (is_broken(row.values.size(), words, empty)) return fail(broken(bare, word, row.line));
+    if (is_broken(row.values.size(), words, empty))
+      return fail(broken(bare, word.empty() ? gap : word, row.line));
     if (out_.rows.empty()) {
       out_.header.clear();
       for (const string_view field : fields_) out_.header.emplace_back(field);
@@ -126,9 +105,13 @@ class NumberRowReader {
         ErrorCode::kBadNumber,
         word.empty() ? "an empty cell where a number belongs" : text::shown(word) + " is no number",
         name_, number,
-        word.empty() ? "fill the cell in, or leave out its row or column"
-                     : "correct the field, or begin the line with # when it is a remark");
-    error.where = text::position(name_, number, text::column_of(line, word.data()));
+        word.empty()
+            ? "fill the cell in, or leave out its row or column; `surface skin` takes tables of "
+              "half-breadths with the cells that are there"
+            : "correct the field, or begin the line with # when it is a remark");
+    if (word.data() != nullptr) {
+      error.where = text::position(name_, number, text::column_of(line, word.data()));
+    }
     return error;
   }
 
@@ -140,6 +123,27 @@ class NumberRowReader {
 };
 
 }  // namespace
+
+void split_all(string_view line, text::Separator separator, std::vector<string_view>& fields) {
+  fields.clear();
+  if (separator == text::Separator::kWhite) {
+    for (std::size_t at = 0; at < line.size();) {
+      while (at < line.size() && text::is_blank(line[at])) ++at;
+      const std::size_t start = at;
+      while (at < line.size() && !text::is_blank(line[at])) ++at;
+      if (at > start) fields.push_back(line.substr(start, at - start));
+    }
+    return;
+  }
+  const char mark = separator == text::Separator::kTab     ? '\t'
+                    : separator == text::Separator::kComma ? ','
+                                                           : ';';
+  for (std::size_t start = 0; start <= line.size();) {
+    const std::size_t end = std::min(line.find(mark, start), line.size());
+    fields.push_back(text::trim(line.substr(start, end - start)));
+    start = end + 1;
+  }
+}
 
 Result<NumberRows> number_rows(string_view text, string_view name) {
   OBVID_TRY(text::check_text_kind(text, name));

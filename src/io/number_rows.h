@@ -11,6 +11,7 @@
 #include "obvid/core/units.h"
 #include "read_points_header.h"
 #include "text_digits.h"
+#include "text_lines.h"
 
 namespace obvid {
 
@@ -42,6 +43,10 @@ struct NumberRows {
 /// passed over. Words alone make a header or a title; numbers and words in one line are an error.
 /// Errors: E302, E303, E304 nothing there, E306, E310.
 [[nodiscard]] Result<NumberRows> number_rows(std::string_view text, std::string_view name);
+
+/// Fields of a line, however many.
+void split_all(std::string_view line, text::Separator separator,
+               std::vector<std::string_view>& fields);
 
 /// Column of this name ("x" for "X [mm]", "x_m"); -1 when there is none.
 [[nodiscard]] int column_named(const NumberRows& rows, std::string_view name);

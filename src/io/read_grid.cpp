@@ -214,7 +214,7 @@ Result<PointGrid> from_list(const NumberRows& rows, string_view name) {
         .where(std::string(name))
         .hint(
             "put a blank line between rows, or begin with a line of two counts: points in a "
-            "row, rows")
+            "row, rows; `surface scatter` takes points in no order")
         .value(static_cast<double>(points->size()));
   }
   return grid_of(cut(*points, length), name);

@@ -15,6 +15,7 @@
 #include "obvid/core/files.h"
 #include "obvid/io/internal/read_grid.h"
 #include "obvid/io/read_points.h"
+#include "offset_table.h"
 
 namespace obvid {
 namespace {
@@ -252,6 +253,7 @@ Result<void> check_no_matrices(const std::vector<std::string>& paths) {
     if (path == "-") return {};  // standard input is read once
     const auto text = read_file(path);
     if (!text || is_blade_table(*text) || is_airfoil_of_blade(*text)) continue;
+    if (is_offset_text(*text)) continue;
     const auto rows = number_rows(*text, path);
     const bool named = rows && column_named(*rows, "x") >= 0;
     if (!rows || named || is_rotor(*rows) || !is_matrix(*rows)) continue;
@@ -320,6 +322,10 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
     for (const Vec2 p : airfoil->points) section.points.push_back({p.x, p.y, 0.0});
     section.rounding = {airfoil->rounding.x, airfoil->rounding.y, 0.0};
     out = ParsedSections{{std::move(section)}, true};
+  } else if (is_offset_text(text)) {
+    auto table = parse_offset_table(text, name);
+    OBVID_TRY(table);
+    return ParsedSections{std::move(table->sections), false, std::move(table->assumed)};
   } else {
     const auto rows = number_rows(text, name);
     if (is_plain_list(rows)) {
@@ -333,7 +339,8 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
 }
 
 Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& paths,
-                                               const SectionOptions& options) {
+                                               const SectionOptions& options,
+                                               std::vector<std::string>* assumed) {
   if (paths.empty()) return error(ErrorCode::kUsage, "no files with sections");
   const bool matrices = std::all_of(paths.begin(), paths.end(), [](const std::string& path) {
     return matrix_with_siblings(path).has_value();
@@ -354,6 +361,9 @@ Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& p
     auto parsed = parse_sections(*text, path, options);
     OBVID_TRY(parsed);
     (parsed->flat ? flat_file : spatial_file) = path;
+    for (const std::string& what : parsed->assumed) {
+      if (assumed != nullptr) assumed->push_back(path + ": " + what);
+    }
     if (paths.size() > 1 && parsed->sections.size() == 1)
       parsed->sections.front().name = file_name(path);
     std::move(parsed->sections.begin(), parsed->sections.end(), std::back_inserter(sections));

@@ -701,6 +701,7 @@ class Surfaces(unittest.TestCase):
         yield "ruled", edges[:1], {"direction": "0,0,40"}, ["--direction", "0,0,40"]
         yield "revolve", [self.example("vase_profile.csv")], {"axis": "z", "angle": 180}, ["--axis", "z", "--angle", "180"]
         yield "grid", [self.example("wavy_grid.csv")], {"near": True, "tolerance": 0.01}, ["--near", "--tolerance", "0.01"]
+        yield "scatter", [self.example("wavy_grid.csv")], {"tolerance": 0.1, "up": "z"}, ["--tolerance", "0.1", "--up", "z"]
         yield "id", [self.example("wavy_grid.csv")], {"smooth": True}, ["--smooth"]
 
     def test_says_what_the_command_line_says(self):

@@ -307,11 +307,11 @@ class Options(unittest.TestCase):
                 self.assertEqual(typed(*command) - known, set())
         for command in [("fit",), ("region",), ("compare",), ("convert",), ("toolpath",), ("cut",), ("alignment",),
                         ("surface", "check"), ("surface", "cut")] + [
-                ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "offset")]:
+                ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "scatter", "offset")]:
             every |= typed(*command)
         self.assertEqual(typed("fit"), commands[("fit",)])
         ours = set(ALL["options.schema.json"]["$defs"]["options"])
-        self.assertEqual(ours - every, {"row"})  # of arrays, which are not typed
+        self.assertEqual(ours - every, set())
 
     def test_values_of_other_types_are_refused_by_both(self):
         for name, value in (("noise", True), ("tolerance", "wide"), ("closed", "yes"), ("corner-at", 3),

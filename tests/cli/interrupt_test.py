@@ -36,6 +36,8 @@ JOBS = {
     "surface offset": ["surface", "offset", "hills.json", "--distance", "0.01", "--tolerance",
                        "1e-9", "-o", "o.json"],
     "surface cut": ["surface", "cut", "hills.json", "--waterlines", "count:4000", "-o", "o.csv"],
+    "surface scatter": ["surface", "scatter", "cloud.csv", "--tolerance", "1e-3", "--up", "z",
+                        "--steepest", "89.99", "-o", "o.json"],
     "surface check": ["surface", "check", "hills.json", "--samples", "2000", "-o", "o.svg"],
     "spline": ["spline", "table.csv", "--samples", "3000000", "-o", "o.csv"],
     "cut": ["cut", "endless.json", "--depth", "1", "--tolerance", "1e-7", "-o", "o.nc"],
@@ -60,6 +62,10 @@ def write_inputs(program, folder):
                 for k in range(300) for a in (0.02 * j for j in range(150))]
     (folder / "sections.csv").write_text(
         "section,x,y,z\n" + "".join(line_of(*p) for p in sections))
+    places = [((0.618033989 * k) % 1.0, (0.754877666 * k) % 1.0) for k in range(20000)]
+    (folder / "cloud.csv").write_text("".join(
+        line_of(x, y, math.sin(9 * x) * math.cos(7 * y) + 0.05 * math.sin(k * k))
+        for k, (x, y) in enumerate(places)))
     (folder / "table.csv").write_text(
         "x,f\n" + "".join(line_of(0.1 * k, math.sin(0.1 * k)) for k in range(200)))
     made = [["fit", "smooth.csv", "-o", "endless.json", "--quiet"],

@@ -807,6 +807,15 @@ class Surfaces(unittest.TestCase):
         places = grid(np.random.default_rng(1).random((20, 2))).points
         self.assertLess(np.abs(places[:, 2] - 0.1 * places[:, 0] * places[:, 1]).max(), 1e-12)
 
+    def test_scattered_points_of_arrays(self):
+        x, y = np.random.default_rng(2).random((2, 300))
+        made = obvid.surface("scatter", [np.column_stack([x, y, x * x - y])], tolerance=1e-6, up="z", drop_outliers=True)
+        said = made.report["scatter"]
+        self.assertEqual((said["points"], said["outliers"]), (300, []))
+        self.assertLessEqual(said["deviation"], 1e-6)
+        places = made(np.random.default_rng(1).random((20, 2))).points
+        self.assertLess(np.abs(places[:, 2] - places[:, 0] ** 2 + places[:, 1]).max(), 1e-5)
+
     def test_what_is_refused(self):
         for work, kind in ((lambda: obvid.surface("bowl", [self.sections()[0]]), obvid.UsageError),
                            (lambda: obvid.skin([]), obvid.UsageError), (lambda: obvid.skin([[(0, 0)]]), obvid.InputError),

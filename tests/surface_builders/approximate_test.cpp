@@ -13,20 +13,13 @@
 #include <sstream>
 
 #include "approximate_line.h"
+#include "franke.h"
 #include "obvid/surface_builders/internal/grid.h"
 #include "sampled.h"
 
 namespace obvid {
 namespace {
 
-/// Franke's function on [0, 1] x [0, 1].
-double franke(double x, double y) {
-  const auto square = [](double a) { return a * a; };
-  return 0.75 * std::exp(-(square(9 * x - 2) + square(9 * y - 2)) / 4) +
-         0.75 * std::exp(-square(9 * x + 1) / 49 - (9 * y + 1) / 10) +
-         0.5 * std::exp(-(square(9 * x - 7) + square(9 * y - 3)) / 4) -
-         0.2 * std::exp(-square(9 * x - 4) - square(9 * y - 7));
-}
 Vec3 franke_point(double x, double y) { return {x, y, franke(x, y)}; }
 
 /// Distance of a point from the surface by a raster of triangles' corners and finer rasters around

@@ -232,10 +232,12 @@ def surface(
     **options: Any,
 ) -> Surface:
     """A surface of a kind: "skin" (sections), "ruled", "revolve", "coons", "gordon" (curves, with
-    `across`), "grid", "id" (one grid: a file, or an array of rows x columns x 3), "offset", "convert".
+    `across`), "grid", "id" (one grid: a file, or an array of rows x columns x 3), "scatter" (points in any
+    order: a file, or an array of n x 3), "offset", "convert".
 
     Options have the names of `obvid surface KIND`: tolerance, noise, closed, match, spacing, axis,
-    axis_point, angle, direction, apex, near, control, distance, units, ...
+    axis_point, angle, direction, apex, near, control, distance, up, steepest,
+    drop_outliers, units, ...
     Raises `NotProvedError` where section contours are formed but not proved; its `surface` is there.
     """
     watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}

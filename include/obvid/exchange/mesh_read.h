@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "obvid/core/result.h"
 #include "obvid/mesh/mesh_cut.h"
@@ -21,6 +22,10 @@ namespace obvid {
 /// triangles; E307 a count or index that does not fit the file; E310 a PLY property list or type
 /// that is not known.
 [[nodiscard]] Result<TriangleMesh> parse_mesh(std::string_view text, std::string_view name);
+/// The points of such a file alone, each once, in the order of their first mention: scans are
+/// stored without triangles too. Errors: as above, but for missing triangles.
+[[nodiscard]] Result<std::vector<Vec3>> parse_mesh_points(std::string_view text,
+                                                          std::string_view name);
 /// Of a file. Errors: also those of `read_file`.
 [[nodiscard]] Result<TriangleMesh> read_mesh(const std::string& path);
 

@@ -19,14 +19,18 @@ struct SectionOptions {
 /// titles, or by a column named `section`; the rows of three matrices as of `read_grid`, of
 /// several panels too, each beginning where the one before ends (a corner); rotor
 /// blades in cylindrical coordinates (Z R THETA 1 THETA 2, rad); airfoils of a blade with the table
-/// that places them (columns BlSpn, BlCrvAC, BlSwpAC, BlTwist, BlChord, BlAFID).
-/// Errors: E301 to E307 with place.
-[[nodiscard]] Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& paths,
-                                                             const SectionOptions& options = {});
+/// that places them (columns BlSpn, BlCrvAC, BlSwpAC, BlTwist, BlChord, BlAFID); tables of
+/// half-breadths of a ship, with labels and empty cells: a section for each station, of the cells
+/// that are there. `assumed`, where it is not null, gets what was read into labels and what was
+/// left out. Errors: E301 to E307 with place.
+[[nodiscard]] Result<std::vector<SpaceSeries>> read_sections(
+    const std::vector<std::string>& paths, const SectionOptions& options = {},
+    std::vector<std::string>* assumed = nullptr);
 /// One text with one section or more. `flat` tells that no z was there.
 struct ParsedSections {
   std::vector<SpaceSeries> sections;
   bool flat = false;
+  std::vector<std::string> assumed{};  ///< as of `read_sections`
 };
 [[nodiscard]] Result<ParsedSections> parse_sections(std::string_view text, std::string_view name,
                                                     const SectionOptions& options = {});

@@ -16,6 +16,7 @@
 #include "obvid/surface/point_grid.h"
 #include "obvid/surface/surface.h"
 #include "obvid/surface_builders/internal/grid.h"
+#include "obvid/surface_builders/internal/scatter.h"
 
 namespace obvid {
 
@@ -68,7 +69,7 @@ struct GordonKind {
 struct GridReading {
   Spread spread = Spread::kChord;
   std::optional<double> spacing{};   ///< of rows and columns of height matrices [1]
-  std::optional<std::size_t> row{};  ///< of points in memory: how many are in a row
+  std::optional<std::size_t> row{};  ///< of a list of points: how many are in a row
 };
 /// Through, near or controlled by a grid of points.
 struct GridKind {
@@ -84,17 +85,23 @@ struct IdKind {
   bool smooth = false;  ///< C1 in place of the values
   GridReading reading{};
 };
+/// Near points in any order, as heights over a plane; the job's tolerance has to be given.
+struct ScatterKind {
+  std::optional<Vec3> up{};  ///< direction of the heights; nothing: normal of the best plane
+  double steepest = 85.0 / 180.0 * std::numbers::pi;  ///< rad, what neighbours may force
+  bool drop_outliers = false;                         ///< left out, in place of named alone
+};
 /// A surface as it is.
 struct ConvertKind {};
 
 using SurfaceKind = std::variant<SkinKind, RuledKind, RevolveKind, CoonsKind, GordonKind, GridKind,
-                                 OffsetKind, IdKind, ConvertKind>;
+                                 OffsetKind, IdKind, ScatterKind, ConvertKind>;
 
 /// Where curves come from.
 struct CurveReading {
-  ImportOptions import{};            ///< of curves of drawings
-  FitJob sections = section_job();   ///< how contours of points are formed
-  bool plain_when_refused = false;   ///< as in `SkinJob`
+  ImportOptions import{};           ///< of curves of drawings
+  FitJob sections = section_job();  ///< how contours of points are formed
+  bool plain_when_refused = false;  ///< as in `SkinJob`
 };
 
 struct SurfaceJob {
@@ -117,6 +124,7 @@ struct MadeSurface {
   std::string kind;        ///< in words: "skin through 21 sections"
   double deviation = 0.0;  ///< units: of the NURBS from what was asked for; 0 exact
   std::optional<FittedSkin> skin;
+  std::optional<ScatteredSurface> scatter;                 ///< its surface is in the model
   std::vector<std::pair<std::string, std::string>> facts;  ///< name and value, for the report
   std::vector<ScenePolyline> lines;                        ///< inputs, to be drawn with it
   std::vector<std::string> warnings;

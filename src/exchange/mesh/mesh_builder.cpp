@@ -36,7 +36,7 @@ void MeshBuilder::polygon(const std::vector<std::uint32_t>& corners) {
 }
 
 Result<TriangleMesh> MeshBuilder::take() {
-  if (mesh_.triangles.empty()) {
+  if (needs_triangles_ && mesh_.triangles.empty()) {
     return fail({ErrorCode::kTooFewPoints, "the mesh has no triangles", name_, ""});
   }
   return std::move(mesh_);

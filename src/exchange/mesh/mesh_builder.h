@@ -16,7 +16,8 @@ namespace obvid::exchange {
 /// Puts a mesh together from what a file says; equal points become one.
 class MeshBuilder {
  public:
-  explicit MeshBuilder(std::string_view name) : name_(name) {}
+  explicit MeshBuilder(std::string_view name, bool needs_triangles = true)
+      : name_(name), needs_triangles_(needs_triangles) {}
 
   /// A point of the file; its place in the mesh. -0 is 0.
   [[nodiscard]] std::uint32_t point(Vec3 p);
@@ -32,6 +33,7 @@ class MeshBuilder {
     std::size_t operator()(const std::array<std::uint64_t, 3>& bits) const;
   };
   std::string name_;
+  bool needs_triangles_;  ///< points alone are no mesh
   TriangleMesh mesh_;
   std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, Hash> places_;
 };

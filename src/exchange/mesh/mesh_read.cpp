@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "mesh/mesh_builder.h"
 #include "mesh/mesh_bytes.h"
@@ -105,8 +106,10 @@ bool is_mesh(std::string_view text, std::string_view name) {
   return is_mesh(text, text.size(), name);
 }
 
-Result<TriangleMesh> parse_mesh(std::string_view text, std::string_view name) {
-  exchange::MeshBuilder builder(name);
+namespace {
+
+Result<TriangleMesh> mesh_of(std::string_view text, std::string_view name,
+                             exchange::MeshBuilder& builder) {
   if (is_ply(text)) {
     return exchange::ply_mesh(text, builder);
   }
@@ -117,6 +120,18 @@ Result<TriangleMesh> parse_mesh(std::string_view text, std::string_view name) {
   return fail({ErrorCode::kUnknownFormat, "this is no mesh", std::string(name),
                "meshes are STL, PLY and OBJ files; a binary STL whose size does not fit its number "
                "of triangles is damaged"});
+}
+
+}  // namespace
+
+Result<TriangleMesh> parse_mesh(std::string_view text, std::string_view name) {
+  exchange::MeshBuilder builder(name);
+  return mesh_of(text, name, builder);
+}
+
+Result<std::vector<Vec3>> parse_mesh_points(std::string_view text, std::string_view name) {
+  exchange::MeshBuilder builder(name, false);
+  return mesh_of(text, name, builder).map([](TriangleMesh mesh) { return std::move(mesh.points); });
 }
 
 Result<TriangleMesh> read_mesh(const std::string& path) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <utility>
 
@@ -33,7 +35,14 @@ Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::st
   if (starts_with_brace(*text)) return surface_from_json(*text, path);
   if (!is_cad_text(*text)) {
     auto net = parse_control_net(*text, path);
-    if (net) net->name = std::filesystem::path(path).stem().string();
+    if (!net) return net;
+    net->name = std::filesystem::path(path).stem().string();
+    if (text->find("patch") == std::string::npos) {  // Bezier patches say theirs by their numbers
+      const NurbsSurface& first = net->patches.front().surface;
+      warnings.push_back(
+          fmt::format("{}: the file states no degrees; {} x {} with uniform knots is assumed", path,
+                      first.degree_u, first.degree_v));
+    }
     return net;
   }
   auto surfaces =

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <utility>
 
+#include "obvid/core/files.h"
+#include "obvid/io/internal/read_cloud.h"
 #include "obvid/io/internal/read_grid.h"
 #include "obvid/io/read_sections.h"
 
@@ -50,13 +52,17 @@ Result<ParsedSections> parsed(const SurfaceInput& input, const SectionOptions& o
 }  // namespace
 
 Result<std::vector<SpaceSeries>> sections_of(const std::vector<SurfaceInput>& inputs,
-                                             std::optional<double> spacing) {
+                                             std::optional<double> spacing,
+                                             std::vector<std::string>* assumed) {
   const SectionOptions options{spacing.value_or(1.0)};
-  if (are_files(inputs)) return read_sections(paths_of(inputs), options);
+  if (are_files(inputs)) return read_sections(paths_of(inputs), options, assumed);
   std::vector<SpaceSeries> out;
   for (const SurfaceInput& input : inputs) {
     auto some = parsed(input, options);
     OBVID_TRY(some);
+    for (const std::string& what : some->assumed) {
+      if (assumed != nullptr) assumed->push_back(input.name + ": " + what);
+    }
     const bool named_by_file = !input.points && inputs.size() > 1 && some->sections.size() == 1;
     if (named_by_file) {
       some->sections.front().name = std::filesystem::path(input.name).filename().string();
@@ -85,11 +91,23 @@ Result<SpaceSeries> section_of(const SurfaceInput& input) {
 
 Result<PointGrid> grid_of(const std::vector<SurfaceInput>& inputs, const GridReading& reading) {
   const GridOptions options{reading.spacing.value_or(1.0)};
-  if (are_files(inputs)) return read_grid(paths_of(inputs), options);
+  if (are_files(inputs) && !reading.row) return read_grid(paths_of(inputs), options);
   if (inputs.size() != 1) {
     return error(ErrorCode::kUsage, "a grid is one text or one list of points");
   }
   const SurfaceInput& input = inputs.front();
+  if (reading.row && !input.points) {  // rows are as long as was said, whatever the file shows
+    const auto text = input.text ? Result<std::string>(*input.text) : read_file(input.name);
+    OBVID_TRY(text);
+    auto list = parse_cloud(*text, input.name);
+    OBVID_TRY(list);
+    if (!list->assumed.empty()) {
+      return error(ErrorCode::kTooFewColumns, "more than three columns, and none is called x, y, z")
+          .where(input.name)
+          .hint("rows of a given length are made of lists x y z");
+    }
+    return grid_of({SurfaceInput::of_points(std::move(list->points))}, reading);
+  }
   if (input.text) {
     auto grid = parse_grid(*input.text, input.name, options);
     if (grid) grid->name = std::filesystem::path(input.name).stem().string();

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/pipeline/surface_job.h"
 
 namespace obvid::pipeline_detail {
@@ -37,6 +37,8 @@ inline constexpr double kSurfaceTolerance = 1e-5;
 [[nodiscard]] Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job,
                                             const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_kind(const IdKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const ScatterKind& kind, const SurfaceJob& job,
                                             const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_kind(const ConvertKind& kind, const SurfaceJob& job,
                                             const RunContext& run);

@@ -60,6 +60,11 @@ Result<MadeSurface> make_kind(const GridKind& kind, const SurfaceJob& job, const
   auto surface = control ? from_control_points(*grid) : interpolated(*grid, kind.reading.spread);
   OBVID_TRY(surface);
   MadeSurface made = of_one_patch(*grid, std::move(*surface));
+  if (control) {
+    const NurbsSurface& net = made.model.patches.front().surface;
+    made.facts.emplace_back("assumed", fmt::format("degree {} along rows, {} across, uniform knots",
+                                                   net.degree_u, net.degree_v));
+  }
   made.kind = control ? "controlled by a grid of points" : "through a grid of points";
   return made;
 }
@@ -89,7 +94,8 @@ Result<MadeSurface> make_kind(const IdKind& kind, const SurfaceJob& job, const R
 }
 
 Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const RunContext& run) {
-  const auto sections = sections_of(job.inputs, kind.spacing);
+  std::vector<std::string> assumed;
+  const auto sections = sections_of(job.inputs, kind.spacing, &assumed);
   OBVID_TRY(sections);
   std::vector<Units> units;
   for (const SpaceSeries& section : *sections) units.push_back(section.units);
@@ -104,6 +110,17 @@ Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const
   how.light = kind.light;
   how.plain_when_refused = job.curves.plain_when_refused;
   auto fitted = fit_skin(*sections, how, run);
+  // stations with cells of their own show a knuckle here and none there
+  const bool table = !assumed.empty() && how.sections.find_corners;
+  if (!fitted && table && fitted.error().code == ErrorCode::kBadOption) {
+    how.sections.find_corners = false;
+    if (auto smooth = fit_skin(*sections, how, run)) {
+      assumed.push_back(fmt::format("{}: the stations differ in their number of corners, so none is "
+                                    "looked for (--no-corners)",
+                                    job.inputs.front().name));
+      fitted = std::move(smooth);
+    }
+  }
   OBVID_TRY(fitted);
   MadeSurface made;
   made.kind = fmt::format("skin through {} sections", sections->size());
@@ -112,7 +129,8 @@ Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const
   made.model.units = std::move(*unit);
   made.model.patches = fitted->skin.patches;
   made.lines = drawn_sections(*sections);
-  made.warnings = fitted->warnings;
+  made.warnings = std::move(assumed);
+  made.warnings.insert(made.warnings.end(), fitted->warnings.begin(), fitted->warnings.end());
   made.skin = std::move(*fitted);
   return made;
 }

@@ -56,6 +56,29 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
   json.end_object();
 }
 
+JsonText& add_coordinates(JsonText& json, const char* name, Vec3 v) {
+  json.key(name).begin_array();
+  for (const double x : {v.x, v.y, v.z}) json.value(x);
+  return json.end_array();
+}
+
+void add_scatter_report(const ScatteredSurface& made, JsonText& json) {
+  json.key("scatter").begin_object().pair("points", made.used);
+  json.pair("deviation", made.deviation).pair("root_mean_square", made.root_mean_square);
+  json.pair("farthest", made.farthest + 1);
+  add_coordinates(json, "up", made.plane.normal());
+  json.pair("width", made.width).pair("depth", made.depth);
+  json.pair("bending", made.bending).pair("weight", made.weight);
+  json.key("outliers").begin_array();
+  for (const ScatterOutlier& one : made.outliers) {
+    json.begin_object().pair("point", one.point + 1).pair("off", one.off).end_object();
+  }
+  json.end_array().key("without_data").begin_object();
+  json.pair("share", made.empty.share).pair("reach", made.empty.reach);
+  json.pair("farthest", made.empty.farthest).pair("raster", made.empty.raster);
+  add_coordinates(json, "place", made.empty.where).end_object().end_object();
+}
+
 void add_extent(JsonText& json, const char* name, const Extent& extent) {
   json.key(name).begin_array().value(extent.least).value(extent.most).end_array();
 }
@@ -69,9 +92,7 @@ void add_lines(JsonText& json, const char* name, const LineReport& lines) {
 /// Found at a place, and what is nowhere exceeded.
 void add_measured(JsonText& json, const char* name, const ToolpathReport::Measured& measured) {
   json.key(name).begin_object().pair("found", measured.found).pair("most", measured.most);
-  json.key("place").begin_array();
-  for (const double x : {measured.place.x, measured.place.y, measured.place.z}) json.value(x);
-  json.end_array().end_object();
+  add_coordinates(json, "place", measured.place).end_object();
 }
 
 }  // namespace
@@ -90,6 +111,7 @@ std::string surface_report_json(const MadeSurface& made, const Written& written)
   for (const auto& [name, value] : made.facts) json.pair(name, value);
   add_patches(made.model, json);
   if (made.skin) add_skin_report(*made.skin, json);
+  if (made.scatter) add_scatter_report(*made.scatter, json);
   add_list(json, "warnings", made.warnings);
   add_list(json, "remarks", written.remarks);
   add_list(json, "written", written.files);

@@ -16,9 +16,10 @@ namespace {
 
 const std::map<std::string, SurfaceKind>& surface_kinds() {
   static const std::map<std::string, SurfaceKind> all = {
-      {"skin", SkinKind{}},     {"ruled", RuledKind{}},   {"revolve", RevolveKind{}},
-      {"coons", CoonsKind{}},   {"gordon", GordonKind{}}, {"grid", GridKind{}},
-      {"offset", OffsetKind{}}, {"id", IdKind{}},         {"convert", ConvertKind{}}};
+      {"skin", SkinKind{}},      {"ruled", RuledKind{}},   {"revolve", RevolveKind{}},
+      {"coons", CoonsKind{}},    {"gordon", GordonKind{}}, {"grid", GridKind{}},
+      {"offset", OffsetKind{}},  {"id", IdKind{}},         {"scatter", ScatterKind{}},
+      {"convert", ConvertKind{}}};
   return all;
 }
 
@@ -77,15 +78,20 @@ Result<void> set_kind(const SurfaceValues& raw, RuledKind& kind) {
   return set_kind(raw, kind.strips);
 }
 
-Result<void> set_kind(const SurfaceValues& raw, RevolveKind& kind) {
+/// "x", "y", "z" or "X,Y,Z".
+Result<Vec3> direction_of(const std::string& typed, const char* option) {
   const std::map<std::string, Vec3> axes = {{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}};
-  const auto at = axes.find(raw.axis);
-  const Result<Vec3> direction =
-      at != axes.end() ? Result<Vec3>(at->second) : vector_of(raw.axis, "--axis");
-  OBVID_TRY(direction);
-  if (!(norm(*direction) > 0.0)) {
-    return fail(bad_option("the axis has no direction", "--axis", "give x, y, z or X,Y,Z"));
+  const auto at = axes.find(typed);
+  auto direction = at != axes.end() ? Result<Vec3>(at->second) : vector_of(typed, option);
+  if (direction && !(norm(*direction) > 0.0)) {
+    return fail(bad_option("the axis has no direction", option, "give x, y, z or X,Y,Z"));
   }
+  return direction;
+}
+
+Result<void> set_kind(const SurfaceValues& raw, RevolveKind& kind) {
+  const auto direction = direction_of(raw.axis, "--axis");
+  OBVID_TRY(direction);
   kind.axis_direction = *direction;
   if (!raw.axis_point.empty()) {
     const auto point = vector_of(raw.axis_point, "--axis-point");
@@ -114,7 +120,7 @@ Result<void> set_kind(const SurfaceValues& raw, GridReading& reading) {
   reading.spread = *spread;
   reading.spacing = raw.spacing;
   if (raw.row) {
-    if (*raw.row < 1) return fail(bad_option("rows have points", "row", "give 2 or more"));
+    if (*raw.row < 1) return fail(bad_option("rows have points", "--row", "give 2 or more"));
     reading.row = static_cast<std::size_t>(*raw.row);
   }
   return {};
@@ -137,6 +143,26 @@ Result<void> set_kind(const SurfaceValues& raw, OffsetKind& kind) {
   kind.distance = raw.distance.value_or(std::nan(""));
   if (std::isfinite(kind.distance)) return {};
   return fail(bad_option("an offset needs its distance", "--distance", "give a number"));
+}
+
+Result<void> set_kind(const SurfaceValues& raw, ScatterKind& kind) {
+  if (!raw.tolerance) {
+    return fail(bad_option("scattered points need a tolerance", "--tolerance",
+                           "give the largest distance of a point, not below their noise"));
+  }
+  if (raw.up != "best") {
+    const auto up = direction_of(raw.up, "--up");
+    OBVID_TRY(up);
+    kind.up = *up;
+  }
+  if (raw.steepest_deg) {
+    if (!(*raw.steepest_deg > 0.0 && *raw.steepest_deg < 90.0)) {
+      return fail(bad_option("the angle must lie between 0 and 90 degrees", "--steepest", ""));
+    }
+    kind.steepest = *raw.steepest_deg * kOneDegree;
+  }
+  kind.drop_outliers = raw.drop_outliers;
+  return {};
 }
 
 template <class Value>

@@ -16,16 +16,17 @@ namespace obvid {
 // with the name of the option as the command line has it.
 
 /// Kinds of surfaces by name, nothing said of them yet: "skin", "ruled", "revolve", "coons",
-/// "gordon", "grid", "id", "offset", "convert". Error: E201 with the nearest name.
+/// "gordon", "grid", "id", "offset", "scatter", "convert". Error: E201 with the nearest name.
 [[nodiscard]] Result<SurfaceKind> surface_kind_named(const std::string& name);
 [[nodiscard]] std::vector<std::string> surface_kind_names();
 
 struct SurfaceValues {
-  std::optional<double> tolerance, spacing, light, distance, angle_deg;
+  std::optional<double> tolerance, spacing, light, distance, angle_deg, steepest_deg;
   std::optional<long> row;
   std::string matching = "auto", spread = "chord";
-  std::string direction, apex, axis = "x", axis_point;  ///< "X,Y,Z"
+  std::string direction, apex, axis = "x", axis_point, up = "best";  ///< "X,Y,Z"
   bool near = false, control = false, straight = false, smooth = false;
+  bool drop_outliers = false;
 };
 
 /// Into the job, whose kind is known: its own values, and those of all kinds.
