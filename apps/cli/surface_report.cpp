@@ -57,9 +57,9 @@ Table section_table(const std::vector<SkinSectionReport>& sections) {
 
 std::string across_text(const AcrossReport& across) {
   return fmt::format(
-      "{} changes of bending on {} isolines, {} of them in the sections' points; {} beyond "
-      "those, at most {} on one isoline",
-      across.found, across.isolines, across.forced, across.beyond, across.worst);
+      "{} changes of bending on {} isolines; {} forced, {} of them proved for these lines and "
+      "normals; {} beyond, at most {} on one isoline",
+      across.found, across.isolines, across.forced, across.proved, across.beyond, across.worst);
 }
 
 std::string light_text(const LightSkinReport& light, const std::string& units) {

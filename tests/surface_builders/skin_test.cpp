@@ -250,15 +250,17 @@ TEST(Skin, CountsTheWavesAcrossThatTheSectionsForce) {
   // radii up and down: 7 inner sections bend alternately, 6 changes on each isoline
   EXPECT_EQ(waves->across.forced, 6 * waves->across.isolines);
   EXPECT_GE(waves->across.found, waves->across.forced);
-  // zigzags of 1e-5 to both sides: the points leave their neighbours' chords by 2e-5, the waves of
-  // the skin bulge by 1.2e-5 from end to end; what is told to be in the points is in the skin, too
+  EXPECT_EQ(waves->across.proved, waves->across.forced);
+  // zigzags of 1e-5 to both sides of a straight line, within 1.6e-5 of it: nothing is forced
   std::vector<SkinSection> shallow;
   for (int k = 0; k < 9; ++k) {
     shallow.push_back(section_of(circle(2 + 2e-5 * (k % 2), 8), at_height(k)));
   }
   const auto ripples = skin(shallow, {1.6e-5});
   ASSERT_TRUE(ripples);
-  EXPECT_EQ(ripples->across.found, ripples->across.forced + ripples->across.beyond);
+  EXPECT_EQ(ripples->across.forced, 0u);
+  EXPECT_EQ(ripples->across.proved, 0u);
+  EXPECT_EQ(ripples->across.beyond, ripples->across.found);
   SkinOptions straight{1e-5};
   straight.straight_across = true;
   const auto ruled = skin(wavy, straight);

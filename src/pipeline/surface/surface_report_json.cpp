@@ -48,8 +48,10 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
   }
   json.end_array();
   const AcrossReport& across = fitted.skin.across;
-  json.key("across").begin_object().pair("isolines", across.isolines).pair("found", across.found);
+  json.key("across").begin_object().pair("tolerance", across.tolerance);
+  json.pair("isolines", across.isolines).pair("found", across.found);
   json.pair("forced", across.forced)
+      .pair("proved", across.proved)
       .pair("beyond", across.beyond)
       .pair("worst", across.worst)
       .end_object();

@@ -63,14 +63,19 @@ struct SkinSectionReport {
                              ///< wherever the contour is
 };
 
-/// Waves across the sections, along one isoline u = const of a patch: changes of sign of the normal
-/// curvature that bulge more than the tolerance.
+/// Waves across the sections, along isolines u = const of the patches: changes of sign of the
+/// normal curvature that bulge more than the tolerance, against the fewest that heights within the
+/// tolerance of the sections' points can have. Heights are those of the line developed into a
+/// plane, over its chords, along the surface's normals: the figures are of these lines and these
+/// normals.
 struct AcrossReport {
+  double tolerance = 0.0;  ///< units: of bulges that count, and of heights
   std::size_t isolines = 0;
-  std::size_t found = 0;   ///< sign changes on all isolines together
-  std::size_t forced = 0;  ///< of them shown by the sections' own points on the same isoline
-  std::size_t beyond = 0;  ///< the others: found - forced
-  std::size_t worst = 0;   ///< largest number beyond the forced ones on one isoline
+  std::size_t found = 0;   ///< changes on all isolines together
+  std::size_t forced = 0;  ///< fewest that were found possible: of the string drawn tight
+  std::size_t proved = 0;  ///< of them certified: no heights within the tolerance have fewer
+  std::size_t beyond = 0;  ///< found more than forced, summed over the lines that have more
+  std::size_t worst = 0;   ///< most of them on one isoline
 };
 
 struct Skin {
