@@ -162,10 +162,16 @@ struct KindOptions {
   void operator()(const SkinKind&) const {
     add_skin_options(app, raw);
     app.add_flag("--straight", raw.values.straight, "Ruled strips between sections [C2 across]");
-    app.add_option("--light", raw.values.light,
-                   "Few control points: no point of the skin farther than this from where the exact "
-                   "skin has it, input units; runs of curvature may be lost, which the table says "
-                   "[exact]")
+    app.add_option(
+           "--light", raw.values.light,
+           "Few control points: no point of the skin farther than this from where the exact "
+           "skin has it, input units; runs of curvature may be lost, which the table says "
+           "[exact]")
+        ->type_name("EPS");
+    app.add_option("--fair-across", raw.values.fair_across,
+                   "Each section may move by this, input units, where lines across then change "
+                   "their bending less often; curvature along goes against its run by no more than "
+                   "0.1 % of the section's largest, or as much as before [sections stay]")
         ->type_name("EPS");
   }
   void operator()(const RuledKind&) const {

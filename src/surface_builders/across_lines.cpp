@@ -44,14 +44,6 @@ class WaveCounter {
   std::size_t changes_ = 0;
 };
 
-/// B-splines across the sections at parameters that all isolines share.
-std::vector<BasisValues> bases_at(const NurbsSurface& surface, const std::vector<double>& v) {
-  std::vector<BasisValues> bases;
-  bases.reserve(v.size());
-  for (const double at : v) bases.push_back(basis_at(surface.degree_v, surface.knots_v, at, 2));
-  return bases;
-}
-
 }  // namespace
 
 Isoline::Isoline(const NurbsSurface& surface, double u)
@@ -80,6 +72,22 @@ Isoline::Place Isoline::at(const BasisValues& v) const {
   return place;
 }
 
+Vec3 Isoline::derivative(const BasisValues& v, std::size_t order) const {
+  Vec3 sum;
+  for (std::size_t j = 0; j < order_; ++j) sum = sum + v.value[order][j] * line_[v.first + j];
+  return sum;
+}
+
+std::vector<BasisValues> bases_across(const NurbsSurface& surface, const std::vector<double>& v,
+                                      int derivatives) {
+  std::vector<BasisValues> bases;
+  bases.reserve(v.size());
+  for (const double at : v) {
+    bases.push_back(basis_at(surface.degree_v, surface.knots_v, at, derivatives));
+  }
+  return bases;
+}
+
 AcrossPlaces places_across(const NurbsSurface& surface, const std::vector<double>& v) {
   AcrossPlaces places;
   std::vector<double> between;
@@ -90,8 +98,8 @@ AcrossPlaces places_across(const NurbsSurface& surface, const std::vector<double
       places.steps.push_back(step);
     }
   }
-  places.between = bases_at(surface, between);
-  places.sections = bases_at(surface, v);
+  places.between = bases_across(surface, between, 2);
+  places.sections = bases_across(surface, v, 2);
   return places;
 }
 
@@ -108,26 +116,28 @@ std::size_t waves_found(const Isoline& line, const AcrossPlaces& places, double 
   return counter.changes();
 }
 
-Tube developed_tube(const Isoline& line, const AcrossPlaces& places, double tolerance) {
-  Tube tube;
+DevelopedLine developed(const Isoline& line, const AcrossPlaces& places, double tolerance) {
+  DevelopedLine out;
+  Tube& tube = out.tube;
   std::vector<double> height;
   double slope = 0.0;
   Vec3 before, normal, into;
-  for (const BasisValues& section : places.sections) {
-    const Isoline::Place here = line.at(section);
+  for (std::size_t k = 0; k < places.sections.size(); ++k) {
+    const Isoline::Place here = line.at(places.sections[k]);
     const double chord = height.empty() ? 0.0 : norm(here.point - before);
     if (!height.empty() && !(chord > 0.0)) continue;
     if (!height.empty()) {
-      const Vec3 out = (here.point - before) / chord;
+      const Vec3 leaving = (here.point - before) / chord;
       // the normal of the point before: there the chords meet
-      if (height.size() > 1) slope += dot(out - into, normal);
+      if (height.size() > 1) slope += dot(leaving - into, normal);
       tube.at.push_back(tube.at.back() + chord);
       height.push_back(height.back() + slope * chord);
-      into = out;
+      into = leaving;
     } else {
       tube.at.push_back(0.0);
       height.push_back(0.0);
     }
+    out.section.push_back(k);
     const Vec3 across = cross(here.du, here.dv);
     if (norm(across) > 0.0) normal = unit(across);
     before = here.point;
@@ -138,7 +148,7 @@ Tube developed_tube(const Isoline& line, const AcrossPlaces& places, double tole
     tube.low.push_back(h - tolerance);
     tube.high.push_back(h + tolerance);
   }
-  return tube;
+  return out;
 }
 
 }  // namespace obvid

@@ -5,42 +5,10 @@
 #include <cmath>
 
 #include "across_lines.h"
+#include "ripple_meter.h"
 #include "skin_breaks.h"
 
 namespace obvid {
-namespace {
-
-constexpr int kReportSamplesPerSpan = 16;
-
-/// Largest fall of curvature against the direction in which the contour's own curvature changes.
-class RippleMeter {
- public:
-  void add(double wanted, double found) {
-    largest_ = std::max(largest_, std::abs(wanted));
-    if (any_) {
-      const double change = wanted - wanted_;
-      const int direction = change > 0.0 ? 1 : change < 0.0 ? -1 : direction_;
-      if (direction != direction_) extreme_ = found_;
-      direction_ = direction;
-      extreme_ = direction > 0 ? std::max(extreme_, found) : std::min(extreme_, found);
-      if (direction != 0) worst_ = std::max(worst_, std::abs(extreme_ - found));
-    } else {
-      extreme_ = found;
-    }
-    any_ = true;
-    wanted_ = wanted;
-    found_ = found;
-  }
-  [[nodiscard]] double ripple() const { return largest_ > 0.0 ? worst_ / largest_ : 0.0; }
-
- private:
-  bool any_ = false;
-  int direction_ = 0;
-  double wanted_ = 0.0, found_ = 0.0, extreme_ = 0.0, worst_ = 0.0, largest_ = 0.0;
-};
-
-}  // namespace
-
 void add_section_report(const SkinStretch& stretch, const MeasuredSection& measured, std::size_t k,
                         double v, SkinSectionReport& report) {
   const SectionCurve& section = stretch.sections[k];
@@ -68,14 +36,13 @@ void add_section_report(const SkinStretch& stretch, const MeasuredSection& measu
   }
 }
 
-void add_across_report(const SkinStretch& stretch, const std::vector<double>& v, double tolerance,
-                       AcrossReport& report) {
-  const AcrossPlaces places = places_across(stretch.surface, v);
+void add_across_report(const SkinStretch& stretch, const NurbsSurface& given,
+                       const std::vector<double>& v, double tolerance, AcrossReport& report) {
+  const AcrossPlaces places = places_across(given, v);
   report.tolerance = tolerance;
   for (const double u : stretch.breaks) {
-    const Isoline line(stretch.surface, u);
-    const Tube tube = developed_tube(line, places, tolerance);
-    const std::size_t found = waves_found(line, places, tolerance);
+    const Tube tube = developed(Isoline(given, u), places, tolerance).tube;
+    const std::size_t found = waves_found(Isoline(stretch.surface, u), places, tolerance);
     const std::size_t forced = changes_of(taut_string(tube));
     const std::size_t beyond = found - std::min(found, forced);
     ++report.isolines;

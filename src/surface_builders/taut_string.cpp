@@ -10,12 +10,12 @@
 namespace obvid {
 namespace {
 
-struct Node {
+struct StringNode {
   std::size_t index = 0;
   double x = 0.0, y = 0.0;
 };
 
-double slope(const Node& a, const Node& b) { return (b.y - a.y) / (b.x - a.x); }
+double slope(const StringNode& a, const StringNode& b) { return (b.y - a.y) / (b.x - a.x); }
 
 /// Nodes of a bound from where the string stands on: a hull whose slopes rise (`side` 1, under the
 /// upper bound) or fall (-1, over the lower one).
@@ -23,7 +23,7 @@ class Hull {
  public:
   explicit Hull(int side) : side_(side) {}
 
-  void add(const Node& node) {
+  void add(const StringNode& node) {
     while (nodes_.size() > 1 &&
            side_ * (slope(nodes_.back(), node) - slope(nodes_[nodes_.size() - 2], nodes_.back())) <=
                0.0) {
@@ -31,14 +31,14 @@ class Hull {
     }
     nodes_.push_back(node);
   }
-  void restart(const Node& node) { nodes_.assign(1, node); }
+  void restart(const StringNode& node) { nodes_.assign(1, node); }
   void drop_first() { nodes_.pop_front(); }
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
-  [[nodiscard]] const Node& operator[](std::size_t i) const { return nodes_[i]; }
+  [[nodiscard]] const StringNode& operator[](std::size_t i) const { return nodes_[i]; }
 
  private:
   int side_;
-  std::deque<Node> nodes_;
+  std::deque<StringNode> nodes_;
 };
 
 class Funnel {
@@ -55,12 +55,14 @@ class Funnel {
   }
 
  private:
-  [[nodiscard]] Node high(std::size_t i) const { return {i, tube_.at[i], tube_.high[i]}; }
-  [[nodiscard]] Node low(std::size_t i) const { return {i, tube_.at[i], tube_.low[i]}; }
-  [[nodiscard]] Node bound(std::size_t i, int side) const { return side > 0 ? high(i) : low(i); }
+  [[nodiscard]] StringNode high(std::size_t i) const { return {i, tube_.at[i], tube_.high[i]}; }
+  [[nodiscard]] StringNode low(std::size_t i) const { return {i, tube_.at[i], tube_.low[i]}; }
+  [[nodiscard]] StringNode bound(std::size_t i, int side) const {
+    return side > 0 ? high(i) : low(i);
+  }
 
   /// Both hulls begin where the string was held last.
-  void stand_at(const Node& node, int bend) {
+  void stand_at(const StringNode& node, int bend) {
     contacts_.push_back({node.index, bend});
     upper_.restart(node);
     lower_.restart(node);
@@ -81,9 +83,9 @@ class Funnel {
       for (const int side : {1, -1}) {
         const Line& line = limit[side > 0 ? 0 : 1];
         // the lower bound over the steepest line, or the upper bound under the flattest one
-        const Node here = bound(j, -side);
+        const StringNode here = bound(j, -side);
         if (side * (slope(line.to, here) - slope(line.from, line.to)) <= 0.0) continue;
-        const Node held = line.to;
+        const StringNode held = line.to;
         stand_at(held, side);
         for (std::size_t i = held.index + 1; i < j; ++i) {
           upper_.add(high(i));
@@ -94,7 +96,7 @@ class Funnel {
       for (const int side : {1, -1}) {
         Line& line = limit[side > 0 ? 0 : 1];
         Hull& across = side > 0 ? lower_ : upper_;  // which the line leaves from
-        const Node here = bound(j, side);
+        const StringNode here = bound(j, side);
         if (side * (slope(line.to, here) - slope(line.from, line.to)) < 0.0) {
           while (across.size() > 1 &&
                  side * (slope(across[1], here) - slope(across[0], here)) <= 0.0) {
@@ -114,7 +116,7 @@ class Funnel {
   void add(std::size_t j, int side) {
     Hull& own = side > 0 ? upper_ : lower_;
     Hull& other = side > 0 ? lower_ : upper_;
-    const Node here = bound(j, side);
+    const StringNode here = bound(j, side);
     bool moved = false;
     while (other.size() > 1 && other[1].index < j &&
            side * (slope(other[0], here) - slope(other[0], other[1])) < 0.0) {
@@ -127,7 +129,7 @@ class Funnel {
   }
 
   struct Line {
-    Node from, to;
+    StringNode from, to;
   };
 
   const Tube& tube_;
@@ -140,14 +142,14 @@ class Funnel {
 std::optional<std::size_t> forced_by(const Tube& tube, std::size_t from, int bend) {
   // bend 1: the hull over the lower bound, which the upper one must not go under
   const auto over = [&](std::size_t i) {
-    return Node{i, tube.at[i], bend > 0 ? tube.low[i] : -tube.high[i]};
+    return StringNode{i, tube.at[i], bend > 0 ? tube.low[i] : -tube.high[i]};
   };
   const auto under = [&](std::size_t i) { return bend > 0 ? tube.high[i] : -tube.low[i]; };
   Hull hull(-1);
   hull.restart(over(from));
   for (std::size_t c = from + 1; c < tube.at.size(); ++c) {
     hull.add(over(c));
-    const Node a = hull[hull.size() - 2], end = hull[hull.size() - 1];
+    const StringNode a = hull[hull.size() - 2], end = hull[hull.size() - 1];
     for (std::size_t b = a.index + 1; b < c; ++b) {
       if (under(b) < a.y + slope(a, end) * (tube.at[b] - a.x)) return c;
     }

@@ -44,6 +44,7 @@ struct SkinKind {
   bool straight_across = false;
   std::optional<double> spacing{};  ///< between sections whose files have no z [1]
   std::optional<double> light{};    ///< few control points within so many units of the exact skin
+  std::optional<double> fair_across{};  ///< units: how far sections may move to be fair across
 };
 /// Between two curves, or from one along a direction or to a point. Two lists of points are matched
 /// as the sections of a skin.
@@ -92,9 +93,9 @@ using SurfaceKind = std::variant<SkinKind, RuledKind, RevolveKind, CoonsKind, Go
 
 /// Where curves come from.
 struct CurveReading {
-  ImportOptions import{};            ///< of curves of drawings
-  FitJob sections = section_job();   ///< how contours of points are formed
-  bool plain_when_refused = false;   ///< as in `SkinJob`
+  ImportOptions import{};           ///< of curves of drawings
+  FitJob sections = section_job();  ///< how contours of points are formed
+  bool plain_when_refused = false;  ///< as in `SkinJob`
 };
 
 struct SurfaceJob {

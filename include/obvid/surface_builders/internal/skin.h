@@ -41,6 +41,9 @@ struct SkinOptions {
   /// Units, > 0: few control points instead, so that no point of the skin lies farther from where
   /// it lay.
   std::optional<double> light{};
+  /// Units, > 0: each section may move by as much where lines across then change their bending less
+  /// often. Not with `light` or `straight_across`.
+  std::optional<double> fair_across{};
 };
 
 /// What a light skin gave up, and for what.
@@ -78,6 +81,14 @@ struct AcrossReport {
   std::size_t worst = 0;   ///< most of them on one isoline
 };
 
+/// A skin that is fair across: what it was before, and how far its sections moved.
+struct FairAcrossReport {
+  double tolerance = 0.0;  ///< as it was asked for, units
+  double moved = 0.0;   ///< bound of the distance of any section from where the exact skin has it,
+                        ///< units: of control points, by the convex hull; <= tolerance
+  AcrossReport before;  ///< of the exact skin, by this tolerance
+};
+
 struct Skin {
   std::vector<SurfacePatch> patches;  ///< from corner to corner of the sections; u runs along the
                                       ///< sections, v across them, neighbours share their border
@@ -85,6 +96,9 @@ struct Skin {
   AcrossReport across;
   std::optional<LightSkinReport>
       light;  ///< then `sections` and `across` are those of the light one
+  /// Then `sections` and `across` are those of the fair one, `across` by its tolerance and against
+  /// what the exact skin's points force.
+  std::optional<FairAcrossReport> fair;
   SkinMatching matching = SkinMatching::kByPoints;  ///< what was used
   std::vector<std::string> warnings;
 };
@@ -99,9 +113,17 @@ struct Skin {
 /// (`lightened`): its sections are no longer those of the contours, and `ripple` says how much of
 /// their runs of curvature is lost.
 ///
-/// Not guaranteed: what happens between sections beyond being C2; `across` counts the waves there.
+/// With `fair_across` the skin is corrected within that tolerance: each of its sections stays
+/// within it (proved, `FairAcrossReport::moved`), borders between patches stay as they are, borders
+/// in a coordinate plane stay in it, and curvature along falls against the contour's run by no more
+/// than 1e-3 of the section's largest (as measured in `ripple`), or as much as before. Where no
+/// correction with less waves is found, the skin stays as it was.
 ///
-/// Errors: E201 numbers that do not belong together; E203 tolerance <= 0, sections whose corners
+/// Not guaranteed: what happens between sections beyond being C2; `across` counts the waves there;
+/// with `fair_across`, that only forced changes of bending are left: `across` tells.
+///
+/// Errors: E201 numbers that do not belong together; E203 tolerance <= 0, options that contradict
+/// each other, sections whose corners
 /// cannot be matched (`index`: the section); E312 fewer than two sections; E313 neighbouring
 /// sections at the same place (`index`); E402 a contour with a cusp (`index`: the section); E502
 /// the tolerance is not reached within 2^10 parts of a stretch.
