@@ -65,11 +65,13 @@ std::string across_text(const AcrossReport& across) {
 std::string fair_text(const FairAcrossReport& fair, const AcrossReport& now,
                       const std::string& units) {
   return fmt::format(
-      "{} changes of bending instead of {}, beyond those forced {} instead of {}; no section "
-      "farther "
-      "than {} {} from where the exact skin has it, {} allowed",
-      now.found, fair.before.found, now.beyond, fair.before.beyond,
-      significant_above(fair.moved, 3), units, significant(fair.tolerance, 3));
+      "{} changes of bending instead of {}, {} instead of {} beyond those forced; with bulges of "
+      "{} "
+      "{}, {} instead of {}; no section farther than {} {} from where the exact skin has it, {} "
+      "allowed",
+      now.found, fair.before.found, now.beyond, fair.before.beyond, significant(now.fine, 3), units,
+      now.all, fair.before.all, significant_above(fair.moved, 3), units,
+      significant(fair.tolerance, 3));
 }
 
 std::string light_text(const LightSkinReport& light, const std::string& units) {

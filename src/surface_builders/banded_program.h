@@ -32,11 +32,11 @@ struct BandedProgram {
   std::vector<FormGroup> groups;
 };
 
-/// Least aim within the boxes, row after row. Interior points, primal and dual (Wright, Primal-Dual
-/// Interior-Point Methods, 1997), begun at 0: every iterate, the last one too, lies inside all
-/// boxes, however early it ends. Each step factors a matrix of rows * columns unknowns whose band
-/// is some 4 * columns wide. Steps tell how far they are as a part of [from, to] of the work.
-/// Error: E103.
+/// Least aim within the boxes, row after row. Interior points, primal and dual, as Wright (1997),
+/// begun at 0: every iterate, the last one too, lies inside all boxes, however early it ends. Each
+/// step factors a matrix of rows * columns unknowns whose band is some 3 * columns wide to each
+/// side. Steps tell how far they are as a part of [from, to] of the work. Not guaranteed: that the
+/// least aim is reached within the steps that are taken. Error: E103.
 [[nodiscard]] Result<std::vector<double>> solved(const BandedProgram& program,
                                                  const RunContext& run, double from, double to);
 

@@ -16,17 +16,15 @@
 namespace obvid {
 namespace {
 
-using Form = FormGroup::Form;
-
 /// Control points along of the correction: the second number where the first leaves too many waves.
 constexpr std::array<std::size_t, 2> kAlong = {12, 24};
 constexpr int kRounds = 3;
 /// Waves beyond the forced ones that are few enough.
-constexpr double kFew = 0.02;
+constexpr double kFew = 0.01;
 /// Half widths of the boxes: normal, along, across. Their corners lie in the ball of 1.
-constexpr std::array<double, 3> kBox = {0.75, 0.45, 0.45};
+constexpr std::array<double, 3> kBox = {0.95, 0.2, 0.2};
 /// The string keeps away from the bounds by what smoothness needs.
-constexpr double kStringShare = 0.6;
+constexpr double kStringShare = 0.87;
 /// Of a section's length: what is left of its shape.
 constexpr double kMostOfLength = 0.01;
 /// Of the section's largest curvature: what may be lost against its run.
@@ -36,9 +34,9 @@ constexpr double kHeld = 1e-3;
 constexpr double kSmoothAlong = 1e-2;
 constexpr double kSoft = 1e3, kSoftRuns = 1e3;
 /// Lines of the program at least, and places of a section at which its run is kept.
-constexpr std::size_t kLeastLines = 40, kRunPlaces = 300;
-constexpr std::size_t kMostMeterPlaces = 4000;
-constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr std::size_t kLeastLines = 40, kLinesPerSpan = 3, kRunPlaces = 300;
+constexpr std::size_t kMostMeterPlaces = 16000;
+constexpr double kMovedRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 /// Coefficients of one derivative along: for points with three coordinates side by side.
 void add_basis(const BasisValues& basis, std::size_t derivative, Vec3 factor,
@@ -52,13 +50,40 @@ void add_basis(const BasisValues& basis, std::size_t derivative, Vec3 factor,
   }
 }
 
-/// The knots of the correction along: simple, at breaks of the surface, spread evenly.
+/// Places spread half by the parameter, half by the breaks: these stand close where sections are
+/// bent, and so do the lines that are counted.
+class Density {
+ public:
+  explicit Density(const std::vector<double>& breaks) : breaks_(breaks) {}
+  /// From 0 to 1.
+  [[nodiscard]] double at(double part) const {
+    double low = breaks_.front(), high = breaks_.back();
+    for (int k = 0; k < 60; ++k) {
+      const double middle = (low + high) / 2.0;
+      (share(middle) < part ? low : high) = middle;
+    }
+    return high;
+  }
+
+ private:
+  [[nodiscard]] double share(double u) const {
+    const auto above = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, u);
+    const double from = *(above - 1), to = *above;
+    const double number =
+        static_cast<double>(above - 1 - breaks_.begin()) + (u - from) / (to - from);
+    return 0.5 * number / static_cast<double>(breaks_.size() - 1) +
+           0.5 * (u - breaks_.front()) / (breaks_.back() - breaks_.front());
+  }
+  const std::vector<double>& breaks_;
+};
+
+/// The knots of the correction along: simple, at breaks of the surface.
 std::vector<double> knots_along(const std::vector<double>& breaks, std::size_t count) {
+  const Density density(breaks);
   std::vector<double> knots(kSkinDegree + 1, breaks.front());
   const std::size_t inner = count > kSkinDegree + 1 ? count - kSkinDegree - 1 : 0;
   for (std::size_t k = 1; k <= inner; ++k) {
-    const double part = static_cast<double>(k) / static_cast<double>(inner + 1);
-    const double at = breaks.front() + part * (breaks.back() - breaks.front());
+    const double at = density.at(static_cast<double>(k) / static_cast<double>(inner + 1));
     const auto above = std::lower_bound(breaks.begin() + 1, breaks.end() - 1, at);
     const bool before = above != breaks.begin() + 1 && at - *(above - 1) < *above - at;
     const double chosen = before ? *(above - 1) : *above;
@@ -128,7 +153,7 @@ class Correction {
     for (std::size_t k = 0; k < how_.v.size(); ++k) {
       double most = 0.0;
       for (std::size_t i = 0; i < count_; ++i) most = std::max(most, norm(moved_[k * count_ + i]));
-      out.push_back(most > 0.0 ? most * how_.tolerance + kRounding * largest : 0.0);
+      out.push_back(most > 0.0 ? most * how_.tolerance + kMovedRounding * largest : 0.0);
     }
     return out;
   }
@@ -160,12 +185,10 @@ class Correction {
   void place_lines() {
     const std::vector<double> breaks = distinct(knots_);
     const std::size_t spans = breaks.size() - 1;
-    const std::size_t each = (kLeastLines + spans - 1) / spans;
-    for (std::size_t s = 0; s < spans; ++s) {
-      for (std::size_t k = 0; k < each; ++k) {
-        const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(each);
-        line_at_.push_back(breaks[s] + part * (breaks[s + 1] - breaks[s]));
-      }
+    const Density density(stretch_.breaks);
+    const std::size_t lines = std::max(kLeastLines, kLinesPerSpan * spans);
+    for (std::size_t l = 0; l < lines; ++l) {
+      line_at_.push_back(density.at((static_cast<double>(l) + 0.5) / static_cast<double>(lines)));
     }
     for (const double u : line_at_) {
       line_basis_.push_back(basis_at(kSkinDegree, knots_, u, 0));
@@ -271,7 +294,7 @@ class Correction {
         const Vec3 third = (-h3 / how_.tolerance) * lines_[l].derivative(at_middle_[m], 3);
         const std::array<double, 3> goal = {third.x, third.y, third.z};
         for (std::size_t c = 0; c < 3; ++c) {
-          Form f = along_form(line_basis_[l], 0, c);
+          FormGroup::Form f = along_form(line_basis_[l], 0, c);
           f.wanted = goal[c];
           for (const double a : f.coefficient) square += shares * a * a;
           g.near.push_back(std::move(f));
@@ -288,7 +311,7 @@ class Correction {
       for (const double s : g.share) shares += s * s;
       for (std::size_t s = 0; s < along_middle_.size(); ++s) {
         for (std::size_t c = 0; c < 3; ++c) {
-          Form f = along_form(along_middle_[s], 3, c);
+          FormGroup::Form f = along_form(along_middle_[s], 3, c);
           const double root = std::sqrt(along_step_[s]);
           for (double& a : f.coefficient) a *= root;
           for (const double a : f.coefficient) square += shares * a * a;
@@ -301,12 +324,13 @@ class Correction {
   }
   static void append(BandedProgram& program, std::vector<FormGroup> groups, double weight) {
     for (FormGroup& g : groups) {
-      for (Form& f : g.near) f.weight = weight;
+      for (FormGroup::Form& f : g.near) f.weight = weight;
       program.groups.push_back(std::move(g));
     }
   }
-  static Form along_form(const BasisValues& basis, std::size_t derivative, std::size_t c) {
-    Form f;
+  static FormGroup::Form along_form(const BasisValues& basis, std::size_t derivative,
+                                    std::size_t c) {
+    FormGroup::Form f;
     f.first_column = 3 * basis.first + c;
     f.coefficient.assign(3 * kSkinDegree + 1, 0.0);
     for (std::size_t i = 0; i <= kSkinDegree; ++i) {
@@ -336,7 +360,7 @@ class Correction {
       for (std::size_t q = 0; q < places; ++q) {
         if (sign[q] == 0 || !(norm(normal[q]) > 0.5)) continue;
         const Vec3 n = static_cast<double>(sign[q]) * normal[q];
-        Form f;
+        FormGroup::Form f;
         f.first_column = 3 * line_basis_[l].first;
         f.coefficient.assign(3 * (kSkinDegree + 1), 0.0);
         add_basis(line_basis_[l], 0, n, f.first_column, f.coefficient);
@@ -478,7 +502,7 @@ class Correction {
                          (i + 2 < at.size() && direction[i + 1] != direction[i]);
       if (direction[i] == 0 || turns) continue;
       const BasisValues &a = basis[i], &b = basis[i + 1];
-      Form f;
+      FormGroup::Form f;
       f.first_column = 3 * a.first;
       f.coefficient.assign(3 * (b.first - a.first + kSkinDegree + 1), 0.0);
       const double sign = direction[i];
@@ -627,13 +651,26 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
   return out;
 }
 
-std::size_t beyond(const SkinStretch& stretch, const NurbsSurface& surface, const FairAcross& how,
-                   std::size_t& forced) {
-  SkinStretch trial{{}, stretch.breaks, surface};
+/// Waves that need not be: high ones, and shallow ones with them; and how many are forced.
+struct Waves {
+  std::size_t beyond = 0, all_beyond = 0, forced = 0;
+  [[nodiscard]] bool high_ones_few() const { return few_of(beyond); }
+  [[nodiscard]] bool few() const { return few_of(std::max(beyond, all_beyond)); }
+  [[nodiscard]] bool less_than(const Waves& other) const {
+    return beyond < other.beyond || (beyond == other.beyond && all_beyond < other.all_beyond);
+  }
+
+ private:
+  [[nodiscard]] bool few_of(std::size_t waves) const {
+    return static_cast<double>(waves) <= kFew * static_cast<double>(forced);
+  }
+};
+
+Waves waves_of(const SkinStretch& stretch, const NurbsSurface& surface, const FairAcross& how) {
+  const SkinStretch trial{{}, stretch.breaks, surface};
   AcrossReport report;
-  add_across_report(trial, stretch.surface, how.v, how.tolerance, report);
-  forced = report.forced;
-  return report.beyond;
+  add_across_report(trial, stretch.surface, how.v, how.tolerance, how.fine, report);
+  return {report.beyond, report.all_beyond, report.forced};
 }
 
 }  // namespace
@@ -655,18 +692,18 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
     }
     allowed.push_back(std::max(meter.ripple(), kMostAgainstRun));
   }
-  std::size_t forced = 0;
-  std::size_t least = beyond(stretch, best.surface, wanted, forced);
+  Waves least = waves_of(stretch, best.surface, wanted);
   constexpr double kParts = static_cast<double>(kAlong.size() * kRounds);
   double done = 0.0;
   for (const std::size_t along : kAlong) {
-    if (static_cast<double>(least) <= kFew * static_cast<double>(forced)) break;
+    // more control points for high waves only
+    if (least.few() || (along != kAlong.front() && least.high_ones_few())) break;
     Correction correction(stretch, wanted, along);
     for (int round = 0; round < kRounds; ++round, ++done) {
       const double start = from + (to - from) * done / kParts;
       OBVID_TRY(correction.improve(runs, at, allowed, run, start, start + (to - from) / kParts));
-      const std::size_t left = beyond(stretch, correction.surface(), wanted, forced);
-      if (left >= least) continue;
+      const Waves left = waves_of(stretch, correction.surface(), wanted);
+      if (!left.less_than(least)) break;
       least = left;
       best = {correction.surface(), correction.moved()};
     }

@@ -12,6 +12,7 @@ namespace obvid {
 
 /// What a stretch is fair across for.
 struct FairAcross {
+  double fine = 0.0;             ///< units, > 0: height of the shallowest bulges that count
   double tolerance = 0.0;        ///< units, > 0: how far each section may move
   const std::vector<double>& v;  ///< parameters of the sections
   const Collocation& across;     ///< of the sections: its own cubic

@@ -172,7 +172,7 @@ Seam seam_at(const std::vector<SkinStretch>& stretches, std::size_t n, bool end)
 
 /// Puts surfaces that are fair across in the place of the exact ones, which are returned.
 Result<std::vector<NurbsSurface>> fair_across(std::vector<SkinStretch>& stretches, double tolerance,
-                                              const std::vector<double>& v,
+                                              double fine, const std::vector<double>& v,
                                               const Collocation& across, const RunContext& run,
                                               FairAcrossReport& report) {
   report.tolerance = tolerance;
@@ -182,8 +182,8 @@ Result<std::vector<NurbsSurface>> fair_across(std::vector<SkinStretch>& stretche
       return static_cast<double>(k) / static_cast<double>(stretches.size());
     };
     SkinStretch& stretch = stretches[n];
-    add_across_report(stretch, stretch.surface, v, tolerance, report.before);
-    FairAcross how{tolerance, v, across, {}, {}};
+    add_across_report(stretch, stretch.surface, v, tolerance, fine, report.before);
+    FairAcross how{fine, tolerance, v, across, {}, {}};
     for (const std::size_t side : {0u, 1u}) {
       const Seam seam = seam_at(stretches, n, side == 1);
       how.fixed[side] = seam.shared;
@@ -249,9 +249,10 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     result.light = *light;
   }
   std::vector<NurbsSurface> exact;
+  const double fine = std::min(options.tolerance, options.fair_across.value_or(options.tolerance));
   if (options.fair_across) {
     auto given_surfaces =
-        fair_across(stretches, *options.fair_across, *v, *across, run, result.fair.emplace());
+        fair_across(stretches, *options.fair_across, fine, *v, *across, run, result.fair.emplace());
     OBVID_TRY(given_surfaces);
     exact = std::move(*given_surfaces);
   }
@@ -264,7 +265,7 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     }
     if (!options.straight_across) {
       add_across_report(stretch, exact.empty() ? stretch.surface : exact[n], *v,
-                        options.fair_across.value_or(options.tolerance), result.across);
+                        options.fair_across.value_or(options.tolerance), fine, result.across);
     }
     result.patches.push_back({fmt::format("part {}", n + 1), std::move(stretch.surface)});
   }

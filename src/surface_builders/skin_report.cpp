@@ -37,13 +37,17 @@ void add_section_report(const SkinStretch& stretch, const MeasuredSection& measu
 }
 
 void add_across_report(const SkinStretch& stretch, const NurbsSurface& given,
-                       const std::vector<double>& v, double tolerance, AcrossReport& report) {
+                       const std::vector<double>& v, double tolerance, double fine,
+                       AcrossReport& report) {
   const AcrossPlaces places = places_across(given, v);
   report.tolerance = tolerance;
+  report.fine = fine;
   for (const double u : stretch.breaks) {
     const Tube tube = developed(Isoline(given, u), places, tolerance).tube;
-    const std::size_t found = waves_found(Isoline(stretch.surface, u), places, tolerance);
     const std::size_t forced = changes_of(taut_string(tube));
+    const Isoline line(stretch.surface, u);
+    const std::size_t found = waves_found(line, places, tolerance);
+    const std::size_t all = fine == tolerance ? found : waves_found(line, places, fine);
     const std::size_t beyond = found - std::min(found, forced);
     ++report.isolines;
     report.found += found;
@@ -51,6 +55,8 @@ void add_across_report(const SkinStretch& stretch, const NurbsSurface& given,
     report.proved += changes_certified(tube);
     report.beyond += beyond;
     report.worst = std::max(report.worst, beyond);
+    report.all += all;
+    report.all_beyond += all - std::min(all, forced);
   }
 }
 

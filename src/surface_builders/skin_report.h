@@ -23,8 +23,10 @@ void add_section_report(const SkinStretch& stretch, const MeasuredSection& measu
                         double v, SkinSectionReport& report);
 
 /// Adds the waves across this stretch against what the points of `given` force, a surface over the
-/// same knots across (the stretch's own where nothing was moved); `v` are the sections' parameters.
+/// same knots across (the stretch's own where nothing was moved); `v` are the sections' parameters,
+/// `fine` the height of bulges that `AcrossReport::all` counts.
 void add_across_report(const SkinStretch& stretch, const NurbsSurface& given,
-                       const std::vector<double>& v, double tolerance, AcrossReport& report);
+                       const std::vector<double>& v, double tolerance, double fine,
+                       AcrossReport& report);
 
 }  // namespace obvid

@@ -31,7 +31,9 @@ void add_across(JsonText& json, const char* name, const AcrossReport& across) {
   json.key(name).begin_object().pair("tolerance", across.tolerance);
   json.pair("isolines", across.isolines).pair("found", across.found);
   json.pair("forced", across.forced).pair("proved", across.proved);
-  json.pair("beyond", across.beyond).pair("worst", across.worst).end_object();
+  json.pair("beyond", across.beyond).pair("worst", across.worst);
+  json.pair("fine", across.fine).pair("all", across.all);
+  json.pair("all_beyond", across.all_beyond).end_object();
 }
 
 void add_skin_report(const FittedSkin& fitted, JsonText& json) {

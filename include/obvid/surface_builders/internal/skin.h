@@ -79,6 +79,10 @@ struct AcrossReport {
   std::size_t proved = 0;  ///< of them certified: no heights within the tolerance have fewer
   std::size_t beyond = 0;  ///< found more than forced, summed over the lines that have more
   std::size_t worst = 0;   ///< most of them on one isoline
+  // the same of shallower bulges, against the same forced ones; where sections did not move, equal
+  double fine = 0.0;           ///< units: of bulges that count here
+  std::size_t all = 0;         ///< changes
+  std::size_t all_beyond = 0;  ///< more than forced, summed over the lines that have more
 };
 
 /// A skin that is fair across: what it was before, and how far its sections moved.
