@@ -12,7 +12,7 @@ using Form = FormGroup::Form;
 
 constexpr int kMostIterations = 45;
 /// Complementarity where the steps end: shares of a box of 1.
-constexpr double kSolved = 1e-7;
+constexpr double kSolved = 1e-2;
 constexpr double kBegin = 1.0;
 /// A step goes this far towards the nearest bound.
 constexpr double kStep = 0.95;

@@ -706,6 +706,7 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
       if (!left.less_than(least)) break;
       least = left;
       best = {correction.surface(), correction.moved()};
+      if (least.high_ones_few()) break;
     }
   }
   return best;

@@ -34,47 +34,46 @@ def cases(data, work, _options):
 
 
 # ------------------------------------------------------------------- surfaces
-def basis(degree, knots, at, derivative=0):
-    """Values (or a derivative) of all B-splines at places, by the recurrence: [place, B-spline]."""
-    knots, at = np.asarray(knots), np.asarray(at, float)
-    count = len(knots) - degree - 1
-    if derivative:
-        lower = basis(degree - 1, knots, at, derivative - 1)
-        width = lambda i: knots[i + degree] - knots[i]  # noqa: E731
-        out = np.zeros((len(at), count))
-        for i in range(count):
-            if width(i) > 0:
-                out[:, i] += degree / width(i) * lower[:, i]
-            if width(i + 1) > 0:
-                out[:, i] -= degree / width(i + 1) * lower[:, i + 1]
-        return out
-    first, last = np.searchsorted(knots, knots[0], "right") - 1, np.searchsorted(knots, knots[-1], "left") - 1
-    span = np.clip(np.searchsorted(knots, at, "right") - 1, first, last)
-    values = np.zeros((len(at), len(knots) - 1))
-    values[np.arange(len(at)), span] = 1.0
+def basis(degree, knots, at):
+    """First B-spline and values of those that are not 0 at places, by the recurrence: [place], [place, degree + 1]."""
+    inner = np.unique(knots)
+    span = np.searchsorted(knots, np.minimum(at, inner[-2] + 0.999999 * (inner[-1] - inner[-2])), "right") - 1
+    values = np.ones((len(at), 1))
     for d in range(1, degree + 1):
-        left, right = knots[d:-1] - knots[:-d - 1], knots[d + 1:] - knots[1:-d]
-        a = (at[:, None] - knots[:-d - 1]) * np.divide(1.0, left, out=np.zeros_like(left), where=left > 0)
-        b = (knots[d + 1:] - at[:, None]) * np.divide(1.0, right, out=np.zeros_like(right), where=right > 0)
-        values = a * values[:, :-1] + b * values[:, 1:]
-    return values
+        grown = np.zeros((len(at), d + 1))
+        for j in range(d):
+            left, right = knots[span + 1 - d + j], knots[span + 1 + j]
+            part = (at - left) / (right - left)
+            grown[:, j] += (1.0 - part) * values[:, j]
+            grown[:, j + 1] += part * values[:, j]
+        values = grown
+    return span - degree, values
+
+
+def derived(degree, knots, net):
+    """Degree, knots and control points of the derivative along the first axis."""
+    width = knots[degree + 1:-1] - knots[1:-degree - 1]
+    factor = np.divide(degree, width, out=np.zeros_like(width), where=width > 0)
+    return degree - 1, knots[1:-1], np.diff(net, axis=0) * factor.reshape(-1, *[1] * (net.ndim - 1))
+
+
+def along_first(degree, knots, net, at, derivatives):
+    for _ in range(derivatives):
+        degree, knots, net = derived(degree, knots, net)
+    first, values = basis(degree, knots, np.asarray(at, float))
+    return sum(values[:, j].reshape(-1, *[1] * (net.ndim - 1)) * net[first + j] for j in range(degree + 1))
 
 
 class Surface:
     def __init__(self, patch):
-        self.ku, self.kv, self.tu, self.tv = (np.asarray(patch[key]) if "knots" in key else patch[key]
-                                              for key in ("degree_u", "degree_v", "knots_u", "knots_v"))
-        nu = len(self.tu) - self.ku - 1
-        self.net = np.array(patch["points"], float).reshape(-1, nu, 3)
+        self.ku, self.kv = patch["degree_u"], patch["degree_v"]
+        self.tu, self.tv = np.array(patch["knots_u"], float), np.array(patch["knots_v"], float)
+        self.net = np.array(patch["points"], float).reshape(-1, len(self.tu) - self.ku - 1, 3)
 
     def grid(self, u, v, du=0, dv=0):
         """[u, v, coordinate]."""
-        rows = np.einsum("vj,jic->vic", basis(self.kv, self.tv, v, dv), self.net)
-        out = np.empty((len(u), len(v), 3))
-        for start in range(0, len(u), 500):  # tables of B-splines stay small
-            piece = slice(start, start + 500)
-            out[piece] = np.einsum("ui,vic->uvc", basis(self.ku, self.tu, u[piece], du), rows, optimize=True)
-        return out
+        rows = along_first(self.kv, self.tv, self.net, v, dv)
+        return along_first(self.ku, self.tu, rows.transpose(1, 0, 2), u, du)
 
 
 def unit(x):
@@ -147,14 +146,16 @@ def against_run(exact, fair, v, size):
     """Largest fall of curvature against the run that the exact section has, share of its largest."""
     u = places(np.unique(exact.tu), ALONG)
     worst = 0.0
-    for at in v:
-        q = exact.grid(u, [at])[:, 0]
+    points = exact.grid(u, v)
+    slopes = [(one.grid(u, v, 1), one.grid(u, v, 2)) for one in (exact, fair)]
+    for k in range(len(v)):
+        q = points[:, k]
         if np.ptp(q, axis=0).max() < 1e-6 * size:
             continue
         normal = np.linalg.svd(q - q.mean(0), full_matrices=False)[2][2]
-        wanted, found = (np.cross(a, b) @ normal / np.maximum(np.linalg.norm(a - np.outer(a @ normal, normal), axis=1),
-                                                              1e-300) ** 3
-                         for a, b in ((s.grid(u, [at], 1)[:, 0], s.grid(u, [at], 2)[:, 0]) for s in (exact, fair)))
+        wanted, found = (np.cross(a[:, k], b[:, k]) @ normal
+                         / np.maximum(np.linalg.norm(a[:, k] - np.outer(a[:, k] @ normal, normal), axis=1), 1e-300) ** 3
+                         for a, b in slopes)
         largest, direction, extreme = np.abs(wanted).max(), 0, found[0]
         for i in range(1, len(u)):
             change = wanted[i] - wanted[i - 1]
