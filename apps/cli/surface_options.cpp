@@ -175,6 +175,11 @@ struct KindOptions {
            "skin has it, input units; runs of curvature may be lost, which the table says "
            "[exact]")
         ->type_name("EPS");
+    app.add_option("--fair-across", raw.values.fair_across,
+                   "Each section may move by this, input units, where lines across then change "
+                   "their bending less often; curvature along goes against its run by no more than "
+                   "0.1 % of the section's largest, or as much as before [sections stay]")
+        ->type_name("EPS");
   }
   void operator()(const RuledKind&) const {
     add_skin_options(app, raw);

@@ -57,9 +57,21 @@ Table section_table(const std::vector<SkinSectionReport>& sections) {
 
 std::string across_text(const AcrossReport& across) {
   return fmt::format(
-      "{} changes of bending on {} isolines, {} of them in the sections' points; {} beyond "
-      "those, at most {} on one isoline",
-      across.found, across.isolines, across.forced, across.beyond, across.worst);
+      "{} changes of bending on {} isolines; {} forced, {} of them proved for these lines and "
+      "normals; {} beyond, at most {} on one isoline",
+      across.found, across.isolines, across.forced, across.proved, across.beyond, across.worst);
+}
+
+std::string fair_text(const FairAcrossReport& fair, const AcrossReport& now,
+                      const std::string& units) {
+  return fmt::format(
+      "{} changes of bending instead of {}, {} instead of {} beyond those forced; with bulges of "
+      "{} "
+      "{}, {} instead of {}; no section farther than {} {} from where the exact skin has it, {} "
+      "allowed",
+      now.found, fair.before.found, now.beyond, fair.before.beyond, significant(now.fine, 3), units,
+      now.all, fair.before.all, significant_above(fair.moved, 3), units,
+      significant(fair.tolerance, 3));
 }
 
 std::string light_text(const LightSkinReport& light, const std::string& units) {
@@ -70,7 +82,7 @@ std::string light_text(const LightSkinReport& light, const std::string& units) {
       significant(light.tolerance, 3));
 }
 
-/// What the sections of a light skin lost.
+/// What the sections of a light skin, or of one that is fair across, lost.
 std::string lost_text(const std::vector<SkinSectionReport>& sections) {
   constexpr double kLost = 1e-3;  // of the largest curvature: it is in no picture
   std::size_t lost = 0;
@@ -95,10 +107,9 @@ void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& 
   facts.add("sections", text);
   facts.add("matched by", skin.matching == SkinMatching::kByPoints ? "points" : "arc length");
   facts.add("tolerance", significant(fitted.tolerance, 3) + " " + units);
-  if (skin.light) {
-    facts.add("light", light_text(*skin.light, units));
-    facts.add("runs lost", lost_text(skin.sections));
-  }
+  if (skin.light) facts.add("light", light_text(*skin.light, units));
+  if (skin.fair) facts.add("fair across", fair_text(*skin.fair, skin.across, units));
+  if (skin.light || skin.fair) facts.add("runs lost", lost_text(skin.sections));
   if (skin.across.isolines > 0) facts.add("across", across_text(skin.across));
 }
 

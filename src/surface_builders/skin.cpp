@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "begun_at_first_point.h"
+#include "fair_across.h"
 #include "obvid/surface/internal/collocation.h"
 #include "obvid/surface_builders/internal/grid.h"
 #include "obvid/surface_builders/internal/lighten.h"
@@ -22,6 +23,16 @@ Result<void> check_sections(const std::vector<SkinSection>& sections, const Skin
   if (!(options.tolerance > 0.0)) {
     return error(ErrorCode::kBadOption, "the tolerance must be greater than 0")
         .value(options.tolerance);
+  }
+  for (const auto& within : {options.light, options.fair_across}) {
+    if (!within || (*within > 0.0 && std::isfinite(*within))) continue;
+    return error(ErrorCode::kBadOption, "a tolerance must be greater than 0").value(*within);
+  }
+  if (options.fair_across && (options.light || options.straight_across)) {
+    return error(ErrorCode::kBadOption,
+                 options.light ? "a skin is either light or fair across"
+                               : "ruled strips have no bending across that could be fair")
+        .hint("leave one of the two out");
   }
   if (sections.size() < 2) {
     return error(ErrorCode::kTooFewCurves, "a skin needs at least two sections")
@@ -134,6 +145,59 @@ Result<LightSkinReport> lighten(std::vector<SkinStretch>& stretches, double tole
   return report;
 }
 
+/// Whether a border of a stretch is one of another (or its own other one): point on point in all
+/// sections; and whether any section goes on smoothly there.
+struct Seam {
+  bool shared = false, smooth = false;
+};
+
+Seam seam_at(const std::vector<SkinStretch>& stretches, std::size_t n, bool end) {
+  constexpr double kSame = 1e-9;    // of the size
+  constexpr double kCorner = 1e-6;  // turn of the tangent that is none
+  const SkinStretch& here = stretches[n];
+  const double size = size_of(here.surface);
+  for (const SkinStretch& other : stretches) {
+    bool same = true, smooth = false;
+    for (std::size_t k = 0; k < here.sections.size() && same; ++k) {
+      const Hermite a = here.sections[k].at(end ? 1.0 : 0.0),
+                    b = other.sections[k].at(end ? 0.0 : 1.0);
+      same = norm(a.point - b.point) <= kSame * size;
+      const bool point = here.sections[k].is_point();
+      smooth = smooth || (!point && norm(unit(a.d1) - unit(b.d1)) <= kCorner);
+    }
+    if (same) return {true, smooth};
+  }
+  return {};
+}
+
+/// Puts surfaces that are fair across in the place of the exact ones, which are returned.
+Result<std::vector<NurbsSurface>> fair_across(std::vector<SkinStretch>& stretches, double tolerance,
+                                              double fine, const std::vector<double>& v,
+                                              const Collocation& across, const RunContext& run,
+                                              FairAcrossReport& report) {
+  report.tolerance = tolerance;
+  std::vector<NurbsSurface> exact;
+  for (std::size_t n = 0; n < stretches.size(); ++n) {
+    const auto part = [&](std::size_t k) {
+      return static_cast<double>(k) / static_cast<double>(stretches.size());
+    };
+    SkinStretch& stretch = stretches[n];
+    add_across_report(stretch, stretch.surface, v, tolerance, fine, report.before);
+    FairAcross how{fine, tolerance, v, across, {}, {}};
+    for (const std::size_t side : {0u, 1u}) {
+      const Seam seam = seam_at(stretches, n, side == 1);
+      how.fixed[side] = seam.shared;
+      how.smooth[side] = seam.smooth;
+    }
+    auto fair = faired_across(stretch, how, run, part(n), part(n + 1));
+    OBVID_TRY(fair);
+    for (const double moved : fair->moved) report.moved = std::max(report.moved, moved);
+    exact.push_back(std::move(stretch.surface));
+    stretch.surface = std::move(fair->surface);
+  }
+  return exact;
+}
+
 }  // namespace
 
 Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& options,
@@ -184,6 +248,14 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     OBVID_TRY(light);
     result.light = *light;
   }
+  std::vector<NurbsSurface> exact;
+  const double fine = std::min(options.tolerance, options.fair_across.value_or(options.tolerance));
+  if (options.fair_across) {
+    auto given_surfaces =
+        fair_across(stretches, *options.fair_across, fine, *v, *across, run, result.fair.emplace());
+    OBVID_TRY(given_surfaces);
+    exact = std::move(*given_surfaces);
+  }
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const double part = static_cast<double>(n) / static_cast<double>(stretches.size());
     OBVID_TRY(tell(run, "checking", part));
@@ -192,7 +264,8 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
       add_section_report(stretch, measured_sections[k], k, (*v)[k], result.sections[k]);
     }
     if (!options.straight_across) {
-      add_across_report(stretch, *v, options.tolerance, result.across);
+      add_across_report(stretch, exact.empty() ? stretch.surface : exact[n], *v,
+                        options.fair_across.value_or(options.tolerance), fine, result.across);
     }
     result.patches.push_back({fmt::format("part {}", n + 1), std::move(stretch.surface)});
   }

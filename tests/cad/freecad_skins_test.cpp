@@ -124,7 +124,7 @@ FittedSkin checked_skin(const std::vector<std::string>& files, std::optional<dou
   const AcrossReport& across = made->skin.across;
   std::printf(
       "%-12s %zu sections, %zu proved; within %.2g of contours, %.2g of points; %zu monotone "
-      "within 0.1 %%, worst %.2g; across %zu changes on %zu lines, %zu of them in the points, %zu "
+      "within 0.1 %%, worst %.2g; across %zu changes on %zu lines, %zu forced, %zu "
       "beyond\n",
       name.c_str(), sections->size(), made->proved, deviation, from_points, monotone, ripple,
       across.found, across.isolines, across.forced, across.beyond);

@@ -250,15 +250,17 @@ TEST(Skin, CountsTheWavesAcrossThatTheSectionsForce) {
   // radii up and down: 7 inner sections bend alternately, 6 changes on each isoline
   EXPECT_EQ(waves->across.forced, 6 * waves->across.isolines);
   EXPECT_GE(waves->across.found, waves->across.forced);
-  // zigzags of 1e-5 to both sides: the points leave their neighbours' chords by 2e-5, the waves of
-  // the skin bulge by 1.2e-5 from end to end; what is told to be in the points is in the skin, too
+  EXPECT_EQ(waves->across.proved, waves->across.forced);
+  // zigzags of 1e-5 to both sides of a straight line, within 1.6e-5 of it: nothing is forced
   std::vector<SkinSection> shallow;
   for (int k = 0; k < 9; ++k) {
     shallow.push_back(section_of(circle(2 + 2e-5 * (k % 2), 8), at_height(k)));
   }
   const auto ripples = skin(shallow, {1.6e-5});
   ASSERT_TRUE(ripples);
-  EXPECT_EQ(ripples->across.found, ripples->across.forced + ripples->across.beyond);
+  EXPECT_EQ(ripples->across.forced, 0u);
+  EXPECT_EQ(ripples->across.proved, 0u);
+  EXPECT_EQ(ripples->across.beyond, ripples->across.found);
   SkinOptions straight{1e-5};
   straight.straight_across = true;
   const auto ruled = skin(wavy, straight);
@@ -304,6 +306,116 @@ TEST(Skin, RefusesWhatMakesNoSkin) {
   SkinSection broken = low;
   broken.on_contour.pop_back();
   EXPECT_EQ(skin({low, broken}, {1e-6}).error().code, ErrorCode::kUsage);
+}
+
+/// Equal spirals over each other, their planes shifted to and fro: all waves across are of the
+/// shifts.
+std::vector<SkinSection> scattered(double shift, double scale = 1.0) {
+  std::vector<SkinSection> sections;
+  for (int k = 0; k < 9; ++k) {
+    const double way = shift * std::cos(2.4 * k * k);
+    const Frame frame{{scale * way, scale * way, scale * k}, {1, 0, 0}, {0, 1, 0}};
+    sections.push_back(section_of(clothoid(0.1 / scale, 0.8 / scale, 2.0 * scale), frame));
+  }
+  return sections;
+}
+
+SkinOptions fair_options(double tolerance, double eps) {
+  SkinOptions options{tolerance};
+  options.fair_across = eps;
+  return options;
+}
+
+TEST(SkinFairAcross, TakesWavesAwayWithinTheToleranceOfEachSection) {
+  constexpr double kShift = 2e-3;
+  const auto exact = skin(scattered(kShift), {1e-5});
+  const auto fair = skin(scattered(kShift), fair_options(1e-5, 2 * kShift));
+  ASSERT_TRUE(exact && fair) << fair.error().what;
+  ASSERT_TRUE(fair->fair);
+  // a plane through the middle is within the tolerance of all sections: nothing is forced
+  EXPECT_EQ(fair->across.forced, 0u);
+  EXPECT_GT(fair->fair->before.all, 0u);
+  EXPECT_LE(10 * fair->across.all, fair->fair->before.all);
+  EXPECT_LE(fair->fair->moved, 2 * kShift);
+  const NurbsSurface &a = exact->patches[0].surface, &b = fair->patches[0].surface;
+  EXPECT_EQ(a.knots_u, b.knots_u);
+  EXPECT_EQ(a.knots_v, b.knots_v);
+  double farthest = 0.0;
+  for (const SkinSectionReport& section : fair->sections) {
+    for (int i = 0; i <= 200; ++i) {
+      const double u = i / 200.0, v = section.parameter;
+      farthest = std::max(farthest, norm(evaluate(a, u, v).point - evaluate(b, u, v).point));
+    }
+    EXPECT_LE(section.ripple, 1e-3) << section.name;
+  }
+  EXPECT_LE(farthest, fair->fair->moved);
+  EXPECT_GE(farthest, 0.1 * fair->fair->moved);
+}
+
+TEST(SkinFairAcross, IsTheSameInOtherUnitsAndEachTime) {
+  const auto once = skin(scattered(2e-3), fair_options(1e-5, 2e-3));
+  const auto again = skin(scattered(2e-3), fair_options(1e-5, 2e-3));
+  ASSERT_TRUE(once && again);
+  EXPECT_EQ(once->patches[0].surface, again->patches[0].surface);
+  for (const double scale : {1e-6, 1e6}) {
+    const auto other = skin(scattered(2e-3, scale), fair_options(1e-5 * scale, 2e-3 * scale));
+    ASSERT_TRUE(other) << other.error().what;
+    EXPECT_EQ(other->across.forced, once->across.forced);
+    EXPECT_LE(other->fair->moved, 2e-3 * scale);
+    EXPECT_NEAR(static_cast<double>(other->across.all), static_cast<double>(once->across.all),
+                0.05 * static_cast<double>(once->fair->before.all));
+  }
+}
+
+/// The seam of a closed body stays, and is as smooth as it was.
+TEST(SkinFairAcross, SeamsStay) {
+  std::vector<SkinSection> sections;
+  for (int k = 0; k < 9; ++k) {
+    sections.push_back(section_of(circle(2 + 4e-4 * std::cos(2.4 * k * k), 8), at_height(k)));
+  }
+  const auto exact = skin(sections, {1e-5}), fair = skin(sections, fair_options(1e-5, 1e-3));
+  ASSERT_TRUE(exact && fair);
+  EXPECT_LT(fair->across.all, fair->fair->before.all);
+  const NurbsSurface &a = exact->patches[0].surface, &b = fair->patches[0].surface;
+  for (int j = 0; j <= 40; ++j) {
+    const double v = j / 40.0;
+    const SurfaceJet from = evaluate(b, 0.0, v), to = evaluate(b, 1.0, v),
+                     was = evaluate(a, 0.0, v);
+    EXPECT_LT(norm(from.point - was.point), 1e-14);
+    EXPECT_LT(norm(from.point - to.point), 1e-14);
+    EXPECT_LT(norm(from.du - to.du), 1e-11);
+    EXPECT_LT(norm(from.duu - to.duu), 1e-8);
+  }
+}
+
+TEST(SkinFairAcross, AsksWhetherTheWorkGoesOnAndTellsOfIt) {
+  int told = 0;
+  double last = 0.0;
+  const RunContext run(
+      [&](std::string_view stage, double part) {
+        if (stage != "fairing across") return;
+        ++told;
+        EXPECT_GE(part, last);
+        EXPECT_LE(part, 1.0);
+        last = part;
+      },
+      [&] { return told > 20; });
+  const auto stopped = skin(scattered(2e-3), fair_options(1e-5, 1e-3), run);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(told, 21);
+}
+
+TEST(SkinFairAcross, ContradictionsAreRefused) {
+  SkinOptions light = fair_options(1e-5, 1e-3), straight = light;
+  light.light = 1e-3;
+  straight.straight_across = true;
+  for (const SkinOptions& options :
+       {light, straight, fair_options(1e-5, 0.0), fair_options(1e-5, -1.0)}) {
+    const auto refused = skin(scattered(2e-3), options);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kBadOption);
+  }
 }
 
 }  // namespace

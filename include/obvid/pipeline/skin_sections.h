@@ -27,7 +27,8 @@ struct SkinJob {
   std::optional<double> tolerance;  ///< units: of the surface from the contours [1e-5 of the size]
   SkinMatching matching = SkinMatching::kAutomatic;
   bool straight_across = false;
-  std::optional<double> light;  ///< units: `SkinOptions::light`
+  std::optional<double> light;        ///< units: `SkinOptions::light`
+  std::optional<double> fair_across;  ///< units: `SkinOptions::fair_across`
   bool plain_when_refused = false;  ///< a section without a fair contour takes the C2 cubic through
                                     ///< its points, which a warning tells; else it is an error
 };

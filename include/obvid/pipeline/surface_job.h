@@ -45,6 +45,7 @@ struct SkinKind {
   bool straight_across = false;
   std::optional<double> spacing{};  ///< between sections whose files have no z [1]
   std::optional<double> light{};    ///< few control points within so many units of the exact skin
+  std::optional<double> fair_across{};  ///< units: how far sections may move to be fair across
 };
 /// Between two curves, or from one along a direction or to a point. Two lists of points are matched
 /// as the sections of a skin.

@@ -183,6 +183,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   options.matching = job.matching;
   options.straight_across = job.straight_across;
   options.light = job.light;
+  options.fair_across = job.fair_across;
   auto surface = skin(made, options, run);
   OBVID_TRY(surface);
   result.skin = std::move(*surface);

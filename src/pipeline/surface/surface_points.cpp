@@ -108,6 +108,7 @@ Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const
   how.matching = kind.matching;
   how.straight_across = kind.straight_across;
   how.light = kind.light;
+  how.fair_across = kind.fair_across;
   how.plain_when_refused = job.curves.plain_when_refused;
   auto fitted = fit_skin(*sections, how, run);
   // stations with cells of their own show a knuckle here and none there

@@ -27,6 +27,15 @@ void add_patches(const SurfaceModel& model, JsonText& json) {
   json.end_array();
 }
 
+void add_across(JsonText& json, const char* name, const AcrossReport& across) {
+  json.key(name).begin_object().pair("tolerance", across.tolerance);
+  json.pair("isolines", across.isolines).pair("found", across.found);
+  json.pair("forced", across.forced).pair("proved", across.proved);
+  json.pair("beyond", across.beyond).pair("worst", across.worst);
+  json.pair("fine", across.fine).pair("all", across.all);
+  json.pair("all_beyond", across.all_beyond).end_object();
+}
+
 void add_skin_report(const FittedSkin& fitted, JsonText& json) {
   json.key("skin").begin_object();
   json.pair("proved", fitted.proved)
@@ -40,6 +49,12 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
     json.pair("moved", light->moved).pair("control_points", light->points);
     json.pair("control_points_before", light->points_before).end_object();
   }
+  if (const auto& fair = fitted.skin.fair) {
+    json.key("fair_across").begin_object().pair("tolerance", fair->tolerance);
+    json.pair("moved", fair->moved);
+    add_across(json, "before", fair->before);
+    json.end_object();
+  }
   json.key("sections").begin_array();
   for (const SkinSectionReport& s : fitted.skin.sections) {
     json.begin_object().pair("name", s.name).pair("v", s.parameter).pair("deviation", s.deviation);
@@ -47,12 +62,7 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
     json.end_object();
   }
   json.end_array();
-  const AcrossReport& across = fitted.skin.across;
-  json.key("across").begin_object().pair("isolines", across.isolines).pair("found", across.found);
-  json.pair("forced", across.forced)
-      .pair("beyond", across.beyond)
-      .pair("worst", across.worst)
-      .end_object();
+  add_across(json, "across", fitted.skin.across);
   json.end_object();
 }
 

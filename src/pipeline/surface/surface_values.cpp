@@ -58,6 +58,16 @@ Result<void> set_kind(const SurfaceValues& raw, SkinKind& kind) {
   kind.spacing = raw.spacing;
   OBVID_TRY(positive(raw.light, "--light"));
   kind.light = raw.light;
+  OBVID_TRY(positive(raw.fair_across, "--fair-across"));
+  if (raw.fair_across && raw.light) {
+    return fail(bad_option("a skin is either light or fair across", "--fair-across",
+                           "leave out --light or --fair-across"));
+  }
+  if (raw.fair_across && kind.straight_across) {
+    return fail(bad_option("ruled strips have no bending across that could be fair",
+                           "--fair-across", "leave out --straight or --fair-across"));
+  }
+  kind.fair_across = raw.fair_across;
   return {};
 }
 

@@ -21,7 +21,7 @@ namespace obvid {
 [[nodiscard]] std::vector<std::string> surface_kind_names();
 
 struct SurfaceValues {
-  std::optional<double> tolerance, spacing, light, distance, angle_deg, steepest_deg;
+  std::optional<double> tolerance, spacing, light, fair_across, distance, angle_deg, steepest_deg;
   std::optional<long> row;
   std::string matching = "auto", spread = "chord";
   std::string direction, apex, axis = "x", axis_point, up = "best";  ///< "X,Y,Z"

@@ -41,6 +41,9 @@ struct SkinOptions {
   /// Units, > 0: few control points instead, so that no point of the skin lies farther from where
   /// it lay.
   std::optional<double> light{};
+  /// Units, > 0: each section may move by as much where lines across then change their bending less
+  /// often. Not with `light` or `straight_across`.
+  std::optional<double> fair_across{};
 };
 
 /// What a light skin gave up, and for what.
@@ -63,14 +66,31 @@ struct SkinSectionReport {
                              ///< wherever the contour is
 };
 
-/// Waves across the sections, along one isoline u = const of a patch: changes of sign of the normal
-/// curvature that bulge more than the tolerance.
+/// Waves across the sections, along isolines u = const of the patches: changes of sign of the
+/// normal curvature that bulge more than the tolerance, against the fewest that heights within the
+/// tolerance of the sections' points can have. Heights are those of the line developed into a
+/// plane, over its chords, along the surface's normals: the figures are of these lines and these
+/// normals.
 struct AcrossReport {
+  double tolerance = 0.0;  ///< units: of bulges that count, and of heights
   std::size_t isolines = 0;
-  std::size_t found = 0;   ///< sign changes on all isolines together
-  std::size_t forced = 0;  ///< of them shown by the sections' own points on the same isoline
-  std::size_t beyond = 0;  ///< the others: found - forced
-  std::size_t worst = 0;   ///< largest number beyond the forced ones on one isoline
+  std::size_t found = 0;   ///< changes on all isolines together
+  std::size_t forced = 0;  ///< fewest that were found possible: of the string drawn tight
+  std::size_t proved = 0;  ///< of them certified: no heights within the tolerance have fewer
+  std::size_t beyond = 0;  ///< found more than forced, summed over the lines that have more
+  std::size_t worst = 0;   ///< most of them on one isoline
+  // the same of shallower bulges, against the same forced ones; where sections did not move, equal
+  double fine = 0.0;           ///< units: of bulges that count here
+  std::size_t all = 0;         ///< changes
+  std::size_t all_beyond = 0;  ///< more than forced, summed over the lines that have more
+};
+
+/// A skin that is fair across: what it was before, and how far its sections moved.
+struct FairAcrossReport {
+  double tolerance = 0.0;  ///< as it was asked for, units
+  double moved = 0.0;   ///< bound of the distance of any section from where the exact skin has it,
+                        ///< units: of control points, by the convex hull; <= tolerance
+  AcrossReport before;  ///< of the exact skin, by this tolerance
 };
 
 struct Skin {
@@ -80,6 +100,9 @@ struct Skin {
   AcrossReport across;
   std::optional<LightSkinReport>
       light;  ///< then `sections` and `across` are those of the light one
+  /// Then `sections` and `across` are those of the fair one, `across` by its tolerance and against
+  /// what the exact skin's points force.
+  std::optional<FairAcrossReport> fair;
   SkinMatching matching = SkinMatching::kByPoints;  ///< what was used
   std::vector<std::string> warnings;
 };
@@ -94,9 +117,17 @@ struct Skin {
 /// (`lightened`): its sections are no longer those of the contours, and `ripple` says how much of
 /// their runs of curvature is lost.
 ///
-/// Not guaranteed: what happens between sections beyond being C2; `across` counts the waves there.
+/// With `fair_across` the skin is corrected within that tolerance: each of its sections stays
+/// within it (proved, `FairAcrossReport::moved`), borders between patches stay as they are, borders
+/// in a coordinate plane stay in it, and curvature along falls against the contour's run by no more
+/// than 1e-3 of the section's largest (as measured in `ripple`), or as much as before. Where no
+/// correction with less waves is found, the skin stays as it was.
 ///
-/// Errors: E201 numbers that do not belong together; E203 tolerance <= 0, sections whose corners
+/// Not guaranteed: what happens between sections beyond being C2; `across` counts the waves there;
+/// with `fair_across`, that only forced changes of bending are left: `across` tells.
+///
+/// Errors: E201 numbers that do not belong together; E203 tolerance <= 0, options that contradict
+/// each other, sections whose corners
 /// cannot be matched (`index`: the section); E312 fewer than two sections; E313 neighbouring
 /// sections at the same place (`index`); E402 a contour with a cusp (`index`: the section); E502
 /// the tolerance is not reached within 2^10 parts of a stretch.

@@ -1,0 +1,715 @@
+// SPDX-License-Identifier: Apache-2.0
+// A correction of few control points along, found by a convex program: docs/methods/skin.md.
+#include "fair_across.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "across_lines.h"
+#include "banded_program.h"
+#include "ripple_meter.h"
+#include "skin_breaks.h"
+
+namespace obvid {
+namespace {
+
+/// Control points along of the correction: the second number where the first leaves too many waves.
+constexpr std::array<std::size_t, 2> kAlong = {12, 24};
+constexpr int kRounds = 3;
+/// Waves beyond the forced ones that are few enough.
+constexpr double kFew = 0.01;
+/// Half widths of the boxes: normal, along, across. Their corners lie in the ball of 1.
+constexpr std::array<double, 3> kBox = {0.95, 0.2, 0.2};
+/// The string keeps away from the bounds by what smoothness needs.
+constexpr double kStringShare = 0.87;
+/// Of a section's length: what is left of its shape.
+constexpr double kMostOfLength = 0.01;
+/// Of the section's largest curvature: what may be lost against its run.
+constexpr double kMostAgainstRun = 0.95e-3;
+/// Of a box: where nothing may move, until it is set to 0.
+constexpr double kHeld = 1e-3;
+constexpr double kSmoothAlong = 1e-2;
+constexpr double kSoft = 1e3, kSoftRuns = 1e3;
+/// Lines of the program at least, and places of a section at which its run is kept.
+constexpr std::size_t kLeastLines = 40, kLinesPerSpan = 3, kRunPlaces = 300;
+constexpr std::size_t kMostMeterPlaces = 16000;
+constexpr double kMovedRounding = 64.0 * std::numeric_limits<double>::epsilon();
+
+/// Coefficients of one derivative along: for points with three coordinates side by side.
+void add_basis(const BasisValues& basis, std::size_t derivative, Vec3 factor,
+               std::size_t first_column, std::vector<double>& row) {
+  for (std::size_t i = 0; i <= kSkinDegree; ++i) {
+    const double share = basis.value[derivative][i];
+    double* at = row.data() + 3 * (basis.first + i) - first_column;
+    at[0] += share * factor.x;
+    at[1] += share * factor.y;
+    at[2] += share * factor.z;
+  }
+}
+
+/// Places spread half by the parameter, half by the breaks: these stand close where sections are
+/// bent, and so do the lines that are counted.
+class Density {
+ public:
+  explicit Density(const std::vector<double>& breaks) : breaks_(breaks) {}
+  /// From 0 to 1.
+  [[nodiscard]] double at(double part) const {
+    double low = breaks_.front(), high = breaks_.back();
+    for (int k = 0; k < 60; ++k) {
+      const double middle = (low + high) / 2.0;
+      (share(middle) < part ? low : high) = middle;
+    }
+    return high;
+  }
+
+ private:
+  [[nodiscard]] double share(double u) const {
+    const auto above = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, u);
+    const double from = *(above - 1), to = *above;
+    const double number =
+        static_cast<double>(above - 1 - breaks_.begin()) + (u - from) / (to - from);
+    return 0.5 * number / static_cast<double>(breaks_.size() - 1) +
+           0.5 * (u - breaks_.front()) / (breaks_.back() - breaks_.front());
+  }
+  const std::vector<double>& breaks_;
+};
+
+/// The knots of the correction along: simple, at breaks of the surface.
+std::vector<double> knots_along(const std::vector<double>& breaks, std::size_t count) {
+  const Density density(breaks);
+  std::vector<double> knots(kSkinDegree + 1, breaks.front());
+  const std::size_t inner = count > kSkinDegree + 1 ? count - kSkinDegree - 1 : 0;
+  for (std::size_t k = 1; k <= inner; ++k) {
+    const double at = density.at(static_cast<double>(k) / static_cast<double>(inner + 1));
+    const auto above = std::lower_bound(breaks.begin() + 1, breaks.end() - 1, at);
+    const bool before = above != breaks.begin() + 1 && at - *(above - 1) < *above - at;
+    const double chosen = before ? *(above - 1) : *above;
+    if (chosen > knots.back() && chosen < breaks.back()) knots.push_back(chosen);
+  }
+  knots.insert(knots.end(), kSkinDegree + 1, breaks.back());
+  return knots;
+}
+
+/// Where curvature along one section is looked at: of the contour, and what it is made of.
+struct RunPlaces {
+  std::vector<double> wanted;
+  std::vector<Vec2> d1, d2;  ///< of the given surface, in the plane of the section
+};
+
+Vec2 in_plane(const Frame& frame, Vec3 v) { return {dot(v, frame.x), dot(v, frame.y)}; }
+
+double curvature_of(Vec2 d1, Vec2 d2) {
+  const double speed = norm(d1);
+  return speed > 0.0 ? cross(d1, d2) / (speed * speed * speed) : 0.0;
+}
+
+class Correction {
+ public:
+  Correction(const SkinStretch& stretch, const FairAcross& wanted, std::size_t along)
+      : stretch_(stretch),
+        given_(stretch.surface),
+        how_(wanted),
+        knots_(knots_along(stretch.breaks, along)),
+        count_(knots_.size() - kSkinDegree - 1),
+        degree_(static_cast<std::size_t>(given_.degree_v)),
+        at_sections_(bases_across(given_, wanted.v, 2)),
+        moved_(wanted.v.size() * count_),
+        box_(wanted.v.size(), 1.0),
+        current_(given_) {
+    limit_sections();
+    place_lines();
+    frame_boxes();
+    hold_borders();
+  }
+
+  [[nodiscard]] Result<void> improve(const std::vector<RunPlaces>& runs,
+                                     const std::vector<double>& meter_at,
+                                     const std::vector<double>& allowed, const RunContext& run,
+                                     double from, double to) {
+    BandedProgram program{how_.v.size(), 3 * count_, {}};
+    add_aim(program);
+    add_signs(program);
+    add_sections(program);
+    const auto solution = solved(program, run, from, to);
+    OBVID_TRY(solution);
+    take(*solution);
+    keep_runs(runs, meter_at, allowed);
+    rebuild();
+    return {};
+  }
+
+  [[nodiscard]] const NurbsSurface& surface() const { return current_; }
+
+  /// Bound for each section, units.
+  [[nodiscard]] std::vector<double> moved() const {
+    double largest = 0.0;
+    for (const Vec3& p : given_.points) {
+      largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    std::vector<double> out;
+    for (std::size_t k = 0; k < how_.v.size(); ++k) {
+      double most = 0.0;
+      for (std::size_t i = 0; i < count_; ++i) most = std::max(most, norm(moved_[k * count_ + i]));
+      out.push_back(most > 0.0 ? most * how_.tolerance + kMovedRounding * largest : 0.0);
+    }
+    return out;
+  }
+
+ private:
+  [[nodiscard]] std::array<double, 4> share(const BasisValues& basis, std::size_t derivative,
+                                            double factor) const {
+    std::array<double, 4> out{};
+    for (std::size_t j = 0; j <= degree_; ++j) out[j] = factor * basis.value[derivative][j];
+    return out;
+  }
+  [[nodiscard]] FormGroup group(const BasisValues& basis, std::size_t derivative,
+                                double factor) const {
+    return {basis.first, share(basis, derivative, factor), {}, {}, {}};
+  }
+
+  /// Sections so short that the tolerance would be all of them move less; points stay.
+  void limit_sections() {
+    for (std::size_t k = 0; k < box_.size(); ++k) {
+      const SectionCurve& section = stretch_.sections[k];
+      still_.push_back(section.is_point());
+      if (section.is_point()) continue;
+      const double length = section.length_at(1.0).s - section.length_at(0.0).s;
+      box_[k] = std::min(1.0, kMostOfLength * length / how_.tolerance);
+      if (!(box_[k] > kHeld)) still_[k] = true;
+    }
+  }
+
+  void place_lines() {
+    const std::vector<double> breaks = distinct(knots_);
+    const std::size_t spans = breaks.size() - 1;
+    const Density density(stretch_.breaks);
+    const std::size_t lines = std::max(kLeastLines, kLinesPerSpan * spans);
+    for (std::size_t l = 0; l < lines; ++l) {
+      line_at_.push_back(density.at((static_cast<double>(l) + 0.5) / static_cast<double>(lines)));
+    }
+    for (const double u : line_at_) {
+      line_basis_.push_back(basis_at(kSkinDegree, knots_, u, 0));
+      lines_.emplace_back(given_, u);
+    }
+    const std::vector<double> across = distinct(given_.knots_v);
+    std::vector<double> all = across;
+    for (std::size_t j = 0; j + 1 < across.size(); ++j) {
+      middle_.push_back((across[j] + across[j + 1]) / 2.0);
+      step_.push_back(across[j + 1] - across[j]);
+    }
+    all.insert(all.end(), middle_.begin(), middle_.end());
+    all.insert(all.end(), how_.v.begin(), how_.v.end());
+    std::sort(all.begin(), all.end());
+    place_ = distinct(std::move(all));
+    at_places_ = bases_across(given_, place_, 2);
+    at_middle_ = bases_across(given_, middle_, 3);
+    along_middle_.clear();
+    for (std::size_t s = 0; s < spans; ++s) {
+      along_middle_.push_back(basis_at(kSkinDegree, knots_, (breaks[s] + breaks[s + 1]) / 2.0, 3));
+      along_step_.push_back(breaks[s + 1] - breaks[s]);
+    }
+  }
+
+  struct Axes {
+    std::array<Vec3, 3> direction;
+    std::array<double, 3> half;
+  };
+
+  /// A box in the ball of 1 for each control point along of each section: along the normal, the
+  /// section and the third direction.
+  void frame_boxes() {
+    for (std::size_t k = 0; k < how_.v.size(); ++k) {
+      for (std::size_t i = 0; i < count_; ++i) {
+        const double u =
+            std::accumulate(knots_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                            knots_.begin() + static_cast<std::ptrdiff_t>(i) + 1 + kSkinDegree,
+                            0.0) /
+            kSkinDegree;
+        const SurfaceJet jet = evaluate(given_, u, how_.v[k]);
+        const Vec3 normal = unit(cross(jet.du, jet.dv)), along = unit(jet.du);
+        Axes axes{{normal, along, cross(normal, along)}, kBox};
+        if (!(norm(normal) > 0.5) || !(norm(along) > 0.5)) {
+          axes.direction = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+          axes.half = {0.55, 0.55, 0.55};
+        }
+        axes_.push_back(axes);
+      }
+    }
+  }
+
+  /// Borders that others share stay, smooth ones with two derivatives; borders in a coordinate
+  /// plane stay in it, so that mirrored halves still meet.
+  void hold_borders() {
+    held_.assign(axes_.size(), {});
+    double size = size_of(given_);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::size_t rows = !how_.fixed[side] ? 0 : how_.smooth[side] ? 3 : 1;
+      for (std::size_t k = 0; k < how_.v.size(); ++k) {
+        for (std::size_t r = 0; r < std::min(rows, count_); ++r) {
+          held_[k * count_ + (side == 0 ? r : count_ - 1 - r)] = {true, true, true};
+        }
+      }
+      if (rows > 0) continue;
+      const std::size_t column = side == 0 ? 0 : given_.count_u() - 1;
+      std::array<Range, 3> extent;
+      extent.fill(
+          {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+      for (std::size_t j = 0; j < given_.count_v(); ++j) {
+        const Vec3 p = given_.points[j * given_.count_u() + column];
+        const std::array<double, 3> x = {p.x, p.y, p.z};
+        for (std::size_t c = 0; c < 3; ++c) {
+          extent[c] = {std::min(extent[c].from, x[c]), std::max(extent[c].to, x[c])};
+        }
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        constexpr double kPlane = 1e-12;  // of the size: rounding
+        if (extent[c].to - extent[c].from > kPlane * size) continue;
+        for (std::size_t k = 0; k < how_.v.size(); ++k) {
+          const std::size_t at = k * count_ + (side == 0 ? 0 : count_ - 1);
+          held_[at][c] = true;
+          axes_[at].direction = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+          axes_[at].half = {0.55, 0.55, 0.55};
+        }
+      }
+    }
+    for (std::size_t k = 0; k < how_.v.size(); ++k) {
+      if (!still_[k]) continue;
+      for (std::size_t i = 0; i < count_; ++i) held_[k * count_ + i] = {true, true, true};
+    }
+  }
+
+  /// Smooth across: third derivatives of the sum by v, local; and of the correction by u.
+  void add_aim(BandedProgram& program) const {
+    std::vector<FormGroup> across, along;
+    double square = 0.0;
+    for (std::size_t m = 0; m < middle_.size(); ++m) {
+      const double h3 = step_[m] * step_[m] * step_[m];
+      FormGroup g = group(at_middle_[m], 3, h3);
+      double shares = 0.0;
+      for (const double s : g.share) shares += s * s;
+      for (std::size_t l = 0; l < lines_.size(); ++l) {
+        const Vec3 third = (-h3 / how_.tolerance) * lines_[l].derivative(at_middle_[m], 3);
+        const std::array<double, 3> goal = {third.x, third.y, third.z};
+        for (std::size_t c = 0; c < 3; ++c) {
+          FormGroup::Form f = along_form(line_basis_[l], 0, c);
+          f.wanted = goal[c];
+          for (const double a : f.coefficient) square += shares * a * a;
+          g.near.push_back(std::move(f));
+        }
+      }
+      across.push_back(std::move(g));
+    }
+    const auto unknowns = static_cast<double>(how_.v.size() * 3 * count_);
+    append(program, std::move(across), square > 0.0 ? unknowns / square : 0.0);
+    square = 0.0;
+    for (const BasisValues& basis : at_sections_) {
+      FormGroup g = group(basis, 0, 1.0);
+      double shares = 0.0;
+      for (const double s : g.share) shares += s * s;
+      for (std::size_t s = 0; s < along_middle_.size(); ++s) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          FormGroup::Form f = along_form(along_middle_[s], 3, c);
+          const double root = std::sqrt(along_step_[s]);
+          for (double& a : f.coefficient) a *= root;
+          for (const double a : f.coefficient) square += shares * a * a;
+          g.near.push_back(std::move(f));
+        }
+      }
+      along.push_back(std::move(g));
+    }
+    append(program, std::move(along), kSmoothAlong * unknowns / square);
+  }
+  static void append(BandedProgram& program, std::vector<FormGroup> groups, double weight) {
+    for (FormGroup& g : groups) {
+      for (FormGroup::Form& f : g.near) f.weight = weight;
+      program.groups.push_back(std::move(g));
+    }
+  }
+  static FormGroup::Form along_form(const BasisValues& basis, std::size_t derivative,
+                                    std::size_t c) {
+    FormGroup::Form f;
+    f.first_column = 3 * basis.first + c;
+    f.coefficient.assign(3 * kSkinDegree + 1, 0.0);
+    for (std::size_t i = 0; i <= kSkinDegree; ++i) {
+      f.coefficient[3 * i] = basis.value[derivative][i];
+    }
+    return f;
+  }
+
+  /// Bending of the sign that the string has, everywhere across.
+  void add_signs(BandedProgram& program) const {
+    const std::size_t places = place_.size();
+    std::vector<FormGroup> groups;
+    for (std::size_t q = 0; q < places; ++q)
+      groups.push_back(group(at_places_[q], 2, weight_of(q)));
+    const AcrossPlaces at = places_across(given_, how_.v);
+    for (std::size_t l = 0; l < lines_.size(); ++l) {
+      const Isoline now(current_, line_at_[l]);
+      std::vector<Vec3> normal;
+      std::vector<double> bend;
+      for (const BasisValues& basis : at_places_) {
+        const Isoline::Place here = now.at(basis);
+        normal.push_back(unit(cross(here.du, here.dv)));
+        bend.push_back(dot(normal.back(), here.dvv));
+      }
+      const std::vector<int> sign =
+          signs(developed(lines_[l], at, kStringShare * how_.tolerance), bend);
+      for (std::size_t q = 0; q < places; ++q) {
+        if (sign[q] == 0 || !(norm(normal[q]) > 0.5)) continue;
+        const Vec3 n = static_cast<double>(sign[q]) * normal[q];
+        FormGroup::Form f;
+        f.first_column = 3 * line_basis_[l].first;
+        f.coefficient.assign(3 * (kSkinDegree + 1), 0.0);
+        add_basis(line_basis_[l], 0, n, f.first_column, f.coefficient);
+        f.wanted = -weight_of(q) / how_.tolerance * dot(n, lines_[l].derivative(at_places_[q], 2));
+        f.weight = kSoft;
+        groups[q].at_least.push_back(std::move(f));
+      }
+    }
+    for (FormGroup& g : groups) program.groups.push_back(std::move(g));
+  }
+  /// Bending by this is about the height of the bulge between two places.
+  [[nodiscard]] double weight_of(std::size_t q) const {
+    const std::size_t places = place_.size();
+    const double gap = (place_[std::min(q + 1, places - 1)] - place_[q > 0 ? q - 1 : 0]) /
+                       (q > 0 && q + 1 < places ? 2.0 : 1.0);
+    return gap * gap / 2.0;
+  }
+
+  /// Wanted sign at each place of a line, 0 where it is free: that of the contacts of the string;
+  /// between contacts of unlike kind it changes where the surface is bent wrongly least by that.
+  [[nodiscard]] std::vector<int> signs(const DevelopedLine& line,
+                                       const std::vector<double>& bend) const {
+    const std::vector<StringContact> contacts = taut_string(line.tube);
+    std::vector<int> out(place_.size(), 0);
+    if (contacts.empty()) {
+      double sum = 0.0;
+      for (const double b : bend) sum += b;
+      std::fill(out.begin(), out.end(), sum >= 0.0 ? 1 : -1);
+      return out;
+    }
+    std::size_t from = 0;
+    int sign = contacts.front().bend;
+    const auto v_of = [&](const StringContact& c) { return how_.v[line.section[c.node]]; };
+    for (std::size_t k = 0; k + 1 < contacts.size(); ++k) {
+      if (contacts[k + 1].bend == contacts[k].bend) continue;
+      const auto first = static_cast<std::size_t>(
+          std::lower_bound(place_.begin(), place_.end(), v_of(contacts[k])) - place_.begin());
+      const auto last = static_cast<std::size_t>(
+          std::lower_bound(place_.begin(), place_.end(), v_of(contacts[k + 1])) - place_.begin());
+      std::size_t best = first;
+      double least = std::numeric_limits<double>::infinity(), behind = 0.0, ahead = 0.0;
+      for (std::size_t q = first; q <= last; ++q) {
+        ahead += std::max(0.0, sign * bend[q]) * weight_of(q);
+      }
+      for (std::size_t q = first; q <= last; ++q) {
+        ahead -= std::max(0.0, sign * bend[q]) * weight_of(q);
+        if (behind + ahead < least) {
+          least = behind + ahead;
+          best = q;
+        }
+        behind += std::max(0.0, -sign * bend[q]) * weight_of(q);
+      }
+      std::fill(out.begin() + static_cast<std::ptrdiff_t>(from),
+                out.begin() + static_cast<std::ptrdiff_t>(best), sign);
+      out[best] = 0;
+      from = best + 1;
+      sign = -sign;
+    }
+    std::fill(out.begin() + static_cast<std::ptrdiff_t>(from), out.end(), sign);
+    return out;
+  }
+
+  /// Boxes of control points along, and runs of curvature.
+  void add_sections(BandedProgram& program) const {
+    std::vector<double> at;
+    const std::vector<double>& breaks = stretch_.breaks;
+    const std::size_t spans = breaks.size() - 1;
+    const std::size_t each = std::max<std::size_t>(1, std::min<std::size_t>(6, kRunPlaces / spans));
+    const std::size_t stride = std::max<std::size_t>(1, spans * each / kRunPlaces);
+    for (std::size_t s = 0; s < spans; ++s) {
+      for (std::size_t k = 0; k < each; ++k) {
+        if ((s * each + k) % stride != 0) continue;
+        const double part = static_cast<double>(k) / static_cast<double>(each);
+        at.push_back(breaks[s] + part * (breaks[s + 1] - breaks[s]));
+      }
+    }
+    at.push_back(breaks.back());
+    std::vector<BasisValues> basis;
+    for (const double u : at) basis.push_back(basis_at(kSkinDegree, knots_, u, 2));
+    for (std::size_t k = 0; k < how_.v.size(); ++k) {
+      FormGroup g = group(at_sections_[k], 0, 1.0);
+      for (std::size_t i = 0; i < count_; ++i) {
+        const Axes& axes = axes_[k * count_ + i];
+        for (std::size_t c = 0; c < 3; ++c) {
+          const Vec3 d = axes.direction[c];
+          const double half = held(k * count_ + i, d) ? kHeld * box_[k] : box_[k] * axes.half[c];
+          g.box.push_back({3 * i, {d.x, d.y, d.z}, std::max(half, 1e-9), 0.0});
+        }
+      }
+      if (!still_[k]) add_runs(k, at, basis, g);
+      program.groups.push_back(std::move(g));
+    }
+  }
+  /// Whether a direction of a box belongs to what is held there.
+  [[nodiscard]] bool held(std::size_t at, Vec3 d) const {
+    const std::array<bool, 3>& h = held_[at];
+    if (h[0] && h[1] && h[2]) return true;
+    return (h[0] && d.x == 1.0) || (h[1] && d.y == 1.0) || (h[2] && d.z == 1.0);
+  }
+
+  void add_runs(std::size_t k, const std::vector<double>& at, const std::vector<BasisValues>& basis,
+                FormGroup& g) const {
+    const SectionCurve& section = stretch_.sections[k];
+    const Frame& frame = section.frame();
+    const SpaceCurve given = isocurve_at_v(given_, how_.v[k]);
+    const SpaceCurve now = isocurve_at_v(current_, how_.v[k]);
+    struct Slope {
+      double kappa;   ///< of the given curve, by the linear form
+      Vec3 by1, by2;  ///< derivatives by those of the curve
+    };
+    std::vector<Slope> slopes;
+    std::vector<double> wanted;
+    double largest = 0.0;
+    for (const double u : at) {
+      const Hermite contour = section.at(u);
+      wanted.push_back(plane_curvature(contour, frame));
+      largest = std::max(largest, std::abs(wanted.back()));
+      const SpaceJet a = evaluate(now, u), b = evaluate(given, u);
+      const Vec2 d1 = in_plane(frame, a.d1), d2 = in_plane(frame, a.d2);
+      const double speed = norm(d1), kappa = curvature_of(d1, d2);
+      if (!(speed > 0.0)) {
+        slopes.push_back({0.0, {}, {}});
+        continue;
+      }
+      const double cube = speed * speed * speed;
+      const Vec2 p = (1.0 / cube) * Vec2{d2.y, -d2.x} - (3.0 * kappa / (speed * speed)) * d1;
+      const Vec2 r = (1.0 / cube) * Vec2{-d1.y, d1.x};
+      const Vec3 by1 = p.x * frame.x + p.y * frame.y, by2 = r.x * frame.x + r.y * frame.y;
+      slopes.push_back({kappa - dot(by1, a.d1 - b.d1) - dot(by2, a.d2 - b.d2), by1, by2});
+    }
+    std::vector<int> direction(at.size() - 1, 0);
+    constexpr double kNoise = 1e-5;  // of the largest curvature: no run, or circular
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      const double change = wanted[i + 1] - wanted[i];
+      if (std::abs(change) > kNoise * largest) direction[i] = change > 0.0 ? 1 : -1;
+    }
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      const bool turns = (i > 0 && direction[i - 1] != direction[i]) ||
+                         (i + 2 < at.size() && direction[i + 1] != direction[i]);
+      if (direction[i] == 0 || turns) continue;
+      const BasisValues &a = basis[i], &b = basis[i + 1];
+      FormGroup::Form f;
+      f.first_column = 3 * a.first;
+      f.coefficient.assign(3 * (b.first - a.first + kSkinDegree + 1), 0.0);
+      const double sign = direction[i];
+      add_basis(b, 1, sign * slopes[i + 1].by1, f.first_column, f.coefficient);
+      add_basis(b, 2, sign * slopes[i + 1].by2, f.first_column, f.coefficient);
+      add_basis(a, 1, -sign * slopes[i].by1, f.first_column, f.coefficient);
+      add_basis(a, 2, -sign * slopes[i].by2, f.first_column, f.coefficient);
+      double square = 0.0;
+      for (const double x : f.coefficient) square += x * x;
+      const double length = std::sqrt(square);
+      if (!(length > 0.0)) continue;
+      for (double& x : f.coefficient) x /= length;
+      f.wanted = -sign * (slopes[i + 1].kappa - slopes[i].kappa) / (length * how_.tolerance);
+      f.weight = kSoftRuns;
+      g.at_least.push_back(std::move(f));
+    }
+  }
+
+  /// Control points along of each section out of the program's; what is held is exactly 0.
+  void take(const std::vector<double>& x) {
+    for (std::size_t k = 0; k < how_.v.size(); ++k) {
+      const BasisValues& basis = at_sections_[k];
+      for (std::size_t i = 0; i < count_; ++i) {
+        Vec3 sum;
+        for (std::size_t j = 0; j <= degree_; ++j) {
+          const double* p = x.data() + ((basis.first + j) * count_ + i) * 3;
+          sum = sum + basis.value[0][j] * Vec3{p[0], p[1], p[2]};
+        }
+        const std::array<bool, 3>& h = held_[k * count_ + i];
+        sum = {h[0] ? 0.0 : sum.x, h[1] ? 0.0 : sum.y, h[2] ? 0.0 : sum.z};
+        const double length = norm(sum);
+        moved_[k * count_ + i] = length > 1.0 ? sum / length : sum;
+      }
+    }
+  }
+
+  /// A section whose curvature goes against its run takes a share of its correction that does not:
+  /// none never does.
+  void keep_runs(const std::vector<RunPlaces>& runs, const std::vector<double>& meter_at,
+                 const std::vector<double>& allowed) {
+    std::vector<BasisValues> basis;
+    for (const double u : meter_at) basis.push_back(basis_at(kSkinDegree, knots_, u, 2));
+    for (std::size_t k = 0; k < how_.v.size(); ++k) {
+      if (still_[k]) continue;
+      const Frame& frame = stretch_.sections[k].frame();
+      std::vector<Vec2> d1, d2;
+      for (const BasisValues& b : basis) {
+        Vec3 first, second;
+        for (std::size_t i = 0; i <= kSkinDegree; ++i) {
+          const Vec3 p = moved_[k * count_ + b.first + i];
+          first = first + b.value[1][i] * p;
+          second = second + b.value[2][i] * p;
+        }
+        d1.push_back(how_.tolerance * in_plane(frame, first));
+        d2.push_back(how_.tolerance * in_plane(frame, second));
+      }
+      const auto against = [&](double part) {
+        RippleMeter meter;
+        for (std::size_t i = 0; i < meter_at.size(); ++i) {
+          meter.add(runs[k].wanted[i],
+                    curvature_of(runs[k].d1[i] + part * d1[i], runs[k].d2[i] + part * d2[i]));
+        }
+        return meter.ripple();
+      };
+      if (against(1.0) <= allowed[k]) continue;
+      double low = 0.0, high = 1.0;
+      for (int step = 0; step < 10; ++step) {
+        const double middle = (low + high) / 2.0;
+        (against(middle) <= allowed[k] ? low : high) = middle;
+      }
+      for (std::size_t i = 0; i < count_; ++i) {
+        moved_[k * count_ + i] = low * moved_[k * count_ + i];
+      }
+      box_[k] *= std::max(low, 0.2);  // the next round knows
+    }
+  }
+
+  /// The sum on the breaks of the given surface, among which the knots of the correction are.
+  void rebuild() {
+    std::vector<Vec3> rows = moved_;
+    how_.across.matrix.solve_rows(rows, count_);
+    std::vector<BasisValues> basis;
+    for (const double u : stretch_.breaks) basis.push_back(basis_at(kSkinDegree, knots_, u, 2));
+    current_ = given_;
+    const std::size_t width = given_.count_u();
+    std::vector<Hermite> data(basis.size());
+    for (std::size_t j = 0; j < given_.count_v(); ++j) {
+      for (std::size_t b = 0; b < basis.size(); ++b) {
+        std::array<Vec3, 3> sum{};
+        for (std::size_t i = 0; i <= kSkinDegree; ++i) {
+          const Vec3 p = rows[j * count_ + basis[b].first + i];
+          for (std::size_t d = 0; d < 3; ++d) sum[d] = sum[d] + basis[b].value[d][i] * p;
+        }
+        data[b] = {sum[0], sum[1], sum[2]};
+      }
+      const std::vector<Vec3> added = quintic_points(stretch_.breaks, data);
+      for (std::size_t i = 0; i < width; ++i) {
+        Vec3& p = current_.points[j * width + i];
+        p = p + how_.tolerance * added[i];
+      }
+    }
+  }
+
+  const SkinStretch& stretch_;
+  const NurbsSurface& given_;
+  const FairAcross& how_;
+  std::vector<double> knots_;
+  std::size_t count_, degree_;
+  std::vector<BasisValues> at_sections_;
+  std::vector<Vec3> moved_;  ///< [section][control point along], shares of the tolerance
+  std::vector<double> box_;
+  std::vector<bool> still_;
+  NurbsSurface current_;
+  std::vector<double> line_at_, place_, middle_, step_, along_step_;
+  std::vector<BasisValues> line_basis_, at_places_, at_middle_, along_middle_;
+  std::vector<Isoline> lines_;
+  std::vector<Axes> axes_;
+  std::vector<std::array<bool, 3>> held_;
+};
+
+std::vector<double> meter_places(const std::vector<double>& breaks) {
+  const std::size_t spans = breaks.size() - 1;
+  const auto each = std::clamp<std::size_t>(kMostMeterPlaces / spans, 2, kReportSamplesPerSpan);
+  std::vector<double> out;
+  for (std::size_t s = 0; s < spans; ++s) {
+    for (std::size_t k = 0; k < each; ++k) {
+      const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(each);
+      out.push_back(breaks[s] + part * (breaks[s + 1] - breaks[s]));
+    }
+  }
+  return out;
+}
+
+RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
+                     const std::vector<double>& at) {
+  RunPlaces out;
+  const SectionCurve& section = stretch.sections[k];
+  if (section.is_point()) return out;
+  const SpaceCurve curve = isocurve_at_v(stretch.surface, v);
+  for (const double u : at) {
+    out.wanted.push_back(plane_curvature(section.at(u), section.frame()));
+    const SpaceJet jet = evaluate(curve, u);
+    out.d1.push_back(in_plane(section.frame(), jet.d1));
+    out.d2.push_back(in_plane(section.frame(), jet.d2));
+  }
+  return out;
+}
+
+/// Waves that need not be: high ones, and shallow ones with them; and how many are forced.
+struct Waves {
+  std::size_t beyond = 0, all_beyond = 0, forced = 0;
+  [[nodiscard]] bool high_ones_few() const { return few_of(beyond); }
+  [[nodiscard]] bool few() const { return few_of(std::max(beyond, all_beyond)); }
+  [[nodiscard]] bool less_than(const Waves& other) const {
+    return beyond < other.beyond || (beyond == other.beyond && all_beyond < other.all_beyond);
+  }
+
+ private:
+  [[nodiscard]] bool few_of(std::size_t waves) const {
+    return static_cast<double>(waves) <= kFew * static_cast<double>(forced);
+  }
+};
+
+Waves waves_of(const SkinStretch& stretch, const NurbsSurface& surface, const FairAcross& how) {
+  const SkinStretch trial{{}, stretch.breaks, surface};
+  AcrossReport report;
+  add_across_report(trial, stretch.surface, how.v, how.tolerance, how.fine, report);
+  return {report.beyond, report.all_beyond, report.forced};
+}
+
+}  // namespace
+
+Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross& wanted,
+                                    const RunContext& run, double from, double to) {
+  const std::size_t sections = wanted.v.size();
+  FairedStretch best{stretch.surface, std::vector<double>(sections, 0.0)};
+  if (stretch.surface.degree_v < 2 || stretch.breaks.size() < 2) return best;
+  const std::vector<double> at = meter_places(stretch.breaks);
+  std::vector<RunPlaces> runs;
+  std::vector<double> allowed;
+  for (std::size_t k = 0; k < sections; ++k) {
+    OBVID_TRY(may_go_on(run));
+    runs.push_back(run_places(stretch, k, wanted.v[k], at));
+    RippleMeter meter;
+    for (std::size_t i = 0; i < runs[k].wanted.size(); ++i) {
+      meter.add(runs[k].wanted[i], curvature_of(runs[k].d1[i], runs[k].d2[i]));
+    }
+    allowed.push_back(std::max(meter.ripple(), kMostAgainstRun));
+  }
+  Waves least = waves_of(stretch, best.surface, wanted);
+  constexpr double kParts = static_cast<double>(kAlong.size() * kRounds);
+  double done = 0.0;
+  for (const std::size_t along : kAlong) {
+    // more control points for high waves only
+    if (least.few() || (along != kAlong.front() && least.high_ones_few())) break;
+    Correction correction(stretch, wanted, along);
+    for (int round = 0; round < kRounds; ++round, ++done) {
+      const double start = from + (to - from) * done / kParts;
+      OBVID_TRY(correction.improve(runs, at, allowed, run, start, start + (to - from) / kParts));
+      const Waves left = waves_of(stretch, correction.surface(), wanted);
+      if (!left.less_than(least)) break;
+      least = left;
+      best = {correction.surface(), correction.moved()};
+      if (least.high_ones_few()) break;
+    }
+  }
+  return best;
+}
+
+}  // namespace obvid

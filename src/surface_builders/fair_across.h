@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
+#include "obvid/surface/internal/collocation.h"
+#include "skin_report.h"
+
+namespace obvid {
+
+/// What a stretch is fair across for.
+struct FairAcross {
+  double fine = 0.0;             ///< units, > 0: height of the shallowest bulges that count
+  double tolerance = 0.0;        ///< units, > 0: how far each section may move
+  const std::vector<double>& v;  ///< parameters of the sections
+  const Collocation& across;     ///< of the sections: its own cubic
+  std::array<bool, 2> fixed{};   ///< the border at u = 0, at u = 1 stays where it is
+  std::array<bool, 2> smooth{};  ///< and its first and second derivatives by u: a seam
+};
+
+struct FairedStretch {
+  NurbsSurface surface;
+  /// Bound of the distance of each section of the surface from where it was, at the same
+  /// parameter, units: of the control points of the difference, by the convex hull.
+  std::vector<double> moved;
+};
+
+/// The surface of a stretch with a correction that keeps every section within the tolerance of
+/// where it was, such that lines across change their bending seldom and curvature along the
+/// sections keeps to the runs of the contours: docs/methods/skin.md. The net keeps its size. Where
+/// no correction makes less waves than the given surface has, that stays. `from`, `to`: part of the
+/// work that is told. Error: E103.
+[[nodiscard]] Result<FairedStretch> faired_across(const SkinStretch& stretch,
+                                                  const FairAcross& wanted, const RunContext& run,
+                                                  double from, double to);
+
+}  // namespace obvid

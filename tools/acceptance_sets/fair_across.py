@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Skins that are fair across, against the exact ones: public hulls and blades, EPS 1e-4 of their size.
+
+Both surfaces are read from their files and evaluated here (B-splines of numpy alone). Distances of the
+sections are looked at densely; changes of bending are counted along lines u = const, the fewest are those
+of a string drawn tight by a search that shares nothing with the program's, and curvature along each section
+is followed against the run that the exact skin has there. """
+import json
+import resource
+import subprocess
+import time
+
+import numpy as np
+
+from . import tables
+from .cases import Case
+
+SHARE = 1e-4  # of the size: EPS
+LINES, PLACES, ALONG = 120, 16, 6  # lines across, places of a span on them, places of a span along
+SECONDS = 10.0
+RUN = 1e-3  # of a section's largest curvature
+BARS = {"Series 60": 0.05, "trawler": None, "patrol boat": 0.10, "rotor 37": 0.10, "IEA 15": 0.05}
+
+
+def cases(data, work, _options):
+    hull = lambda name: data / "hulls_grids" / f"{name}_x.dat"  # noqa: E731
+    found = [("Series 60", [hull("Series60Offset")], []), ("trawler", [hull("TrawlerOffset")], []),
+             ("patrol boat", [hull(f"wpb_offset_{part}") for part in ("bottom", "mid", "top")], []),
+             ("rotor 37", [data / "turbomachinery_nasa" / "rotor37geometry.dat"], ["--noise", "1e-4"]),
+             ("IEA 15", sorted((data / "windturbine_iea15").glob("*_Coords.txt")), ["--noise", "2e-4"])]
+    work.mkdir(parents=True, exist_ok=True)
+    return [Case(name, files[0], options, 0.0, "skins", files) for name, files, options in found
+            if files and all(f.exists() for f in files)], [f"EPS {SHARE:g} of the size.\n"]
+
+
+# ------------------------------------------------------------------- surfaces
+def basis(degree, knots, at):
+    """First B-spline and values of those that are not 0 at places, by the recurrence: [place], [place, degree + 1]."""
+    inner = np.unique(knots)
+    span = np.searchsorted(knots, np.minimum(at, inner[-2] + 0.999999 * (inner[-1] - inner[-2])), "right") - 1
+    values = np.ones((len(at), 1))
+    for d in range(1, degree + 1):
+        grown = np.zeros((len(at), d + 1))
+        for j in range(d):
+            left, right = knots[span + 1 - d + j], knots[span + 1 + j]
+            part = (at - left) / (right - left)
+            grown[:, j] += (1.0 - part) * values[:, j]
+            grown[:, j + 1] += part * values[:, j]
+        values = grown
+    return span - degree, values
+
+
+def derived(degree, knots, net):
+    """Degree, knots and control points of the derivative along the first axis."""
+    width = knots[degree + 1:-1] - knots[1:-degree - 1]
+    factor = np.divide(degree, width, out=np.zeros_like(width), where=width > 0)
+    return degree - 1, knots[1:-1], np.diff(net, axis=0) * factor.reshape(-1, *[1] * (net.ndim - 1))
+
+
+def along_first(degree, knots, net, at, derivatives):
+    for _ in range(derivatives):
+        degree, knots, net = derived(degree, knots, net)
+    first, values = basis(degree, knots, np.asarray(at, float))
+    return sum(values[:, j].reshape(-1, *[1] * (net.ndim - 1)) * net[first + j] for j in range(degree + 1))
+
+
+class Surface:
+    def __init__(self, patch):
+        self.ku, self.kv = patch["degree_u"], patch["degree_v"]
+        self.tu, self.tv = np.array(patch["knots_u"], float), np.array(patch["knots_v"], float)
+        self.net = np.array(patch["points"], float).reshape(-1, len(self.tu) - self.ku - 1, 3)
+
+    def grid(self, u, v, du=0, dv=0):
+        """[u, v, coordinate]."""
+        rows = along_first(self.kv, self.tv, self.net, v, dv)
+        return along_first(self.ku, self.tu, rows.transpose(1, 0, 2), u, du)
+
+
+def unit(x):
+    return x / np.maximum(np.linalg.norm(x, axis=-1, keepdims=True), 1e-300)
+
+
+def places(breaks, each):
+    steps = np.diff(breaks)
+    return (breaks[:-1, None] + steps[:, None] * (np.arange(each) + 0.5) / each).ravel()
+
+
+# ------------------------------------------------------------------- waves
+def changes(surface, u, v, least):
+    """Of each line: changes of sign of normal curvature, of bulges higher than `least`."""
+    at = places(v, PLACES)
+    su, sv, svv = (surface.grid(u, at, *d) for d in ((1, 0), (0, 1), (0, 2)))
+    q = (sv ** 2).sum(-1)
+    kappa = (unit(np.cross(su, sv)) * svv).sum(-1) / np.maximum(q, 1e-300)
+    length = np.sqrt(q) * np.repeat(np.diff(v), PLACES) / PLACES
+    out = []
+    for k, ds in zip(kappa, length):
+        cuts = np.r_[0, np.flatnonzero(np.diff(np.sign(k))) + 1, len(k)]
+        bulges = [np.sign(k[a]) for a, b in zip(cuts, cuts[1:])
+                  if np.abs(k[a:b]).max() * ds[a:b].sum() ** 2 / 8 > least and k[a] != 0]
+        out.append(sum(a != b for a, b in zip(bulges, bulges[1:])))
+    return np.array(out)
+
+
+def string_changes(x, low, high):
+    """Fewest changes of a string drawn tight, the best of nine choices of its ends."""
+    best = len(x)
+    for first in (0.0, 0.5, 1.0):
+        for last in (0.0, 0.5, 1.0):
+            lo, hi = low.copy(), high.copy()
+            for end, share in ((0, first), (-1, last)):
+                lo[end] = hi[end] = low[end] + share * (high[end] - low[end])
+            i, y, bends = 0, lo[0], []
+            while i < len(x) - 1:
+                d = x[i + 1:] - x[i]
+                up, down = np.minimum.accumulate((hi[i + 1:] - y) / d), np.maximum.accumulate((lo[i + 1:] - y) / d)
+                hit = np.flatnonzero(up < down)
+                if not len(hit):
+                    break
+                k = hit[0]  # up to here no straight line; what came new decides the side
+                rises = (lo[i + 1 + k] - y) / d[k] == down[k] and (k == 0 or down[k] > down[k - 1])
+                slopes = (hi if rises else lo)[i + 1:i + 1 + k] - y
+                held = np.argmin(slopes / d[:k]) if rises else np.argmax(slopes / d[:k])
+                i, y = i + 1 + held, (hi if rises else lo)[i + 1 + held]
+                bends.append(rises)
+            best = min(best, sum(a != b for a, b in zip(bends, bends[1:])))
+    return best
+
+
+def forced(surface, u, v, tolerance):
+    p = surface.grid(u, v)
+    n = unit(np.cross(surface.grid(u, v, 1, 0), surface.grid(u, v, 0, 1)))
+    out = []
+    for q, m in zip(p, n):
+        keep = np.r_[True, np.linalg.norm(np.diff(q, axis=0), axis=1) > 0]
+        q, m = q[keep], m[keep]
+        a = np.linalg.norm(np.diff(q, axis=0), axis=1)
+        turn = (np.diff(np.diff(q, axis=0) / a[:, None], axis=0) * m[1:-1]).sum(-1)
+        f = np.r_[0, np.cumsum(np.r_[0, np.cumsum(turn)] * a)]
+        out.append(string_changes(np.r_[0, np.cumsum(a)], f - tolerance, f + tolerance))
+    return np.array(out)
+
+
+# ------------------------------------------------------------------- sections
+def against_run(exact, fair, v, size):
+    """Largest fall of curvature against the run that the exact section has, share of its largest."""
+    u = places(np.unique(exact.tu), ALONG)
+    worst = 0.0
+    points = exact.grid(u, v)
+    slopes = [(one.grid(u, v, 1), one.grid(u, v, 2)) for one in (exact, fair)]
+    for k in range(len(v)):
+        q = points[:, k]
+        if np.ptp(q, axis=0).max() < 1e-6 * size:
+            continue
+        normal = np.linalg.svd(q - q.mean(0), full_matrices=False)[2][2]
+        wanted, found = (np.cross(a[:, k], b[:, k]) @ normal
+                         / np.maximum(np.linalg.norm(a[:, k] - np.outer(a[:, k] @ normal, normal), axis=1), 1e-300) ** 3
+                         for a, b in slopes)
+        largest, direction, extreme = np.abs(wanted).max(), 0, found[0]
+        for i in range(1, len(u)):
+            change = wanted[i] - wanted[i - 1]
+            now = int(np.sign(change)) if abs(change) > 1e-9 * largest else direction
+            if now != direction:
+                extreme = found[i - 1]
+            direction = now
+            extreme = max(extreme, found[i]) if direction > 0 else min(extreme, found[i])
+            worst = max(worst, abs(extreme - found[i]) / largest if direction else 0.0)
+    return worst
+
+
+def judged(exact_patches, fair_patches, v, size, tolerance):
+    total = dict.fromkeys(("before", "after", "fine_before", "fine_after", "forced", "beyond_before", "beyond"), 0)
+    moved, run, run_before = 0.0, 0.0, 0.0
+    for one, other in zip(exact_patches, fair_patches):
+        exact, fair = Surface(one), Surface(other)
+        breaks = np.unique(exact.tu)
+        u = breaks[np.unique(np.linspace(0, len(breaks) - 1, min(LINES, len(breaks))).astype(int))]
+        need = forced(exact, u, v, tolerance)
+        before, after = changes(exact, u, v, tolerance), changes(fair, u, v, tolerance)
+        total["before"] += before.sum()
+        total["after"] += after.sum()
+        total["forced"] += need.sum()
+        total["beyond_before"] += np.maximum(before - need, 0).sum()
+        total["beyond"] += np.maximum(after - need, 0).sum()
+        total["fine_before"] += changes(exact, u, v, 0.1 * tolerance).sum()
+        total["fine_after"] += changes(fair, u, v, 0.1 * tolerance).sum()
+        dense = places(breaks, ALONG)
+        moved = max(moved, np.linalg.norm(exact.grid(dense, v) - fair.grid(dense, v), axis=-1).max())
+        run = max(run, against_run(exact, fair, v, size))
+        run_before = max(run_before, against_run(exact, exact, v, size))
+    return {**{key: int(n) for key, n in total.items()}, "moved": float(moved), "run": run, "run_before": run_before}
+
+
+# ------------------------------------------------------------------- runs
+def skin(program, case, output, options):
+    begun, used = time.time(), resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    done = subprocess.run([program, "surface", "skin", *map(str, case.truth), *case.arguments, *options, "--json", "-o",
+                           str(output)], capture_output=True, text=True)
+    return done, time.time() - begun, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - used
+
+
+def run(cases_, options):
+    return [run_case(case, options.program, options.work) for case in cases_]
+
+
+def run_case(case, program, work):
+    exact_file, fair_file = work / "exact.json", work / "fair.json"
+    done, _, plain = skin(program, case, exact_file, [])
+    report = json.loads(done.stdout) if done.returncode == 0 else {}
+    tolerance = SHARE * report.get("size", 0.0)
+    if report:
+        done, wall, used = skin(program, case, fair_file, ["--fair-across", repr(tolerance)])
+    outcome = {"name": case.name, "group": case.group, "exit": done.returncode, "error": "", "text": done.stderr,
+               "points": None, "tolerance": tolerance}
+    if done.returncode != 0:
+        outcome["error"] = done.stderr.strip()
+        return outcome
+    said = json.loads(done.stdout)["skin"]
+    patches = [json.loads(path.read_text())["patches"] for path in (exact_file, fair_file)]
+    v = np.array([s["v"] for s in said["sections"]])
+    return {**outcome, **judged(*patches, v, report["size"], tolerance), "said": said["fair_across"]["moved"],
+            "program": said["across"], "seconds": used, "plain": plain, "process_seconds": wall}
+
+
+# ------------------------------------------------------------------- tables
+def share(o):
+    return o["beyond"] / max(o["forced"], 1)
+
+
+def summary(outcomes):
+    rows = [[o["name"], f"{o['before']} -> {o['after']}", o["forced"], f"{o['beyond_before']} -> {o['beyond']}",
+             f"{100 * share(o):.1f} %", f"{o['fine_before']} -> {o['fine_after']}", f"{o['moved'] / o['tolerance']:.3f}",
+             f"{o['said'] / o['tolerance']:.3f}", f"{o['run_before']:.1e} -> {o['run']:.1e}",
+             f"{o['plain']:.1f} -> {o['seconds']:.1f}"] for o in outcomes if "before" in o]
+    return tables.markdown(["body", "changes", "forced", "beyond", "of the forced", "changes, bulges of EPS / 10",
+                            "moved / EPS", "bound said", "against runs", "s, one core"], rows)
+
+
+def criteria(outcomes):
+    done = [o for o in outcomes if "before" in o]
+    found = [("every body is done", f"{len(done)} of {len(outcomes)}", len(done) == len(outcomes)),
+             ("no section moved beyond EPS", f"{max((o['moved'] / o['tolerance'] for o in done), default=9):.3f}",
+              all(o["moved"] <= o["tolerance"] for o in done)),
+             ("nor beyond the bound that is said", "", all(o["moved"] <= 1.000001 * o["said"] + 1e-12 for o in done))]
+    for o in done:
+        bar = BARS[o["name"]]
+        if bar is not None:
+            found.append((f"{o['name']}: beyond at most {100 * bar:.0f} % of the forced", f"{100 * share(o):.1f} %",
+                          share(o) <= bar))
+        found.append((f"{o['name']}: curvature against its run at most {RUN:g}", f"{o['run']:.1e}",
+                      o["run"] <= RUN))
+        found.append((f"{o['name']}: at most {SECONDS:.0f} s", f"{o['seconds']:.1f} s", o["seconds"] <= SECONDS))
+    return found
