@@ -101,7 +101,7 @@ Result<std::vector<Output>> files_of(const SurfaceCutOptions& options, const Mad
   return files;
 }
 
-std::string fair_text(const MadeSection& section) {
+std::string faired_text(const MadeSection& section) {
   std::size_t proved = 0;
   for (const FairBranch& branch : section.fair) proved += branch.proved ? 1 : 0;
   return fmt::format("{} of {}", proved, section.fair.size());
@@ -153,7 +153,7 @@ std::string sections_text(const SurfaceCutOptions& options, const MadeSurfaceCut
                                     std::to_string(points),
                                     significant(section.section.residual, 2),
                                     significant(off, 2)};
-    if (options.job.fair) row.push_back(fair_text(section));
+    if (options.job.fair) row.push_back(faired_text(section));
     table.row(row);
   }
   Facts facts;

@@ -49,9 +49,9 @@ class Neighbourhood {
     if (!(far > 0.0)) return false;
     for (PlacedHeight& p : at_) p.place = p.place / far;
     weight_.assign(at_.size(), 1.0);
-    constexpr int kRounds = 8;
+    constexpr int kOutlierRounds = 8;
     Three plane{};
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kOutlierRounds; ++round) {
       plane = {};
       if (!fit(plane)) return false;
       scatter = kSigma * median_residual(plane);
