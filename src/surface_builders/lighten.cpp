@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fewer knots within a tolerance, one direction after the other: docs/methods/skin.md.
 #include "obvid/surface_builders/internal/lighten.h"
-#include "obvid/curve/internal/basis.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,8 @@
 
 #include "approximate_line.h"
 #include "network_curves.h"
+#include "obvid/core/internal/watch.h"
+#include "obvid/curve/internal/basis.h"
 #include "obvid/surface_builders/internal/grid.h"
 
 namespace obvid {
@@ -168,14 +169,15 @@ class FewKnots {
              jet_of(given, at_.back(), kept_derivatives)};
   }
 
-  /// Nothing where the given spline stays.
-  [[nodiscard]] std::optional<Lighter> within(double tolerance, const RunContext& run) const {
+  /// Nothing where the given spline stays, and when it is to end.
+  [[nodiscard]] std::optional<Lighter> within(double tolerance, Watch& watch) const {
     double aim = tolerance;
     for (int trial = 0; trial < kTrials; ++trial) {
-      if (run.cancelled && run.cancelled()) return std::nullopt;
       SplineLine line(at_, given_.degree, std::numeric_limits<double>::infinity());
       Rows found;
-      if (!refined(line, aim, found) || !thinned(line, aim, found)) return std::nullopt;
+      if (!refined(line, aim, found, watch) || !thinned(line, aim, found, watch)) {
+        return std::nullopt;
+      }
       if (line.coefficients() >= given_.coefficients.count()) return std::nullopt;
       Lighter out{{line.degree(), line.knots(), std::move(found)}, 0.0};
       out.moved = bound_between(given_, out.spline);
@@ -202,8 +204,8 @@ class FewKnots {
     return *std::max_element(errors.begin(), errors.end()) <= aim;
   }
 
-  bool refined(SplineLine& line, double aim, Rows& found) const {
-    while (true) {
+  bool refined(SplineLine& line, double aim, Rows& found, Watch& watch) const {
+    while (!watch.cancelled()) {
       if (!line.fit(data_, kept_, found)) {
         // too few coefficients for what is kept: halves everywhere
         if (line.split(std::vector<double>(at_.size(), 1.0), 0.0) == 0) return false;
@@ -218,12 +220,14 @@ class FewKnots {
         return false;
       }
     }
+    return false;
   }
 
   /// Takes away the knots that matter least, as many at once as go well, half as many where they
   /// do not.
-  bool thinned(SplineLine& line, double aim, Rows& found) const {
+  bool thinned(SplineLine& line, double aim, Rows& found, Watch& watch) const {
     for (std::size_t batch = line.needs(found).size() / 2; batch > 0;) {
+      if (watch.cancelled()) return false;
       const SplineLine before = line;
       const Rows found_before = found;
       line.remove(least_needed({line.needs(found)}, batch).front());
@@ -290,6 +294,12 @@ void take_across(const Spline& across, std::vector<NurbsSurface>& surfaces) {
 Result<LightSurfaces> lightened(const std::vector<NurbsSurface>& given, double tolerance,
                                 const RunContext& run) {
   OBVID_TRY(check_given(given, tolerance));
+  Watch watch(run);
+  const auto told = [&watch](double part) -> Result<void> {
+    watch.tell("lightening", part);
+    if (watch.cancelled()) return fail(cancelled_error());
+    return {};
+  };
   constexpr int kKeptAlong = 2, kKeptAcross = 0;  // derivatives at the ends
   constexpr int kLeastDegree = 3;                 // strips of straight lines have corners to keep
   LightSurfaces out{given, 0.0};
@@ -305,25 +315,25 @@ Result<LightSurfaces> lightened(const std::vector<NurbsSurface>& given, double t
   for (const double share : {kShareAlong, 1.0}) {
     out = {given, 0.0};
     for (std::size_t k = 0; k < given.size(); ++k) {
-      OBVID_TRY(tell(run, "lightening", static_cast<double>(k) / parts));
+      OBVID_TRY(told(static_cast<double>(k) / parts));
       NurbsSurface& s = out.surfaces[k];
       if (s.degree_u < kLeastDegree) continue;
-      const auto light = along[k].within(share * tolerance, run);
+      const auto light = along[k].within(share * tolerance, watch);
       if (!light) continue;
       out.moved = std::max(out.moved, light->moved);
       s.knots_u = light->spline.knots;
       s.points = transposed(light->spline.coefficients).points;
     }
-    OBVID_TRY(tell(run, "lightening", (parts - 1.0) / parts));
+    OBVID_TRY(told((parts - 1.0) / parts));
     if (share == 1.0 || given.empty() || given.front().degree_v < kLeastDegree) continue;
     const Spline across = across_all(out.surfaces);
-    const auto light = FewKnots(across, kKeptAcross).within(tolerance - out.moved, run);
+    const auto light = FewKnots(across, kKeptAcross).within(tolerance - out.moved, watch);
     if (!light) continue;
     out.moved += light->moved;
     take_across(light->spline, out.surfaces);
     break;
   }
-  OBVID_TRY(tell(run, "lightening", 1.0));
+  OBVID_TRY(told(1.0));
   return out;
 }
 

@@ -70,14 +70,15 @@ struct Net {
 };
 
 Result<Net> net_of(const std::vector<MeasuredSection>& sections, const MatchedStretch& stretch,
-                   const SkinOptions& options) {
+                   const SkinOptions& options, const RunContext& run) {
   Net net;
   for (std::size_t k = 0; k < sections.size(); ++k) {
+    OBVID_TRY(may_go_on(run));
     auto curve = SectionCurve::make(sections[k], stretch.marks[k], stretch.at);
     OBVID_TRY(curve);
     net.curves.push_back(std::move(*curve));
   }
-  auto breaks = breaks_for(net.curves, stretch.at, {options.tolerance});
+  auto breaks = breaks_for(net.curves, stretch.at, {options.tolerance}, run);
   OBVID_TRY(breaks);
   net.breaks = std::move(*breaks);
   for (const SectionCurve& curve : net.curves) {
@@ -222,7 +223,7 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     const double part =
         static_cast<double>(nets.size()) / static_cast<double>(match->stretches.size());
     OBVID_TRY(tell(run, "following contours", part));
-    auto net = net_of(measured_sections, stretch, options);
+    auto net = net_of(measured_sections, stretch, options, run);
     OBVID_TRY(net);
     nets.push_back(std::move(*net));
   }
@@ -261,6 +262,7 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     OBVID_TRY(tell(run, "checking", part));
     SkinStretch& stretch = stretches[n];
     for (std::size_t k = 0; k < sections.size(); ++k) {
+      OBVID_TRY(may_go_on(run));
       add_section_report(stretch, measured_sections[k], k, (*v)[k], result.sections[k]);
     }
     if (!options.straight_across) {

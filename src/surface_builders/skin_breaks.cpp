@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "obvid/core/internal/watch.h"
+
 namespace obvid {
 namespace {
 
@@ -80,8 +82,8 @@ Following following(const SectionCurve& section, double a, double b, double tole
 class Halving {
  public:
   Halving(const std::vector<SectionCurve>& sections, const std::vector<double>& marks,
-          const BreakGoals& goals)
-      : sections_(sections), marks_(marks), goals_(goals) {
+          const BreakGoals& goals, Watch& watch)
+      : sections_(sections), marks_(marks), goals_(goals), watch_(watch) {
     constexpr double kNoLength = 1e-300;  // units: below it nothing can be divided by
     for (const SectionCurve& section : sections) {
       size_.push_back(section.is_point() ? 1.0 : std::max(section.length_at(1.0).s, kNoLength));
@@ -110,7 +112,7 @@ class Halving {
   [[nodiscard]] Following worst(double a, double b) {
     Following least = Following::kWhole;
     const std::size_t first = hardest_;
-    for (std::size_t i = 0; i < sections_.size(); ++i) {
+    for (std::size_t i = 0; i < sections_.size() && !watch_.cancelled(); ++i) {
       const std::size_t k = (first + i) % sections_.size();
       least = std::min(least, following(sections_[k], a, b, goals_.tolerance, size_[k]));
       if (least != Following::kNot) continue;
@@ -121,6 +123,7 @@ class Halving {
   }
 
   bool between(double a, double b, int depth) {
+    if (watch_.cancelled()) return false;
     const Following least = worst(a, b);
     const bool in_vain = depth + kDeepestForCurvature <= kDeepest;
     if (least == Following::kWhole || (least == Following::kByPoints && in_vain)) {
@@ -135,6 +138,7 @@ class Halving {
   const std::vector<SectionCurve>& sections_;
   const std::vector<double>& marks_;
   BreakGoals goals_;
+  Watch& watch_;
   std::vector<double> size_;
   std::size_t hardest_ = 0;
 };
@@ -149,9 +153,13 @@ double plane_curvature(const Hermite& at, const Frame& frame) {
 }
 
 Result<std::vector<double>> breaks_for(const std::vector<SectionCurve>& sections,
-                                       const std::vector<double>& marks, const BreakGoals& goals) {
-  Halving halving(sections, marks, goals);
-  if (!halving.between_marks(0, marks.size() - 1)) {
+                                       const std::vector<double>& marks, const BreakGoals& goals,
+                                       const RunContext& run) {
+  Watch watch(run);
+  Halving halving(sections, marks, goals, watch);
+  const bool followed = halving.between_marks(0, marks.size() - 1);
+  if (watch.was_cancelled()) return fail(cancelled_error());
+  if (!followed) {
     const double at = halving.breaks_.back();
     return error(ErrorCode::kToleranceNotReached,
                  fmt::format("the sections are not followed within {:g} at {:.1f} % of a stretch",

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "section_curve.h"
 
 namespace obvid {
@@ -20,9 +21,10 @@ struct BreakGoals {
 /// of every section follow all of them within the tolerance and keep their curvature: to a tenth of
 /// its change over a span, or `kKept` of itself, and changing one way where it does so on the
 /// contour. Halving prefers the common marks; for curvature alone it ends at 2^8 parts between two
-/// marks. Error: E502 when the tolerance is not reached with 2^10 parts.
+/// marks. Errors: E502 when the tolerance is not reached with 2^10 parts; E103.
 [[nodiscard]] Result<std::vector<double>> breaks_for(const std::vector<SectionCurve>& sections,
                                                      const std::vector<double>& marks,
-                                                     const BreakGoals& goals);
+                                                     const BreakGoals& goals,
+                                                     const RunContext& run);
 
 }  // namespace obvid

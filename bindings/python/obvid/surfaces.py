@@ -151,42 +151,36 @@ class Surface:
         >>> [len(section.branches) for section in tube.cut(waterlines="1,2").sections]
         [1, 1]
         """
-        files, said, error = C.c_void_p(), C.c_void_p(), C.POINTER(ErrorStruct)()
-        text = options_text({k.replace("_", "-"): v for k, v in options.items() if v is not None})
-        with Run(None, None) as run:
-            code = lib.obvid_surface_cut(
-                self._handle, text, run, C.byref(files), C.byref(said), C.byref(error)
-            )
-            report = taken_text(said)
-        failed = raise_error(error, report) if code else None
-        if not files.value:
-            assert failed is not None
-            raise failed
-        made, remarks = taken_files(files)
+        made, report, remarks, failed = self._made(lib.obvid_surface_cut, options)
         by_ending = dict(made)
         told: Json = json.loads(by_ending[".json"])
         sections = tuple(
             SurfaceSection(one["name"], tuple(_branch(b) for b in one["branches"]))
             for one in told["sections"]
         )
-        return SurfaceCut(sections, json.loads(report or "{}"), by_ending, remarks, failed)
+        return SurfaceCut(sections, report, by_ending, remarks, failed)
 
     def toolpath(self, **options: Any) -> Toolpath:
         """A program for a three-axis mill. Options as of `obvid toolpath`: cutter, diameter, strategy,
         scallop, step_over, angle, tolerance, feed, controller, motion, ..."""
+        made, report, remarks, failed = self._made(lib.obvid_surface_toolpath, options)
+        return Toolpath(made[0][1].decode(), report, remarks, failed)
+
+    def _made(
+        self, job: Any, options: Dict[str, Any]
+    ) -> Tuple[List[Tuple[str, bytes]], Json, Tuple[str, ...], Optional[ObvidError]]:
+        """Files, report and remarks of a job on the surface, and why it is not all that was asked for."""
         files, said, error = C.c_void_p(), C.c_void_p(), C.POINTER(ErrorStruct)()
-        text = options_text({k.replace("_", "-"): v for k, v in options.items()})
+        text = options_text({k.replace("_", "-"): v for k, v in options.items() if v is not None})
         with Run(None, None) as run:
-            code = lib.obvid_surface_toolpath(
-                self._handle, text, run, C.byref(files), C.byref(said), C.byref(error)
-            )
+            code = job(self._handle, text, run, C.byref(files), C.byref(said), C.byref(error))
             report = taken_text(said)
         failed = raise_error(error, report) if code else None
         if not files.value:
             assert failed is not None
             raise failed
         made, remarks = taken_files(files)
-        return Toolpath(made[0][1].decode(), json.loads(report or "{}"), remarks, failed)
+        return made, json.loads(report or "{}"), remarks, failed
 
     def _files(self, ending: str, options: Dict[str, Any]) -> Exported:
         out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
