@@ -48,6 +48,11 @@ inline constexpr double kSurfaceTolerance = 1e-5;
 /// Diagonal of the box of points.
 [[nodiscard]] double size_of(const std::vector<Vec3>& points);
 
+/// Near points in any order; without `up` heights along the normal of their best plane.
+[[nodiscard]] Result<MadeSurface> made_near_points(ScatterOptions options,
+                                                   const std::optional<Vec3>& up,
+                                                   const SurfaceJob& job, const RunContext& run);
+
 /// A surface of one patch as NURBS within the job's tolerance, or 1e-5 of `size`.
 [[nodiscard]] Result<MadeSurface> made_of(const Surface& surface, const std::string& name,
                                           double size, const SurfaceJob& job);

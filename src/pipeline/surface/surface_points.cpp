@@ -116,9 +116,10 @@ Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const
   if (!fitted && table && fitted.error().code == ErrorCode::kBadOption) {
     how.sections.find_corners = false;
     if (auto smooth = fit_skin(*sections, how, run)) {
-      assumed.push_back(fmt::format("{}: the stations differ in their number of corners, so none is "
-                                    "looked for (--no-corners)",
-                                    job.inputs.front().name));
+      assumed.push_back(
+          fmt::format("{}: the stations differ in their number of corners, so none is "
+                      "looked for (--no-corners)",
+                      job.inputs.front().name));
       fitted = std::move(smooth);
     }
   }
@@ -134,6 +135,15 @@ Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const
   made.warnings.insert(made.warnings.end(), fitted->warnings.begin(), fitted->warnings.end());
   made.skin = std::move(*fitted);
   return made;
+}
+
+Result<MadeSurface> make_kind(const ScatterKind& kind, const SurfaceJob& job,
+                              const RunContext& run) {
+  ScatterOptions options;
+  options.tolerance = job.tolerance.value_or(0.0);
+  options.steepest = kind.steepest;
+  options.drop_outliers = kind.drop_outliers;
+  return made_near_points(options, kind.up, job, run);
 }
 
 }  // namespace obvid::pipeline_detail

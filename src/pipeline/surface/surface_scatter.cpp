@@ -66,8 +66,8 @@ std::string empty_text(const EmptyParts& empty, const std::string& units) {
 
 }  // namespace
 
-Result<MadeSurface> make_kind(const ScatterKind& kind, const SurfaceJob& job,
-                              const RunContext& run) {
+Result<MadeSurface> made_near_points(ScatterOptions options, const std::optional<Vec3>& up,
+                                     const SurfaceJob& job, const RunContext& run) {
   if (job.inputs.size() != 1) {
     return error(ErrorCode::kUsage, "one file of points is needed")
         .value(static_cast<double>(job.inputs.size()));
@@ -75,11 +75,7 @@ Result<MadeSurface> make_kind(const ScatterKind& kind, const SurfaceJob& job,
   auto cloud = cloud_of(job.inputs.front());
   OBVID_TRY(cloud);
   const std::vector<Vec3>& points = cloud->points.points;
-  ScatterOptions options;
-  options.tolerance = job.tolerance.value_or(0.0);
-  options.up = kind.up ? *kind.up : plane_of(points).normal();
-  options.steepest = kind.steepest;
-  options.drop_outliers = kind.drop_outliers;
+  options.up = up ? *up : plane_of(points).normal();
   auto fitted = scattered(points, options, run);
   if (!fitted) {
     Error refused = fitted.error();
@@ -99,7 +95,7 @@ Result<MadeSurface> make_kind(const ScatterKind& kind, const SurfaceJob& job,
   }
   made.facts.emplace_back("heights along",
                           fmt::format("{}, {}", place(fitted->plane.normal()),
-                                      kind.up ? "as given" : "normal of the best plane (--up)"));
+                                      up ? "as given" : "normal of the best plane (--up)"));
   made.facts.emplace_back("rectangle",
                           fmt::format("{:.6g} x {:.6g} {}", fitted->width, fitted->depth, units));
   made.facts.emplace_back(
@@ -110,14 +106,15 @@ Result<MadeSurface> make_kind(const ScatterKind& kind, const SurfaceJob& job,
   made.facts.emplace_back("bending", fmt::format("{:.4g}; weight {:.3g} {}^2 beside the sum of "
                                                  "squares",
                                                  fitted->bending, fitted->weight, units));
-  made.facts.emplace_back("outliers", fitted->outliers.empty()
-                                          ? "none"
-                                          : fmt::format("{}, {}", fitted->outliers.size(),
-                                                        kind.drop_outliers ? "left out" : "kept"));
+  made.facts.emplace_back("outliers",
+                          fitted->outliers.empty()
+                              ? "none"
+                              : fmt::format("{}, {}", fitted->outliers.size(),
+                                            options.drop_outliers ? "left out" : "kept"));
   const EmptyParts& empty = fitted->empty;
   if (!fitted->outliers.empty()) {
     made.warnings.push_back(name + ": " +
-                            left_out_text(*fitted, points, kind.drop_outliers, units));
+                            left_out_text(*fitted, points, options.drop_outliers, units));
   }
   if (empty.share > 0.0) {
     made.facts.emplace_back("without data", empty_text(empty, units));
