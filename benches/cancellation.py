@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The longest processor time between two questions whether to go on, for jobs of the C interface.
 
-benches/cancellation.py LIBOBVID_C.SO [POINTS]
+benches/cancellation.py LIBOBVID_C.SO [POINTS [SECTIONS...]]
+
+SECTIONS: files with the sections of a skin; else those of examples/surfaces.
 """
 
 import ctypes as C
 import json
 import math
+import pathlib
 import sys
 import time
 
@@ -64,6 +67,65 @@ def main():
     measured("verify", lambda: lib.obvid_verify(contour, C.byref(run), C.byref(report), None))
     for name in ["analyse", "region", "compare"]:
         measured(name, lambda: job(name, {}))
+
+    examples = pathlib.Path(__file__).resolve().parent.parent / "examples"
+
+    def opened(paths):
+        handles = (C.c_void_p * len(paths))()
+        for i, path in enumerate(paths):
+            handle = C.c_void_p()
+            if lib.obvid_read_file(str(path).encode(), C.byref(handle), None):
+                sys.exit(f"cannot read {path}")
+            handles[i] = handle
+        return handles
+
+    def made(kind, paths, options):
+        surface, out = C.c_void_p(), C.c_void_p()
+        code = lib.obvid_surface_make(kind.encode(), opened(paths), C.c_size_t(len(paths)), None, C.c_size_t(0),
+                                      json.dumps(options).encode(), C.byref(run), C.byref(surface), C.byref(out), None)
+        return code, surface
+
+    def on_surface(name, surface, options):
+        files, out = C.c_void_p(), C.c_void_p()
+        call = getattr(lib, "obvid_surface_" + name)
+        where = [C.byref(out)] if name == "check" else [C.byref(files), C.byref(out)]
+        return call(surface, json.dumps(options).encode(), C.byref(run), *where, None)
+
+    sections = [pathlib.Path(p) for p in sys.argv[3:]] or [examples / "surfaces/wigley_stations.csv"]
+    kept = {}
+
+    def skin(options):
+        code, kept["skin"] = made("skin", sections, {"noise": "rounding" if len(sections) == 1 else 2e-4, **options})
+        return code
+
+    measured("surface skin --light", lambda: skin({"light": 1e-4}))
+    measured("surface skin --fair-across", lambda: skin({"fair-across": 1e-3}))
+    measured("surface skin", lambda: skin({}))
+    measured("surface check", lambda: on_surface("check", kept["skin"], {"samples": 200}))
+    measured("surface cut", lambda: on_surface("cut", kept["skin"], {"stations": "count:200"}))
+    cloud = C.c_void_p()
+    places = [(0.37 * i % 10.0, 0.011 * i, math.sin(0.01 * i)) for i in range(count // 4)]
+    values = [x for row in places for x in row]
+    lib.obvid_space_points((C.c_double * len(values))(*values), C.c_size_t(len(places)), C.byref(cloud), None)
+
+    def scatter():
+        surface, out = C.c_void_p(), C.c_void_p()
+        return lib.obvid_surface_make(b"scatter", (C.c_void_p * 1)(cloud), C.c_size_t(1), None, C.c_size_t(0),
+                                      json.dumps({"tolerance": 0.05, "up": "z", "steepest": 89.99}).encode(),
+                                      C.byref(run), C.byref(surface), C.byref(out), None)
+
+    measured("surface scatter", scatter)
+    _, grid = made("grid", [examples / "surfaces/wavy_grid.csv"], {})
+    for strategy in ["zigzag", "scallop"]:
+        measured("toolpath " + strategy, lambda: on_surface("toolpath", grid, {"strategy": strategy, "scallop": 0.01}))
+    survey = opened([examples / "road_survey.csv"])[0]
+
+    def alignment():
+        contour, files, out = C.c_void_p(), C.c_void_p(), C.c_void_p()
+        return lib.obvid_alignment(C.c_void_p(survey), None, json.dumps({"noise": 0.05}).encode(), C.byref(run),
+                                   C.byref(contour), C.byref(files), C.byref(out), None)
+
+    measured("alignment", alignment)
 
 
 main()
