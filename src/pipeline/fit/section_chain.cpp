@@ -551,7 +551,9 @@ class SectionChooser {
     const auto source = turn.source;
     auto closed = close_at_seam(std::move(turn));
     if (closed) return closed;
-    Error error = renumbered(closed.error(), [&](std::size_t node) {  // the point at or before it
+    // the point at or before a node; behind elements that the search put in, numbers run on
+    Error error = renumbered(closed.error(), [&](std::size_t node) {
+      node = std::min(node, source.size() - 1);
       while (!source[node] && node > 0) --node;
       return source[node].value_or(0);
     });
