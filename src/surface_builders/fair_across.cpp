@@ -642,11 +642,22 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
   const SectionCurve& section = stretch.sections[k];
   if (section.is_point()) return out;
   const SpaceCurve curve = isocurve_at_v(stretch.surface, v);
+  std::vector<double> kappa;
+  double largest = 0.0;
   for (const double u : at) {
-    out.wanted.push_back(plane_curvature(section.at(u), section.frame()));
+    kappa.push_back(plane_curvature(section.at(u), section.frame()));
+    largest = std::max(largest, std::abs(kappa.back()));
     const SpaceJet jet = evaluate(curve, u);
     out.d1.push_back(in_plane(section.frame(), jet.d1));
     out.d2.push_back(in_plane(section.frame(), jet.d2));
+  }
+  // straight and circular stretches: rounding is no run, the one before goes on
+  constexpr double kRoundingOfRuns = 1e-9;
+  out.wanted.push_back(kappa.front());
+  for (std::size_t i = 1; i < kappa.size(); ++i) {
+    const double change = kappa[i] - kappa[i - 1];
+    out.wanted.push_back(out.wanted.back() +
+                         (std::abs(change) > kRoundingOfRuns * largest ? change : 0.0));
   }
   return out;
 }
@@ -692,7 +703,8 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
     }
     allowed.push_back(std::max(meter.ripple(), kMostAgainstRun));
   }
-  Waves least = waves_of(stretch, best.surface, wanted);
+  const Waves given = waves_of(stretch, best.surface, wanted);
+  Waves least = given;
   constexpr double kParts = static_cast<double>(kAlong.size() * kRounds);
   double done = 0.0;
   for (const std::size_t along : kAlong) {
@@ -703,6 +715,7 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
       const double start = from + (to - from) * done / kParts;
       OBVID_TRY(correction.improve(runs, at, allowed, run, start, start + (to - from) / kParts));
       const Waves left = waves_of(stretch, correction.surface(), wanted);
+      if (left.all_beyond > given.all_beyond) continue;  // shallow waves are waves, too
       if (!left.less_than(least)) break;
       least = left;
       best = {correction.surface(), correction.moved()};
