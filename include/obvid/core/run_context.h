@@ -13,8 +13,8 @@
 namespace obvid {
 
 /// What long work asks of whoever started it. Both functions are called by the thread that called,
-/// between steps that take some milliseconds at most (docs/methods/pipeline.md has the figures), so
-/// they have to be quick themselves.
+/// between steps that take some milliseconds, of surfaces up to some hundred
+/// (docs/methods/pipeline.md has the figures), so they have to be quick themselves.
 struct RunContext {
   Progress progress;                ///< told how far the work is; empty: nobody listens
   std::function<bool()> cancelled;  ///< true: stop, there shall be no result (E103); empty: never.
