@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -129,8 +127,8 @@ TEST(Scattered, NoFalseOutliersInNoiseAndCurvature) {
   const auto made = scattered(points, within(0.05));
   ASSERT_TRUE(made) << to_line(made.error());
   EXPECT_TRUE(made->outliers.empty());
-  const auto smooth =
-      scattered(cloud(2000, [](double x, double y) { return 0.1 * std::exp(2 * x + y); }), within(1e-6));
+  const auto smooth = scattered(
+      cloud(2000, [](double x, double y) { return 0.1 * std::exp(2 * x + y); }), within(1e-6));
   ASSERT_TRUE(smooth) << to_line(smooth.error());
   EXPECT_TRUE(smooth->outliers.empty());
 }
@@ -193,18 +191,6 @@ TEST(Scattered, CanBeCancelled) {
   const auto made = scattered(cloud(500, franke), within(1e-4), run);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, ErrorCode::kCancelled);
-}
-
-TEST(Scattered, DISABLED_Time) {
-  for (const double tolerance : {1e-3, 1e-5}) {
-    const auto points = cloud(100000, franke);
-    const auto begun = std::chrono::steady_clock::now();
-    const auto made = scattered(points, within(tolerance));
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
-    printf(
-        "%g: %g s, %s\n", tolerance, took.count(),
-        made ? std::to_string(made->surface.points.size()).c_str() : to_line(made.error()).c_str());
-  }
 }
 
 TEST(BandedCholesky, SolvesWhatItWasGiven) {
