@@ -127,10 +127,11 @@ struct BatchOptions {
   std::vector<std::string> arguments;
 };
 
-using Command = std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, AnalyseOptions,
-                             RegionOptions, CompareOptions, ConvertOptions, VerifyOptions,
-                             ExplainOptions, SurfaceOptions, SurfaceCheckOptions, SurfaceCutOptions, SplineOptions,
-                             NurbsOptions, ToolpathCommand, AlignmentCommand, CutCommand>;
+using Command =
+    std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, AnalyseOptions, RegionOptions,
+                 CompareOptions, ConvertOptions, VerifyOptions, ExplainOptions, SurfaceOptions,
+                 SurfaceCheckOptions, SurfaceCutOptions, SplineOptions, NurbsOptions,
+                 ToolpathCommand, AlignmentCommand, CutCommand>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);

@@ -107,7 +107,7 @@ std::string faired_text(const MadeSection& section) {
   return fmt::format("{} of {}", proved, section.fair.size());
 }
 
-/// "12.5 m^3, off by 3e-12 as measured"
+/// "12.5 m^3, last step 3e-12"
 std::string figure_text(const MeasuredFigure& figure, const std::string& unit, int power) {
   return fmt::format("{} {}{}, last step {}", significant(figure.value, 8), unit,
                      power == 1 ? std::string() : fmt::format("^{}", power),

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/io/internal/mesh_kind.h"
 
-#include <filesystem>
-#include <system_error>
-
-#include "obvid/core/files.h"
-
 namespace obvid {
 
 bool is_binary_stl(std::string_view head, std::uintmax_t size) {
@@ -28,14 +23,6 @@ bool is_ply(std::string_view head) {
 bool is_mesh(std::string_view head, std::uintmax_t size, std::string_view name) {
   return is_ply(head) || is_binary_stl(head, size) || is_text_stl(head) || name.ends_with(".obj") ||
          name.ends_with(".OBJ");
-}
-
-bool is_mesh_file(const std::string& path) {
-  constexpr std::size_t kHead = 4096;  // bytes that tell the kind of a file
-  const std::string head = head_of_file(path, kHead);
-  std::error_code none;
-  const std::uintmax_t size = std::filesystem::file_size(path, none);
-  return !head.empty() && !none && is_mesh(head, size, path);
 }
 
 }  // namespace obvid

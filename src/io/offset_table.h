@@ -25,9 +25,9 @@ struct OffsetSections {
 /// Rows are waterlines or stations by labels, else by the word in the corner, else waterlines.
 /// Labels are numbers, with WL or Station before them, or FP and AP: the station 0 and the one that
 /// lies as far behind the last number as FP before the first. Rows and columns with other labels
-/// are left out and named, and so are stations with fewer than three cells; empty cells (nothing or a dash) are
-/// never 0. Errors: E302 a cell that is no number, E303, E304 fewer than two stations, E307 a row
-/// of another length, E313 stations or waterlines out of order; with line and column.
+/// are left out and named, and so are stations with fewer than three cells; empty cells (nothing or
+/// a dash) are never 0. Errors: E302 a cell that is no number, E303, E304 fewer than two stations,
+/// E307 a row of another length, E313 stations or waterlines out of order; with line and column.
 [[nodiscard]] Result<OffsetSections> parse_offset_table(std::string_view text,
                                                         std::string_view name);
 

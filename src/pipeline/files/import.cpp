@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <system_error>
 
 #include "files/cad_of_text.h"
 #include "files/drawn_series.h"
@@ -399,7 +401,12 @@ DrawnCurve edges_of(const PointSeries& series) {
 }
 
 bool is_drawing(const std::string& path) {
-  return path != "-" && (is_drawn(file_kind(head_of(path))) || is_mesh_file(path));
+  if (path == "-") return false;
+  const std::string head = head_of(path);
+  if (is_drawn(file_kind(head))) return true;
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  return !head.empty() && !none && is_mesh(head, size, path);
 }
 
 Result<Drawing> read_drawing(const std::string& path, const std::vector<PlaneRow>& planes) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 namespace obvid {
@@ -20,8 +20,5 @@ inline constexpr std::size_t kStlTriangle = 50;  ///< 12 floats, 2 bytes of attr
 /// Whether a file is a mesh: PLY by its first word, STL by its head and size; OBJ has no mark and
 /// is told by the ending of the name.
 [[nodiscard]] bool is_mesh(std::string_view head, std::uintmax_t size, std::string_view name);
-
-/// The same of a file. False where it cannot be opened.
-[[nodiscard]] bool is_mesh_file(const std::string& path);
 
 }  // namespace obvid
