@@ -19,27 +19,82 @@ constexpr std::size_t kFewestPoints = 4;
 /// Roundings of a length that a few operations in doubles leave, each of the largest number met.
 constexpr Real kTableRoundings = 8.0L * 0x1p-52L;
 
-/// A piece and the points at its ends.
+/// Curvatures of parts of one arc differ by so much of themselves at most.
+constexpr Real kSameCircle = 1e-12L;
+
+/// Pieces that are parts of one line or arc, one behind the other around the contour, and the
+/// points at their ends.
 struct Stretch {
-  std::size_t piece = 0, from = 0, points = 0;
+  std::size_t first = 0, pieces = 0;
+  std::size_t longest = 0;
+  std::size_t from = 0, points = 0;
+  Real length = 0.0L;
 };
 
 bool is_line_or_arc(const Piece& piece) {
   return std::holds_alternative<Line>(piece) || std::holds_alternative<Arc>(piece);
 }
 
+Real curvature_of(const Piece& piece) {
+  const auto* arc = std::get_if<Arc>(&piece);
+  return arc == nullptr ? 0.0L : Real{arc->kappa};
+}
+
+Real length_of(const Piece& piece) {
+  if (const auto* arc = std::get_if<Arc>(&piece)) return arc->length;
+  const Line& line = std::get<Line>(piece);
+  return norm(seen(line.end, line.start));
+}
+
+/// The element at the start of a piece.
+const FileElement* before(const ContourFile& file, std::size_t piece) {
+  return file.joint(file.closed ? piece % file.pieces.size() : piece);
+}
+
+/// Whether a piece is of the line or arc of the piece before it.
+bool goes_on(const ContourFile& file, std::size_t piece) {
+  const std::size_t count = file.pieces.size();
+  if (count < 2 || (!file.closed && piece == 0)) return false;
+  const Piece &a = file.pieces[(piece + count - 1) % count], &b = file.pieces[piece];
+  if (!is_line_or_arc(a) || !is_line_or_arc(b) || a.index() != b.index()) return false;
+  const FileElement* joint = before(file, piece);
+  if (joint == nullptr || joint->parted()) return false;
+  const Real ka = curvature_of(a), kb = curvature_of(b);
+  return std::abs(ka - kb) <= kSameCircle * std::abs(ka);
+}
+
+/// The points of a stretch: its first and last piece end may lie at none.
+bool find_points(const ContourFile& file, Stretch& one) {
+  std::vector<std::size_t> at;
+  for (std::size_t k = 0; k <= one.pieces; ++k) {
+    const FileElement* joint = before(file, one.first + k);
+    if (joint != nullptr && joint->source) at.push_back(*joint->source);
+  }
+  if (at.size() < 2) return false;
+  const std::size_t n = file.points.size();
+  one.from = at.front();
+  one.points = (at.back() > at.front() ? at.back() - at.front() : at.back() + n - at.front()) + 1;
+  return true;
+}
+
 std::vector<Stretch> stretches(const ContourFile& file) {
   std::vector<Stretch> out;
-  const std::size_t n = file.points.size();
-  for (std::size_t k = 0; k < file.pieces.size(); ++k) {
-    const FileElement* a = file.joint(k);
-    const FileElement* b =
-        file.closed && k + 1 == file.pieces.size() ? file.joint(0) : file.joint(k + 1);
-    if (!is_line_or_arc(file.pieces[k]) || a == nullptr || b == nullptr) continue;
-    if (!a->source || !b->source) continue;
-    const std::size_t over =
-        *b->source > *a->source ? *b->source - *a->source : *b->source + n - *a->source;
-    out.push_back({k, *a->source, over + 1});
+  const std::size_t count = file.pieces.size();
+  std::size_t begin = 0;
+  while (begin < count && goes_on(file, begin)) ++begin;
+  begin = begin == count ? 0 : begin;
+  for (std::size_t done = 0; done < count;) {
+    Stretch one{(begin + done) % count, 0, (begin + done) % count, 0, 0, 0.0L};
+    do {
+      const std::size_t k = (one.first + one.pieces) % count;
+      if (!is_line_or_arc(file.pieces[k])) break;
+      const Real length = length_of(file.pieces[k]);
+      one.length += length;
+      if (length > length_of(file.pieces[one.longest])) one.longest = k;
+      ++one.pieces;
+    } while (done + one.pieces < count && goes_on(file, (one.first + one.pieces) % count));
+    done += std::max<std::size_t>(one.pieces, 1);
+    if (one.pieces > 0 && find_points(file, one)) out.push_back(one);
   }
   return out;
 }
@@ -57,7 +112,7 @@ class Row {
       : file_(course.file), coordinate_(course.ends.coordinate), words_(words), sheet_(sheet) {}
 
   void check(const Stretch& stretch) {
-    const Piece& piece = file_.pieces[stretch.piece];
+    const Piece& piece = file_.pieces[stretch.longest];
     const Point start = stored_start(piece);
     if (const auto* line = std::get_if<Line>(&piece)) {
       const Vec along = seen(line->end, start);
@@ -65,7 +120,7 @@ class Row {
       sheet_.expect(words_[2] == "-" && words_[3] == "-", kClaim + "centre", words_[2], "-",
                     words_[0]);
       figure("heading", 4, std::atan2(along.y, along.x) / kDegree, kTableRoundings * 180.0L);
-      figure("length", 5, norm(along), 0.0L);
+      figure("length", 5, stretch.length, blur_of(stretch));
       const Vec left = (1.0L / norm(along)) * left_of(along);
       farthest(stretch, [&](Vec p) { return std::abs(dot(p, left)); });
       return;
@@ -77,10 +132,14 @@ class Row {
     figure("radius", 1, radius, 0.0L);
     figure("centre", 2, start.x + centre.x, blur);
     figure("centre", 3, start.y + centre.y, blur);
-    figure("heading", 4, std::remainder(Real{arc.theta0}, 360.0L * kDegree) / kDegree,
-           kTableRoundings * std::max(180.0L, std::abs(Real{arc.theta0}) / kDegree));
-    figure("length", 5, arc.length, 0.0L);
-    farthest(stretch, [&](Vec p) { return std::abs(norm(p - centre) - std::abs(radius)); });
+    const Real heading = std::get<Arc>(file_.pieces[stretch.first]).theta0;
+    figure("heading", 4, std::remainder(heading, 360.0L * kDegree) / kDegree,
+           kTableRoundings * std::max(180.0L, std::abs(heading) / kDegree));
+    figure("length", 5, stretch.length, blur_of(stretch));
+    // from the squares: of a large circle, distances from its centre cancel
+    farthest(stretch, [&](Vec p) {
+      return std::abs(dot(p, p) - 2.0L * dot(p, centre)) / (norm(p - centre) + std::abs(radius));
+    });
   }
 
  private:
@@ -91,10 +150,15 @@ class Row {
                   shown(value), words_[0]);
   }
 
+  /// Sums of lengths round; one alone is the file's.
+  static Real blur_of(const Stretch& stretch) {
+    return static_cast<Real>(stretch.pieces - 1) * kTableRoundings * stretch.length;
+  }
+
   /// Points are written in decimals, whose reading and shifting round.
   template <class Distance>
   void farthest(const Stretch& stretch, const Distance& distance) {
-    const Point start = stored_start(file_.pieces[stretch.piece]);
+    const Point start = stored_start(file_.pieces[stretch.longest]);
     Real most = 0.0L;
     for (std::size_t i = 0; i < stretch.points; ++i) {
       const Point& p = file_.points[(stretch.from + i) % file_.points.size()];
@@ -148,8 +212,9 @@ void LinesAndArcsTable::end() {
 
 std::size_t LinesAndArcsTable::in_all() const {
   const auto all = stretches(course_.file);
-  return static_cast<std::size_t>(std::count_if(
-      all.begin(), all.end(), [](const Stretch& s) { return s.points >= kFewestPoints; }));
+  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const Stretch& s) {
+    return std::min(s.points, course_.file.points.size()) >= kFewestPoints;
+  }));
 }
 
 }  // namespace judge

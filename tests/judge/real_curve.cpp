@@ -318,6 +318,11 @@ Place Path::refined(Vec p, Real from, Real to) const {
     if (!(next > low && next < high)) next = 0.5L * (low + high);
     t = next;
   }
+  // near the least distance all distances are the same to their last digit: the slope knows more
+  constexpr Real kRoundings = 16.0L * std::numeric_limits<Real>::epsilon();
+  const Vec here = curve.point(t);
+  const Real d = norm(here - p);
+  if (d <= best.distance + kRoundings * (norm(here) + norm(p))) best = {span, t, d};
   return best;
 }
 

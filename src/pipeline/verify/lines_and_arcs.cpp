@@ -31,8 +31,8 @@ std::optional<LineOrArc> shape_of(const Piece& piece) {
   return out;
 }
 
-/// Pieces of a contour that are one line or arc: parts between joints at no point, and what leads
-/// to its first point and on from its last one.
+/// Pieces of a contour that are one line or arc: neighbours of one curvature without a corner
+/// between them, and what leads to the first point and on from the last one.
 class Stretches {
  public:
   explicit Stretches(const Contour& contour) : c_(contour), pieces_(contour.pieces.size()) {}
@@ -71,8 +71,7 @@ class Stretches {
     return std::find(c_.kept.begin(), c_.kept.end(), piece) != c_.kept.end();
   }
 
-  /// Whether both sides of a joint are one line or arc, of which one ends beside it without a
-  /// point.
+  /// Whether both sides of a joint are parts of one line or arc.
   [[nodiscard]] bool goes_on(std::size_t joint) const {
     if (!c_.closed && (joint == 0 || joint == pieces_)) return false;
     const std::size_t before = (joint + pieces_ - 1) % pieces_, after = joint % pieces_;
@@ -81,9 +80,7 @@ class Stretches {
     }
     const auto a = shape_of(c_.pieces[before]), b = shape_of(c_.pieces[after]);
     if (!a || !b || (a->kappa == 0.0) != (b->kappa == 0.0)) return false;
-    if (!(std::abs(a->kappa - b->kappa) <= kSameCircle * std::abs(a->kappa))) return false;
-    return !c_.joints[joint].source || !c_.joints[before].source ||
-           !c_.joints[joint_behind(after)].source;
+    return std::abs(a->kappa - b->kappa) <= kSameCircle * std::abs(a->kappa);
   }
 
   [[nodiscard]] std::optional<LineOrArc> stretch(std::size_t first, std::size_t count) const {
@@ -108,8 +105,9 @@ class Stretches {
     }
     const std::size_t n = c_.points.size();
     if (!from || !to) return std::nullopt;
+    if (!c_.closed && *to < *from) return std::nullopt;
     const std::size_t over = *to > *from ? *to - *from : *to + n - *from;
-    if (over + 1 < kFewestPoints || (!c_.closed && *to < *from)) return std::nullopt;
+    if (std::min(over + 1, n) < kFewestPoints) return std::nullopt;
     one->from = *from;
     one->to = *to;
     const auto known = *shape_of(c_.pieces[longest]);  // best, of so many roundings
