@@ -275,7 +275,9 @@ Result<PointGrid> from_heights(const NumberRows& rows, string_view name, double 
       grid.back().push_back({spacing * static_cast<double>(i), y, row.values[i]});
     }
   }
-  return grid_of(grid, name);
+  auto made = grid_of(grid, name);
+  if (made) made->of_heights = true;
+  return made;
 }
 
 /// Half-breadths: first row stations, first column waterlines. `corner` words stand in the header.

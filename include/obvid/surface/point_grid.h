@@ -17,7 +17,8 @@ struct PointGrid {
   std::vector<Vec3> points;
   std::string name;
   Units units{};
-  Vec3 rounding{};  ///< half a unit of the last digit printed; 0 when not from text
+  Vec3 rounding{};          ///< half a unit of the last digit printed; 0 when not from text
+  bool of_heights = false;  ///< z was read, x and y are columns and rows times a spacing
 
   [[nodiscard]] const Vec3& at(std::size_t i, std::size_t j) const {
     return points[j * count_u + i];

@@ -67,7 +67,13 @@ Result<UnitNotes> notes_of(const ContourExport& e, UnitRule rule, const char* ki
   return unit_notes(e.contour.units, rule, kind, written);
 }
 
-/// Files without a place for a unit, or that state the one that we have.
+/// Files without a place for a unit. `kind`: "BREP files".
+template <class Make>
+Result<Exported> without_unit(const ContourExport& e, const char* kind, const Make& make) {
+  return with_units(notes_of(e, UnitRule::kLost, kind, e.contour.units.name), make);
+}
+
+/// Files that state the unit that we have.
 Result<Exported> as_it_is(const ContourExport& e, Result<std::string> made) {
   return with_units(notes_of(e, UnitRule::kNone, "", e.contour.units.name),
                     [&] { return one_text(std::move(made)); });
@@ -329,8 +335,7 @@ Result<Exported> contour_as_iges(const ContourExport& e) {
 }
 
 Result<Exported> contour_as_brep(const ContourExport& e) {
-  return with_units(notes_of(e, UnitRule::kNone, "", e.contour.units.name),
-                    [&] { return cad_file(e, CadFormat::kBrep); });
+  return without_unit(e, "BREP files", [&] { return cad_file(e, CadFormat::kBrep); });
 }
 
 Result<Exported> contour_as_dxf(const ContourExport& e) {
@@ -375,8 +380,7 @@ Result<Exported> contour_as_airfoil(const ContourExport& e) {
 }
 
 Result<Exported> contour_as_sldcrv(const ContourExport& e) {
-  return with_units(notes_of(e, UnitRule::kNone, "", e.contour.units.name),
-                    [&] { return sldcrv_file(e); });
+  return without_unit(e, "points of SolidWorks", [&] { return sldcrv_file(e); });
 }
 
 Result<Exported> contour_as_macro(const ContourExport& e) {
@@ -385,11 +389,11 @@ Result<Exported> contour_as_macro(const ContourExport& e) {
 }
 
 Result<Exported> contour_as_obj(const ContourExport& e) {
-  return as_it_is(e, obj_text(e.contour, samples_of(e)));
+  return without_unit(e, "OBJ files", [&] { return one_text(obj_text(e.contour, samples_of(e))); });
 }
 
 Result<Exported> contour_as_ply(const ContourExport& e) {
-  return as_it_is(e, ply_text(e.contour, samples_of(e)));
+  return without_unit(e, "PLY files", [&] { return one_text(ply_text(e.contour, samples_of(e))); });
 }
 
 Result<Exported> contour_as_none(const ContourExport&) { return fail(not_held_by_format()); }

@@ -12,6 +12,7 @@
 namespace obvid::pipeline_detail {
 namespace {
 
+constexpr std::string_view kTakenForGranted = "mm";  ///< where files have no unit
 constexpr double kKernelPrecision = 1e-7;  // mm: CAD kernels take points that are nearer for one
 
 Error assumed(const Units& units, std::string_view kind) {
@@ -28,6 +29,14 @@ Result<UnitNotes> unit_notes(const Units& units, UnitRule rule, std::string_view
                              std::string_view written) {
   UnitNotes notes;
   if (rule == UnitRule::kNone) return notes;
+  if (rule == UnitRule::kLost) {
+    if (units.known() && units.name != kTakenForGranted) {
+      notes.remarks.push_back(
+          fmt::format("{} have no unit, and are taken for {}: the numbers are in {}", kind,
+                      kTakenForGranted, units.name));
+    }
+    return notes;
+  }
   if (rule == UnitRule::kStated) {
     if (written.empty()) notes.remarks.push_back(fmt::format("no unit is stated in {}", kind));
     return notes;

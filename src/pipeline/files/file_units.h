@@ -13,7 +13,8 @@ namespace obvid::pipeline_detail {
 
 /// What a kind of file does with a unit (docs/formats.md, "Units").
 enum class UnitRule {
-  kNone,    ///< it has no place for one, or states the one that we have, assumed or not
+  kNone,    ///< it states the one that we have, assumed or not
+  kLost,    ///< it has no place for one, and readers take millimetres
   kStated,  ///< it states a unit that is known, and none otherwise
   kLength,  ///< it has true lengths: a unit that is merely assumed is worth a warning
   kRoad,    ///< it is in metres or feet of the ground: an assumed unit is refused

@@ -46,6 +46,12 @@ constexpr int kReachHalvings = 4;
 constexpr double kMostFitSteps = 1e4, kSpareWork = 1e6;
 /// The same, of halving the reach a second time and more often.
 constexpr double kMostHalvingSteps = 500.0;
+/// Parts of the tolerances that are tried where none within the whole of them is found, and the
+/// work for that.
+constexpr double kPartsOfReach[] = {0.3, 0.1, 0.03, 0.01, 0.001};
+constexpr double kMostNearerSteps = 2500.0, kSpareNearer = 5e5;
+/// The same, of looking for one through the points as they are.
+constexpr double kMostExactSteps = 1e4, kSpareExact = 5e5;
 constexpr double kFormedAt = 0.7;  ///< part of the bar when all sections are formed
 /// Arcs whose regions came out wider than asked, by the rounding of their ends, are formed again.
 constexpr int kArcTrials = 2;
@@ -716,16 +722,19 @@ Result<void> has_curvatures(const Contour& contour) {
   return {};
 }
 
-enum class Passing { kWithinTolerances, kExactly };
+/// Part of each point's tolerance that the search may use; 0: the points as they are.
+struct Reach {
+  double part = 1.0;
+};
 
 Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, FoundChains& chains,
-                              Watch& watch, const KeptParts& kept = {},
-                              Passing passing = Passing::kWithinTolerances) {
+                              Watch& watch, const KeptParts& kept = {}, Reach reach = {}) {
   watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   OBVID_TRY(prepared);
   if (watch.cancelled()) return fail(cancelled_error());
-  if (passing == Passing::kExactly) {
+  for (double& one : prepared->reach) one *= reach.part;
+  if (reach.part == 0.0) {
     prepared->reach.assign(prepared->points.size(), 0.0);
     prepared->tolerance.clear();
   }
@@ -845,40 +854,89 @@ bool has_tolerances(const PointSeries& series, const FitJob& job) {
   return prepared && !prepared->exact();
 }
 
-/// The contour through the points as they are, where none within their tolerances is proved: it is
-/// within them too. Only where it has no more vertices and inflections than spirals within them.
-std::optional<Fit> through_points_as_they_are(const PointSeries& series, const FitJob& job,
-                                              FoundChains& chains, Watch& watch) {
-  if (!has_tolerances(series, job)) return std::nullopt;
-  FitJob plain = job;
-  plain.continuity = Continuity::kG2;
-  FitJob followed = plain;
-  followed.carrier = Carrier::kSpiral;
-  const auto spirals = formed_and_proved(series, followed, chains, watch);
-  const auto through = [&](const FitJob& asked) -> std::optional<Fit> {
-    auto made = formed_and_proved(series, asked, chains, watch, {}, Passing::kExactly);
-    if (!made || !made->certificate.proved) return std::nullopt;
-    if (spirals && turns_of(made->contour).more_than(turns_of(spirals->contour))) {
-      return std::nullopt;
+/// Where none within the whole of the tolerances is proved: contours that pass the points nearer
+/// than they must, or as they are. They are within the tolerances too, and only taken where they
+/// have no more vertices and inflections than spirals within them.
+class NearerContours {
+ public:
+  NearerContours(const PointSeries& series, const FitJob& job, FoundChains& chains, Watch& watch)
+      : series_(series), job_(job), plain_(job), chains_(chains), watch_(watch) {
+    plain_.continuity = Continuity::kG2;
+    FitJob followed = plain_;
+    followed.carrier = Carrier::kSpiral;
+    auto spirals = formed_and_proved(series, followed, chains, watch);
+    if (spirals) spirals_ = turns_of(spirals->contour);
+  }
+
+  /// By parts of the tolerances. Nothing when there is none, or the work is used up.
+  std::optional<Fit> by_parts() {
+    const Allowance allowance(
+        watch_, kSpareNearer + kMostNearerSteps * static_cast<double>(series_.points.size()));
+    for (const double part : kPartsOfReach) {
+      if (!watch_.may_go_on()) break;
+      FoundChains chains;  // of narrower ranges
+      auto made = within(job_, Reach{part}, chains);
+      if (!made) continue;
+      made->warnings.push_back(
+          fmt::format("no contour was found that makes use of the whole of the tolerances: it was "
+                      "looked for within {} of each",
+                      part));
+      return made;
     }
-    return std::move(*made);
-  };
-  auto exact = through(job);
-  if (!exact && is_made_g3(job)) {
-    exact = through(plain);
-    if (exact) {
-      exact->report.chain.g2_because =
-          "through the points as they are none with continuous slopes of the curvature was proved";
-      if (job.continuity) {
-        exact->warnings.push_back(exact->report.chain.g2_because + ": it is G2");
+    return std::nullopt;
+  }
+
+  std::optional<Fit> through_points() {
+    const Allowance allowance(
+        watch_, kSpareExact + kMostExactSteps * static_cast<double>(series_.points.size()));
+    auto exact = within(job_, Reach{0.0}, chains_);
+    if (!exact && is_made_g3(job_)) {
+      exact = within(plain_, Reach{0.0}, chains_);
+      if (exact) {
+        exact->report.chain.g2_because =
+            "through the points as they are none with continuous slopes of the curvature was "
+            "proved";
+        if (job_.continuity) {
+          exact->warnings.push_back(exact->report.chain.g2_because + ": it is G2");
+        }
       }
     }
+    if (!exact) return std::nullopt;
+    exact->warnings.emplace_back(
+        "the points are met as they are: no contour of this carrier that moves them within their "
+        "tolerances was found and proved");
+    return exact;
   }
-  if (!exact) return std::nullopt;
-  exact->warnings.emplace_back(
-      "the points are met as they are: no contour of this carrier that moves them within their "
-      "tolerances was found and proved");
-  return exact;
+
+ private:
+  std::optional<Fit> within(const FitJob& job, Reach reach, FoundChains& chains) {
+    auto made = formed_and_proved(series_, job, chains, watch_, {}, reach);
+    if (!made || !made->certificate.proved) return std::nullopt;
+    if (spirals_ && turns_of(made->contour).more_than(*spirals_)) return std::nullopt;
+    return std::move(*made);
+  }
+
+  const PointSeries& series_;
+  const FitJob& job_;
+  FitJob plain_;  ///< the same with G2 joints
+  FoundChains& chains_;
+  Watch& watch_;
+  std::optional<Turns> spirals_;
+};
+
+/// Whether a search among fewer places may end otherwise.
+bool depends_on_search(const Error& error) {
+  return error.code == ErrorCode::kNoSpiral || error.code == ErrorCode::kNoRoomForTransition;
+}
+
+std::optional<Fit> nearer_to_points(const PointSeries& series, const FitJob& job,
+                                    const Result<Fit>& made, FoundChains& chains, Watch& watch) {
+  if (!has_tolerances(series, job)) return std::nullopt;
+  NearerContours nearer(series, job, chains, watch);
+  if (!made && depends_on_search(made.error())) {
+    if (auto near = nearer.by_parts()) return near;
+  }
+  return nearer.through_points();
 }
 
 }  // namespace
@@ -936,8 +994,8 @@ Result<Fit> fit_as_asked(const PointSeries& series, const FitJob& job, FoundChai
   }
   if ((!made || !made->certificate.proved) && promises_monotone(job.carrier) &&
       !watch.was_cancelled()) {
-    if (auto exact = through_points_as_they_are(series, job, chains, watch)) {
-      made = std::move(*exact);
+    if (auto near = nearer_to_points(series, job, made, chains, watch)) {
+      made = std::move(*near);
     }
   }
   if (watch.was_cancelled()) return fail(cancelled_error());  // whatever it made do with

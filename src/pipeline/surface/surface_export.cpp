@@ -46,7 +46,14 @@ Looks looks_of(SurfaceExport& e) {
   return out;
 }
 
-/// Files without a place for a unit, or that state the one that we have.
+/// Files without a place for a unit. `kind`: "BREP files".
+template <class Make>
+Result<std::string> surface_without_unit(SurfaceExport& e, std::vector<std::string>& remarks,
+                                         const char* kind, const Make& make) {
+  return surface_in_units(e, remarks, UnitRule::kLost, kind, e.model.units.name, make);
+}
+
+/// Files that state the unit that we have.
 template <class Make>
 Result<std::string> surface_as_it_is(SurfaceExport& e, std::vector<std::string>& remarks,
                                      const Make& make) {
@@ -112,11 +119,12 @@ Result<std::string> surface_as_iges(SurfaceExport& e, std::vector<std::string>& 
 }
 
 Result<std::string> surface_as_brep(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_as_it_is(e, remarks, [&] { return surface_of_kernel(e, CadFormat::kBrep); });
+  return surface_without_unit(e, remarks, "BREP files",
+                              [&] { return surface_of_kernel(e, CadFormat::kBrep); });
 }
 
 Result<std::string> surface_as_stl(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_as_it_is(e, remarks, [&] {
+  return surface_without_unit(e, remarks, "STL files", [&] {
     return of_triangles(e, remarks, [&]() -> Result<std::string> {
       remarks.push_back(fmt::format("STL holds single precision: another {:.2g} {}",
                                     single_precision_loss(e.meshes), e.model.units.text()));
@@ -126,7 +134,7 @@ Result<std::string> surface_as_stl(SurfaceExport& e, std::vector<std::string>& r
 }
 
 Result<std::string> surface_as_obj(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_as_it_is(e, remarks, [&] {
+  return surface_without_unit(e, remarks, "OBJ files", [&] {
     return of_triangles(e, remarks,
                         [&] { return Result<std::string>(obj_mesh_text(e.model, e.meshes)); });
   });
@@ -140,7 +148,7 @@ Result<std::string> surface_as_glb(SurfaceExport& e, std::vector<std::string>& r
 }
 
 Result<std::string> surface_as_ply(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_as_it_is(e, remarks, [&] {
+  return surface_without_unit(e, remarks, "PLY files", [&] {
     return of_triangles(e, remarks,
                         [&] { return Result<std::string>(ply_text(e.model, e.meshes)); });
   });

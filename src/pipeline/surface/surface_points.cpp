@@ -50,16 +50,31 @@ std::vector<ScenePolyline> drawn_sections(const std::vector<SpaceSeries>& sectio
   return lines;
 }
 
+/// A matrix may be something else than heights, say one coordinate of a grid.
+void say_of_heights(const PointGrid& grid, const GridReading& reading, MadeSurface& made) {
+  if (!grid.of_heights || reading.spacing) return;
+  made.warnings.push_back(
+      fmt::format("{} rows of {} numbers are taken for heights, x and y for column and row; "
+                  "--spacing says how far these are apart, and files of x, y and z belong together "
+                  "by names that differ in one letter (_x, _y, _z)",
+                  grid.count_v, grid.count_u));
+}
+
 }  // namespace
 
 Result<MadeSurface> make_kind(const GridKind& kind, const SurfaceJob& job, const RunContext& run) {
   const auto grid = grid_of(job.inputs, kind.reading);
   OBVID_TRY(grid);
-  if (kind.use == GridUse::kNear) return near(*grid, job, run);
+  if (kind.use == GridUse::kNear) {
+    auto made = near(*grid, job, run);
+    if (made) say_of_heights(*grid, kind.reading, *made);
+    return made;
+  }
   const bool control = kind.use == GridUse::kControl;
   auto surface = control ? from_control_points(*grid) : interpolated(*grid, kind.reading.spread);
   OBVID_TRY(surface);
   MadeSurface made = of_one_patch(*grid, std::move(*surface));
+  say_of_heights(*grid, kind.reading, made);
   if (control) {
     const NurbsSurface& net = made.model.patches.front().surface;
     made.facts.emplace_back("assumed", fmt::format("degree {} along rows, {} across, uniform knots",
@@ -87,6 +102,7 @@ Result<MadeSurface> make_kind(const IdKind& kind, const SurfaceJob& job, const R
       made_of(surface, grid->name.empty() ? "surface" : grid->name, size_of(grid->points), job);
   if (made) {
     made->model.units = grid->units;
+    say_of_heights(*grid, kind.reading, *made);
     made->facts.emplace_back("grid",
                              fmt::format("{} rows of {} points", grid->count_v, grid->count_u));
   }
