@@ -115,10 +115,13 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
                    "possible are " + known_surface_endings()});
     }
     request->formats.lines = surface->lines;
-    SurfaceExporter exporter(surface->model, request->formats, context_of(run));
+    const RunContext context = context_of(run);
+    OBVID_TRY(may_go_on(context));
+    SurfaceExporter exporter(surface->model, request->formats, context);
     auto out = std::make_unique<obvid_files>();
     auto text = exporter.text(*format, out->remarks);
     OBVID_TRY(text);
+    OBVID_TRY(may_go_on(context));
     out->files.push_back({"", std::move(*text)});
     out->remarks.insert(out->remarks.end(), exporter.warnings().begin(), exporter.warnings().end());
     *files = out.release();
