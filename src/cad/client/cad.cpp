@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "helper_file.h"
+#include "helper_message.h"
 #include "helper_process.h"
-#include "message.h"
 #include "obvid/exchange/internal/step/write.h"
 
 namespace obvid {
