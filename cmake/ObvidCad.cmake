@@ -11,7 +11,7 @@ obvid_digest(obvid_cad_digest ${obvid_cad_agreed} "${PROJECT_SOURCE_DIR}/include
              "${PROJECT_SOURCE_DIR}/include/obvid/core/units.h")
 configure_file(cmake/cad_build_mark.h.in "${PROJECT_BINARY_DIR}/generated-private/cad_build_mark.h" @ONLY)
 
-obvid_module(NAME cad FOLDER cad/client DEPENDS curve surface exchange)
+obvid_module(NAME cad FOLDER cad/client DEPENDS surface exchange)
 target_include_directories(obvid_cad PRIVATE "${PROJECT_BINARY_DIR}/generated-private")
 
 if(OBVID_CAD AND NOT OBVID_SANITIZE)

@@ -52,14 +52,11 @@ std::string surface_text(const NurbsReport& report, const NurbsSurface& surface)
 
 Result<std::vector<std::string>> write_nurbs(const NurbsReport& report,
                                              const NurbsOptions& options) {
-  if (const auto* surface = std::get_if<NurbsSurface>(&report.shape)) {
+  if (const auto model = nurbs_surface(report, options.units.value_or(Units{}))) {
     const auto outputs = surface_outputs_of(options.outputs, {options.input});
     OBVID_TRY(outputs);
-    SurfaceModel model;
-    model.units = options.units.value_or(Units{});
-    model.patches.push_back({"surface", *surface});
     std::vector<std::string> warnings;
-    const auto written = write_surface(model, *outputs, {}, {}, warnings);
+    const auto written = write_surface(*model, *outputs, {}, {}, warnings);
     OBVID_TRY(written);
     warn(warnings);
     return written->files;

@@ -7,13 +7,12 @@
 #include <filesystem>
 
 #include "obvid/core/files.h"
+#include "obvid/core/internal/name_pattern.h"
 #include "terminal.h"
 #include "text.h"
 
 namespace obvid {
 namespace {
-
-constexpr const char* kPlaceOfId = "{id}";
 
 std::string id_of(const std::string& input) {
   return input == "-" ? "standard-input" : std::filesystem::path(input).stem().string();
@@ -69,15 +68,13 @@ Result<std::vector<OneOf>> all_of_them(const std::vector<std::string>& inputs,
 Result<std::vector<std::string>> outputs_for(const std::vector<std::string>& outputs,
                                              const OneOf& one) {
   std::vector<std::string> out;
-  for (std::string name : outputs) {
-    const std::size_t at = name.find(kPlaceOfId);
-    if (at == std::string::npos) {
+  for (const std::string& name : outputs) {
+    if (!has_place(name, kPlaceOfId)) {
       return error(ErrorCode::kBadOption, "several contours cannot go to one file")
           .where(name)
           .hint("put {id} into its name, which becomes the name of each input: -o 'fair/{id}.svg'");
     }
-    name.replace(at, std::string_view(kPlaceOfId).size(), one.id);
-    out.push_back(std::move(name));
+    out.push_back(filled(name, {{kPlaceOfId, one.id}}));
   }
   return out;
 }

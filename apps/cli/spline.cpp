@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/pipeline/spline_job.h"
+#include "obvid/pipeline/table_spline.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "commands.h"
 #include "obvid/core/files.h"
-#include "obvid/pipeline/spline_grid.h"
 #include "surface_outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -70,20 +69,6 @@ std::string spline_text(const SplineReport& report) {
   return out;
 }
 
-Result<std::string> file_text(const std::string& path, const SplineReport& report,
-                              std::size_t samples) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".csv") return spline_samples_csv(report, samples);
-  if (ending == ".json") return spline_report_json(report) + "\n";
-  if (ending == ".svg") return spline_svg(report);
-  if (ending == ".dxf") return spline_dxf(report);
-  return error(ErrorCode::kUnknownFormat, "spline writes no such file")
-      .where(path)
-      .hint("possible are .csv, .json, .svg and .dxf");
-}
-
 std::string grid_text(const GridSplineReport& report) {
   const GridSplineInput& input = report.input;
   std::string out = bold(input.name) + "\n";
@@ -111,97 +96,68 @@ std::string grid_text(const GridSplineReport& report) {
   return out;
 }
 
-/// Files of a function of two variables: its own, or its graph in those of surfaces.
-Result<void> write_grid(const GridSplineReport& report, const SplineOptions& options) {
-  std::vector<std::string> own, drawn;
-  for (const std::string& path : options.outputs) {
-    const std::string ending = std::filesystem::path(path).extension().string();
-    (ending == ".csv" || ending == ".json" ? own : drawn).push_back(path);
-  }
-  const auto outputs = surface_outputs_of(drawn, {options.input});
+std::string table_text(const TableSpline& made) {
+  const auto* const curve = std::get_if<SplineReport>(&made);
+  return curve != nullptr ? spline_text(*curve) : grid_text(std::get<GridSplineReport>(made));
+}
+
+/// The graph of a function of two variables comes in the formats of surfaces.
+bool is_of_graph(const TableSpline& made, const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return std::holds_alternative<GridSplineReport>(made) && ending != ".csv" && ending != ".json";
+}
+
+Result<void> write_graph(const TableSpline& made, const std::vector<std::string>& files,
+                         const SplineOptions& options) {
+  if (files.empty()) return {};
+  const auto outputs = surface_outputs_of(files, {options.input});
   OBVID_TRY(outputs);
-  const auto model = graph_of(report);
+  const auto model = table_spline_graph(made);
   OBVID_TRY(model);
   std::vector<std::string> warnings;
-  const auto written = write_surface(*model, *outputs, {}, {}, warnings);
+  const auto written = write_surface(**model, *outputs, {}, {}, warnings);
   OBVID_TRY(written);
   warn(warnings);
-  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(options.samples)));
-  for (const std::string& path : own) {
-    const bool csv = std::filesystem::path(path).extension() == ".csv";
-    const std::string text =
-        csv ? grid_spline_csv(report, std::max<std::size_t>(side, 2)) : grid_spline_json(report);
-    OBVID_TRY(write_file(path, text));
-  }
   return {};
 }
 
-/// The exit code for a function of two variables.
-int run_grid(const ColumnTable& table, const SplineOptions& options) {
-  auto input = grid_spline_input(table, options.input == "-" ? "standard input" : options.input);
-  if (!input) return report(input.error());
-  std::optional<GridPlaces> finer;
-  if (!options.finer.empty()) {
-    const auto more = read_columns(options.finer);
-    if (!more) return report(more.error());
-    auto places = grid_places(*more, options.finer);
-    if (!places) return report(places.error());
-    finer = std::move(*places);
-  }
-  if (options.job.options.degree != 2 ||
-      options.job.options.smoothing == IdSmoothing::kValuesKept) {
-    return report({ErrorCode::kBadOption, "functions of two variables have degree 2",
-                   "--degree, --smooth", "--smooth none or values-free"});
-  }
-  const bool smooth = options.job.options.smoothing == IdSmoothing::kValuesFree;
-  const auto made = grid_spline_report(std::move(*input), smooth, finer);
-  if (!made) return report(made.error());
-  if (auto done = write_grid(*made, options); !done) return report(done.error());
-  std::string text = options.json ? grid_spline_json(*made) : grid_text(*made);
+Result<void> write_spline(const TableSpline& made, const SplineOptions& options) {
+  std::vector<std::string> drawn;
+  std::vector<std::pair<std::string, std::string>> texts;
   for (const std::string& path : options.outputs) {
-    if (!options.json) text += fmt::format("written        {}\n", path);
+    if (is_of_graph(made, path)) {
+      drawn.push_back(path);
+      continue;
+    }
+    auto text = table_spline_file(made, path, options.samples);
+    OBVID_TRY(text);
+    texts.emplace_back(path, std::move(*text));
   }
-  if (options.quiet && !options.json) return 0;
-  if (auto done = put(text); !done) return report(done.error());
-  return 0;
+  OBVID_TRY(write_graph(made, drawn, options));
+  for (const auto& [path, text] : texts) OBVID_TRY(write_file(path, text));
+  return {};
 }
 
-Result<SplineInput> input_of(const std::string& path, bool curve) {
-  const auto table = read_columns(path);
+Result<TableSpline> made_of(const SplineOptions& options) {
+  OBVID_TRY(check_outputs(options.outputs, {&options.input, 1}));
+  const auto table = read_table(options.input);
   OBVID_TRY(table);
-  return spline_input(*table, path == "-" ? "standard input" : path, curve);
+  std::optional<NamedTable> finer;
+  if (!options.finer.empty()) {
+    auto more = read_table(options.finer);
+    OBVID_TRY(more);
+    finer = std::move(*more);
+  }
+  return spline_of_table(*table, finer, options.job);
 }
 
 }  // namespace
 
 int run(const SplineOptions& options) {
-  if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
-    return report(free.error());
-  }
-  const auto table = read_columns(options.input);
-  if (!table) return report(table.error());
-  if (!options.job.curve && is_grid_table(*table)) return run_grid(*table, options);
-  const std::string name = options.input == "-" ? "standard input" : options.input;
-  auto input = spline_input(*table, name, options.job.curve);
-  if (!input) return report(input.error());
-  std::optional<SplineInput> finer;
-  if (!options.finer.empty()) {
-    auto more = input_of(options.finer, options.job.curve);
-    if (!more) return report(more.error());
-    finer = std::move(*more);
-  }
-  const auto made = spline_report(std::move(*input), options.job, finer);
+  const auto made = made_of(options);
   if (!made) return report(made.error());
-  std::vector<std::string> texts;
-  for (const std::string& path : options.outputs) {
-    auto text = file_text(path, *made, options.samples);
-    if (!text) return report(text.error());
-    texts.push_back(std::move(*text));
-  }
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    if (auto done = write_file(options.outputs[i], texts[i]); !done) return report(done.error());
-  }
-  std::string text = options.json ? spline_report_json(*made) : spline_text(*made);
+  if (auto done = write_spline(*made, options); !done) return report(done.error());
+  std::string text = options.json ? table_spline_json(*made) : table_text(*made);
   for (const std::string& path : options.outputs) {
     if (!options.json) text += fmt::format("written        {}\n", path);
   }

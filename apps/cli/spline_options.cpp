@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spline_options.h"
 
-#include <cmath>
-
 #include "cli_app.h"
-#include "obvid/pipeline/internal/job_values.h"
+#include "obvid/pipeline/internal/spline_values.h"
 #include "options.h"
 
 namespace obvid {
@@ -12,8 +10,8 @@ namespace {
 
 struct RawSpline {
   SplineOptions options;
-  std::string smooth;
-  std::optional<int> degree;
+  SplineValues values;
+  long samples = 200;
   std::string format;  ///< of what -o sends to standard output
   bool csv = false;
 };
@@ -31,8 +29,8 @@ void add_options(CLI::App& app, RawSpline& raw) {
   app.add_flag("--curve", options.job.curve,
                "The table holds points of a curve in the plane or in space: one spline per "
                "coordinate over the summed chords");
-  app.add_option("--degree", raw.degree, "2, 4 or 6 [2; 4 with --curve]")->type_name("N");
-  app.add_option("--smooth", raw.smooth,
+  app.add_option("--degree", raw.values.degree, "2, 4 or 6 [2; 4 with --curve]")->type_name("N");
+  app.add_option("--smooth", raw.values.smooth,
                  "none (all data kept, C0, C1, C2), values-kept (inner derivatives give way, C2, "
                  "C4; from degree 4 on) or values-free (inner values too, C1, C3, C5) [none; "
                  "values-kept with --curve]")
@@ -43,11 +41,10 @@ void add_options(CLI::App& app, RawSpline& raw) {
       ->type_name("FILE");
   app.add_flag("--compare", options.job.compare,
                "Beside it the other degrees, the local and both global cubic splines");
-  app.add_option("--tolerance", options.job.tolerance,
+  app.add_option("--tolerance", raw.values.tolerance,
                  "Of straight moves along the spline on a machine, units [1e-4 of the size]")
       ->type_name("T");
-  app.add_option("--samples", options.samples, "Rows of the .csv, equal steps [200]")
-      ->type_name("N");
+  app.add_option("--samples", raw.samples, "Rows of the .csv, equal steps [200]")->type_name("N");
   app.add_flag("--csv", raw.csv, "CSV on standard output instead of the table, as -o NAME.csv");
   app.add_flag("--json", options.json, "JSON on standard output instead of the table");
   app.add_flag("-q,--quiet", options.quiet, "No table");
@@ -67,26 +64,10 @@ Result<void> check(RawSpline& raw) {
   if (options.input.empty()) {
     return fail(usage("spline needs a table", "see obvid spline --help"));
   }
-  const bool curve = options.job.curve;
-  options.job.options.degree = raw.degree.value_or(curve ? 4 : 2);
-  const std::string smooth =
-      raw.smooth.empty() ? (curve && options.job.options.degree > 2 ? "values-kept" : "none")
-                         : raw.smooth;
-  const auto smoothing = value_named<IdSmoothing>({{"none", IdSmoothing::kNone},
-                                                   {"values-kept", IdSmoothing::kValuesKept},
-                                                   {"values-free", IdSmoothing::kValuesFree}},
-                                                  smooth, "--smooth");
-  OBVID_TRY(smoothing);
-  options.job.options.smoothing = *smoothing;
-  const auto& tolerance = options.job.tolerance;
-  if (tolerance && !(*tolerance > 0.0 && std::isfinite(*tolerance))) {
-    return fail(bad_option("the tolerance must be a positive length", "--tolerance",
-                           "give it in the units of the table"));
-  }
-  constexpr std::size_t kMostSamples = 10'000'000;
-  if (options.samples < 2 || options.samples > kMostSamples) {
-    return fail(bad_option("between 2 and 10,000,000 rows are possible", "--samples", ""));
-  }
+  OBVID_TRY(set_spline(raw.values, options.job));
+  const auto samples = rows_of_samples(raw.samples);
+  OBVID_TRY(samples);
+  options.samples = *samples;
   return {};
 }
 

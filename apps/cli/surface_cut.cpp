@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/name_pattern.h"
 #include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_job.h"
 #include "outputs.h"
@@ -18,16 +19,7 @@
 namespace obvid {
 namespace {
 
-constexpr std::string_view kId = "{id}";
-
-bool is_of_branches(const std::string& path) { return path.find(kId) != std::string::npos; }
-
-std::string path_of_branch(std::string path, const std::string& id) {
-  for (std::size_t at; (at = path.find(kId)) != std::string::npos;) {
-    path.replace(at, kId.size(), id);
-  }
-  return path;
-}
+bool is_of_branches(const std::string& path) { return has_place(path, kPlaceOfId); }
 
 std::string ending_of(const std::string& path) {
   return std::filesystem::path(path).extension().string();
@@ -64,7 +56,7 @@ Result<void> add_branches(const SurfaceCutOptions& options, const MadeSurfaceCut
     const MadeSection& section = made.sections[i];
     for (std::size_t k = 0; k < section.section.branches.size(); ++k) {
       const std::string id = fmt::format("{}-{}", section.id, k + 1);
-      Output out{path_of_branch(path, id), {}, {}};
+      Output out{filled(path, {{kPlaceOfId, id}}), {}, {}};
       if (!options.job.fair) {
         out.text = branch_csv(made, i, k);
         files.push_back(std::move(out));

@@ -281,6 +281,22 @@ OBVID_API int obvid_alignment(const obvid_input* input, const obvid_input* heigh
 OBVID_API int obvid_cut(const obvid_input* const* inputs, size_t count, const char* options,
                         const obvid_run* run, obvid_files** files, char** report,
                         obvid_error** error);
+/* An integro-differential spline of a table: of a function (columns x and f), of points of a curve
+ * (option "curve"), or of a function of two variables (x, y and f). `table`, and `against`, more
+ * places of the same function that errors are measured by (NULL: none), are those of
+ * obvid_read_text and obvid_read_file. `files`: the one of file extension `ending`, "csv", "json",
+ * "svg", "dxf" (of two variables "csv", "json"); `graph`: of two variables, else NULL. Each may be
+ * NULL: not wanted. */
+OBVID_API int obvid_spline(const obvid_input* table, const obvid_input* against,
+                           const char* options, const char* ending, const obvid_run* run,
+                           obvid_surface** graph, obvid_files** files, char** report,
+                           obvid_error** error);
+/* A NURBS curve of control points, weights and knots (columns x, y, z, w), or the surface of a net
+ * (row and col, too): `surface`, else NULL. `files`: of a curve, the one of file extension `ending`:
+ * "csv", "json", "dxf", "step", "iges", "brep". Each may be NULL: not wanted. */
+OBVID_API int obvid_nurbs_make(const obvid_input* table, const char* options, const char* ending,
+                               const obvid_run* run, obvid_surface** surface, obvid_files** files,
+                               char** report, obvid_error** error);
 OBVID_API size_t obvid_surface_patches(const obvid_surface* surface);
 /* NULL beyond the last. */
 OBVID_API const char* obvid_surface_warning(const obvid_surface* surface, size_t warning);

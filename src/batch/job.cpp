@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "obvid/core/files.h"
+#include "obvid/core/internal/name_pattern.h"
 #include "obvid/obvid.h"
 #include "report_figures.h"
 #include "source.h"
@@ -343,19 +344,7 @@ std::string name_of_file(const std::string& pattern, const std::string& id, std:
       safe += id[i];
     }
   }
-  std::string out;
-  for (std::size_t at = 0; at < pattern.size();) {
-    if (pattern.compare(at, 4, "{id}") == 0) {
-      out += safe;
-      at += 4;
-    } else if (pattern.compare(at, 8, "{number}") == 0) {
-      out += std::to_string(number);
-      at += 8;
-    } else {
-      out += pattern[at++];
-    }
-  }
-  return out;
+  return filled(pattern, {{kPlaceOfId, safe}, {kPlaceOfNumber, std::to_string(number)}});
 }
 
 Job::Job(JobSpec spec) : spec_(std::move(spec)), columns_(columns_of_job(spec_.job)) {}
@@ -379,8 +368,7 @@ Result<Job> Job::make(JobSpec spec) {
   }
   for (const std::string* pattern : {&spec.reports, spec.each.empty() ? nullptr : &spec.each[0]}) {
     if (pattern == nullptr || pattern->empty()) continue;
-    if (pattern->find("{id}") == std::string::npos &&
-        pattern->find("{number}") == std::string::npos) {
+    if (!has_place(*pattern, kPlaceOfId) && !has_place(*pattern, kPlaceOfNumber)) {
       return fail({ErrorCode::kBadOption, "all items would be the same file", *pattern,
                    "put {id} or {number} into the name"});
     }

@@ -102,13 +102,14 @@ int report_on_points(const obvid_input* input, const char* options, const Known&
   });
 }
 
-Result<std::string> drawing_report(const obvid_input& input, const Request& request) {
+Result<std::string> drawing_report(const obvid_input& input, const Request& request,
+                                   const RunContext& run) {
   Result<Drawing> drawing = drawing_of(input, request);
   OBVID_TRY(drawing);
   if (request.units) {
     if (auto told = take_units(drawing->units, *request.units)) drawing->warnings.push_back(*told);
   }
-  const auto all = analyse_drawing(std::move(*drawing), request.import, input.name);
+  const auto all = analyse_drawing(std::move(*drawing), request.import, input.name, run);
   OBVID_TRY(all);
   const auto& points = all->points;
   return audit_json(all->drawing, all->audits,
@@ -122,7 +123,8 @@ Result<std::string> points_report(PointSeries& series) {
   return series_report_json(series, *analysis);
 }
 
-Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const Request& request) {
+Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const Request& request,
+                                                 const RunContext& run) {
   auto out = std::make_unique<obvid_contour>();
   // a contour that is placed anew is a drawing: its claims spoke of another place
   const bool placed = !input.points && !request.import.placement.changes_nothing();
@@ -130,9 +132,9 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
                        (!input.points && is_drawing_text(input.text, input.name) &&
                         file_kind(input.text) != FileKind::kContour);
   if (foreign) {
-    const Result<Drawing> drawing = drawing_of(input, request);
+    Result<Drawing> drawing = drawing_of(input, request);
     OBVID_TRY(drawing);
-    auto drawn = drawn_contour(*drawing, request.import, input.name);
+    auto drawn = drawn_contour(std::move(*drawing), request.import, input.name, run);
     OBVID_TRY(drawn);
     out->stored = std::move(drawn->stored);
     out->name = std::move(drawn->name);
@@ -228,25 +230,28 @@ int obvid_suggest(const obvid_input* input, const char* options, const obvid_run
 
 int obvid_series(const obvid_input* input, const char* options, const obvid_run* run, char** report,
                  obvid_error** error) {
-  (void)run;  // takes no longer than reading
-  return report_on_points(input, options, kImporting, report, error,
-                          [](PointSeries& series, const Request& /*request*/) {
-                            return Result<std::string>(series_json(series));
-                          });
+  return report_on_points(
+      input, options, kImporting, report, error,
+      [&](PointSeries& series, const Request& /*request*/) -> Result<std::string> {
+        OBVID_TRY(may_go_on(context_of(run)));  // it takes no longer than reading
+        return series_json(series);
+      });
 }
 
 int obvid_analyse(const obvid_input* input, const char* options, const obvid_run* run,
                   char** report, obvid_error** error) {
-  (void)run;  // takes no longer than reading
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kImporting);
     OBVID_TRY(request);
+    const RunContext context = context_of(run);
+    OBVID_TRY(may_go_on(context));
     Result<std::string> text = [&]() -> Result<std::string> {
       const bool drawing =
           input->by_path || (!input->points && is_drawing_text(input->text, input->name));
-      if (drawing) return drawing_report(*input, *request);
+      if (drawing) return drawing_report(*input, *request, context);
       Result<PointSeries> series = series_of(*input, *request, false);
       OBVID_TRY(series);
+      OBVID_TRY(may_go_on(context));
       return points_report(*series);
     }();
     OBVID_TRY(text);
@@ -410,11 +415,12 @@ int obvid_compare_curves(const obvid_input* const* inputs, size_t count, const c
 
 int obvid_stored(const obvid_input* input, const char* options, const obvid_run* run,
                  obvid_contour** contour, obvid_error** error) {
-  (void)run;
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kImporting);
     OBVID_TRY(request);
-    auto out = stored_of(*input, *request);
+    const RunContext context = context_of(run);
+    OBVID_TRY(may_go_on(context));
+    auto out = stored_of(*input, *request, context);
     OBVID_TRY(out);
     if (request->units) (void)take_units((*out)->stored.contour.units, *request->units);
     *contour = out->release();

@@ -115,10 +115,13 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
                    "possible are " + known_surface_endings()});
     }
     request->formats.lines = surface->lines;
-    SurfaceExporter exporter(surface->model, request->formats, context_of(run));
+    const RunContext context = context_of(run);
+    OBVID_TRY(may_go_on(context));
+    SurfaceExporter exporter(surface->model, request->formats, context);
     auto out = std::make_unique<obvid_files>();
     auto text = exporter.text(*format, out->remarks);
     OBVID_TRY(text);
+    OBVID_TRY(may_go_on(context));
     out->files.push_back({"", std::move(*text)});
     out->remarks.insert(out->remarks.end(), exporter.warnings().begin(), exporter.warnings().end());
     *files = out.release();
@@ -150,19 +153,26 @@ int obvid_surface_cut(const obvid_surface* surface, const char* options, const o
   return guarded(error, [&]() -> Result<void> {
     const auto request = surface_request_of(options, kSections);
     OBVID_TRY(request);
-    auto made = cut_surface(surface->model, request->cut, context_of(run));
+    const RunContext context = context_of(run);
+    auto made = cut_surface(surface->model, request->cut, context);
     OBVID_TRY(made);
-    if (report != nullptr) *report = text_of(surface_cut_json(*made, {}, false));
+    std::unique_ptr<obvid_files> out;
     if (files != nullptr) {
-      auto out = std::make_unique<obvid_files>();
+      out = std::make_unique<obvid_files>();
       const Sketch sketch = lines_drawing(*made, surface->model.name);
+      OBVID_TRY(may_go_on(context));
       out->files.push_back({".json", surface_cut_json(*made, {}, true)});
+      OBVID_TRY(may_go_on(context));
       out->files.push_back({".csv", sections_csv(*made)});
+      OBVID_TRY(may_go_on(context));
       out->files.push_back({".svg", sketch_svg(sketch)});
+      OBVID_TRY(may_go_on(context));
       out->files.push_back({".dxf", sketch_dxf(sketch)});
       out->remarks = made->warnings;
-      *files = out.release();
     }
+    OBVID_TRY(may_go_on(context));
+    if (report != nullptr) *report = text_of(surface_cut_json(*made, {}, false));
+    if (files != nullptr) *files = out.release();
     if (const auto failed = not_proved(*made)) return fail(*failed);
     return {};
   });

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <system_error>
@@ -20,13 +22,19 @@ class Share {
 
   void take_all() {
     for (std::size_t i = next_++; i < count_ && !failed_; i = next_++) {
-      try {
-        work_(i);
-      } catch (...) {
-        const std::scoped_lock lock(mutex_);
-        if (!failed_) first_ = std::current_exception();
-        failed_ = true;
-      }
+      guarded([&] { work_(i); });
+    }
+  }
+
+  /// What it throws is kept, and ends the work of all.
+  template <class Call>
+  void guarded(const Call& call) {
+    try {
+      call();
+    } catch (...) {
+      const std::scoped_lock lock(mutex_);
+      if (!failed_) first_ = std::current_exception();
+      failed_ = true;
     }
   }
 
@@ -43,36 +51,80 @@ class Share {
   std::exception_ptr first_;
 };
 
-}  // namespace
+/// Between two questions of the thread that waits for others.
+constexpr std::chrono::milliseconds kBetweenQuestions{5};
 
-void in_parallel(std::size_t count, std::size_t threads,
-                 const std::function<void(std::size_t)>& work) {
+/// `meanwhile`, unless empty, is called again and again while others are still at work.
+void shared_out(std::size_t count, std::size_t threads,
+                const std::function<void(std::size_t)>& work,
+                const std::function<void()>& meanwhile) {
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
   Share share(count, work);
   std::vector<std::thread> helpers;
+  std::mutex mutex;
+  std::condition_variable one_ended;
+  std::size_t ended = 0;
   for (std::size_t k = 1; k < std::min(threads, count); ++k) {
     try {
-      helpers.emplace_back([&share] { share.take_all(); });
+      helpers.emplace_back([&] {
+        share.take_all();
+        const std::scoped_lock lock(mutex);
+        ++ended;
+        one_ended.notify_one();
+      });
     } catch (const std::system_error&) {
       break;  // the machine gives no more: the others do the work
     }
   }
   share.take_all();
+  if (meanwhile) {
+    std::unique_lock lock(mutex);
+    while (ended < helpers.size()) {
+      one_ended.wait_for(lock, kBetweenQuestions);
+      lock.unlock();
+      share.guarded(meanwhile);
+      lock.lock();
+    }
+  }
   for (std::thread& helper : helpers) helper.join();
   share.rethrow();
 }
 
+}  // namespace
+
+void in_parallel(std::size_t count, std::size_t threads,
+                 const std::function<void(std::size_t)>& work) {
+  shared_out(count, threads, work, {});
+}
+
 Result<void> in_parallel(std::size_t count, std::size_t threads, const RunContext& run,
-                         const std::function<void(std::size_t)>& work) {
+                         const std::function<void(std::size_t, const RunContext&)>& work) {
+  if (!run.cancelled) {
+    in_parallel(count, threads, [&](std::size_t i) { work(i, {}); });
+    return {};
+  }
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> stopped{false};
-  in_parallel(count, threads, [&](std::size_t i) {
+  const auto ask = [&] {
+    if (!stopped && run.cancelled()) stopped = true;
+    return stopped.load();
+  };
+  const RunContext asking{Progress{}, ask};
+  const RunContext told{Progress{}, [&] { return stopped.load(); }};
+  const auto one = [&](std::size_t i) {
     if (stopped) return;
-    work(i);
-    if (std::this_thread::get_id() == caller && !may_go_on(run)) stopped = true;
-  });
+    const bool here = std::this_thread::get_id() == caller;
+    work(i, here ? asking : told);
+    if (here) ask();
+  };
+  shared_out(count, threads, one, ask);
   if (stopped) return fail(cancelled_error());
   return {};
+}
+
+Result<void> in_parallel(std::size_t count, std::size_t threads, const RunContext& run,
+                         const std::function<void(std::size_t)>& work) {
+  return in_parallel(count, threads, run, [&](std::size_t i, const RunContext&) { work(i); });
 }
 
 }  // namespace obvid

@@ -15,6 +15,7 @@
 #include "cut_text.h"
 #include "cut_time.h"
 #include "obvid/core/internal/figures.h"
+#include "obvid/core/internal/inch.h"
 #include "obvid/core/version.h"
 #include "obvid/cutting/cutting.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
@@ -25,7 +26,6 @@ namespace {
 
 using namespace cutting;
 
-constexpr double kMmPerInch = 25.4;
 constexpr double kHalfTurn = 180.0;        // degrees
 constexpr double kSecondsOfMinute = 60.0;  // s
 

@@ -9,13 +9,13 @@
 #include <map>
 #include <utility>
 
-#include "blade_table.h"
 #include "matrix_names.h"
 #include "number_rows.h"
 #include "obvid/core/files.h"
 #include "obvid/io/internal/read_grid.h"
 #include "obvid/io/read_points.h"
 #include "offset_table.h"
+#include "read_blade_table.h"
 
 namespace obvid {
 namespace {

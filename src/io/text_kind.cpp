@@ -165,4 +165,6 @@ FileKind file_kind(std::string_view text) {
   return FileKind::kOther;
 }
 
+bool is_json_text(std::string_view text) { return text::starts(text::skip_space(text), "{"); }
+
 }  // namespace obvid

@@ -3,32 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
+#include "obvid/core/internal/typed_numbers.h"
+
 namespace obvid {
-namespace {
-
-/// Finite numbers between colons; empty when one is none.
-std::vector<double> numbers_of(std::string_view text) {
-  std::vector<double> out;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(':', at), text.size());
-    double value = 0.0;
-    const auto read = std::from_chars(text.data() + at, text.data() + end, value);
-    if (read.ec != std::errc{} || read.ptr != text.data() + end || !std::isfinite(value)) return {};
-    out.push_back(value);
-    at = end + 1;
-  }
-  return out;
-}
-
-}  // namespace
-
 std::size_t PlaneRow::count() const {
   constexpr double kPartOfStep = 1e-9;  // of a step: 0:0.1:1 has eleven planes
   return static_cast<std::size_t>(std::floor((to - from) / step + kPartOfStep)) + 1;
@@ -38,7 +19,9 @@ Result<PlaneRow> plane_row_named(const std::string& text) {
   const Error wrong{ErrorCode::kBadOption, "'" + text + "' names no planes", "--cut",
                     "write z=FROM:STEP:TO, z=0:0.5:100, or z=12 for one plane"};
   if (text.size() < 3 || text[1] != '=' || text[0] < 'x' || text[0] > 'z') return fail(wrong);
-  const std::vector<double> numbers = numbers_of(std::string_view(text).substr(2));
+  const auto typed = typed_numbers(std::string_view(text).substr(2), ':');
+  if (!typed) return fail(wrong);
+  const std::vector<double>& numbers = *typed;
   PlaneRow out;
   out.axis = text[0];
   constexpr double kMostPlanes = 1e7;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "begun_at_first_point.h"
 #include "fair_across.h"
+#include "loop_start.h"
 #include "obvid/surface/internal/collocation.h"
 #include "obvid/surface_builders/internal/grid.h"
 #include "obvid/surface_builders/internal/lighten.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "families.h"
 #include "obvid/core/internal/parallel.h"
+#include "pass_families.h"
 
 namespace obvid::toolpath {
 namespace {

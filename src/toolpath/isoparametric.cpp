@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "families.h"
+#include "pass_families.h"
 
 namespace obvid::toolpath {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "families.h"
+#include "pass_families.h"
 
 namespace obvid::toolpath {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "families.h"
 #include "machine_units.h"
 #include "moves.h"
 #include "obvid/toolpath/toolpath.h"
+#include "pass_families.h"
 #include "program_check.h"
 #include "scallop_survey.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "families.h"
+#include "pass_families.h"
 
 namespace obvid::toolpath {
 

@@ -19,6 +19,7 @@
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/fit.h"
+#include "obvid/pipeline/import.h"
 
 namespace obvid {
 namespace {
@@ -40,7 +41,7 @@ class CadFiles : public testing::Test {
     OBVID_TRY(text);
     const fs::path file = folder_ / "file.cad";
     std::ofstream(file, std::ios::binary) << *text;
-    EXPECT_TRUE(is_cad_text(*text));
+    EXPECT_TRUE(needs_cad(*text));
     return read_cad(file.string());
   }
 

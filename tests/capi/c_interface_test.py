@@ -287,6 +287,128 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
             lib.obvid_files_free(files)
             lib.obvid_contour_free(contour)
 
+    def made_of_table(self, function, inputs, ending, options=None, run=None):
+        """Report, text of the file of `ending`, and the surface."""
+        surface, files, report, size = C.c_void_p(), C.c_void_p(), C.c_void_p(), C.c_size_t()
+        chosen = json.dumps(options).encode() if options is not None else None
+        said = call(function, *inputs, chosen, None if ending is None else ending.encode(),
+                    C.byref(run) if run else None, C.byref(surface), C.byref(files), C.byref(report), report=report)
+        text = None
+        if ending is not None:
+            text = C.string_at(lib.obvid_files_data(files, C.c_size_t(0), C.byref(size)), size.value).decode()
+            lib.obvid_files_free(files)
+        return said, text, surface
+
+    def files_of_table(self, function, inputs, options, endings, *typed):
+        """Report and files are those of the command line."""
+        self.same(self.made_of_table(function, inputs, None, options)[0], *typed, "--json")
+        with tempfile.TemporaryDirectory() as folder:
+            for ending in endings:
+                name = os.path.join(folder, "made." + ending)
+                program(*typed, "-o", name)
+                _, ours, _ = self.made_of_table(function, inputs, ending, options)
+                with open(name, newline="", encoding="utf-8") as file:
+                    self.assertEqual(ours, file.read(), ending)
+
+    def test_splines(self):
+        tables = {"t.csv": "x,f,integral\n0,0,0.45\n1,0.84,0.95\n2,0.9,\n", "fine.csv": "x,f\n0.5,0.48\n1.5,0.99\n",
+                  "rail.csv": "x,y,z\n0,0,0\n1,0,0.1\n2,0.3,0.3\n3,1,0.6\n4,2,1\n",
+                  "g.csv": "x,y,f\n0,0,0\n1,0,1\n2,0,4\n0,1,1\n1,1,2\n2,1,5\n"}
+        with tempfile.TemporaryDirectory() as folder:
+            paths = {name: os.path.join(folder, name) for name in tables}
+            for name, text in tables.items():
+                with open(paths[name], "w", encoding="ascii") as file:
+                    file.write(text)
+            t, fine, rail, grid = (paths[name] for name in tables)
+            whole = ["csv", "json", "svg", "dxf"]
+            self.files_of_table(lib.obvid_spline, [read(t), None], {}, whole, "spline", t)
+            self.files_of_table(lib.obvid_spline, [read(t), read(fine)],
+                                {"degree": 4, "smooth": "values-free", "compare": True, "samples": 11, "tolerance": 1e-3},
+                                whole, "spline", t, "--against", fine, "--degree", "4", "--smooth", "values-free",
+                                "--compare", "--samples", "11", "--tolerance", "1e-3")
+            self.files_of_table(lib.obvid_spline, [read(rail), None], {"curve": True}, whole, "spline", rail, "--curve")
+            self.files_of_table(lib.obvid_spline, [read(grid), None], {"smooth": "values-free"}, ["csv", "json"], "spline",
+                                grid, "--smooth", "values-free")
+            _, _, graph = self.made_of_table(lib.obvid_spline, [read(grid), None], None)
+            for ending in ["stl", "json"]:
+                name = os.path.join(folder, "graph." + ending)
+                program("spline", grid, "-o", name)
+                if ending == "stl":  # .json of the command line is the spline's own
+                    with open(name, "rb") as file:
+                        self.assertEqual(surface_file(graph, ending), file.read())
+            lib.obvid_surface_free(graph)
+            for inputs, ending, options, code in (
+                    ([read(grid), None], None, {"degree": 4}, 203), ([read(t), None], None, {"degree": 5}, 203),
+                    ([read(t), None], "step", None, 202), ([points([(0, 0), (1, 1), (2, 0)]), None], None, None, 201),
+                    ([read(t), None], None, {"samples": 1}, 203), ([read(t), None], None, {"smooth": "weak"}, 203),
+                    ([None, None], None, None, 201)):
+                with self.assertRaises(Failed) as refused:
+                    self.made_of_table(lib.obvid_spline, inputs, ending, options)
+                self.assertEqual(refused.exception.code, code, refused.exception)
+
+    def test_control_points(self):
+        curve = "x,y\n0,0\n1,2\n3,3\n5,3\n7,2\n8,0\n"
+        net = "row,col,x,y,z\n0,0,0,0,0\n0,1,1,0,1\n1,0,0,1,0\n1,1,1,1,3\n"
+        with tempfile.TemporaryDirectory() as folder:
+            c, n = os.path.join(folder, "c.csv"), os.path.join(folder, "n.csv")
+            for name, text in ((c, curve), (n, net)):
+                with open(name, "w", encoding="ascii") as file:
+                    file.write(text)
+            whole = ["csv", "json", "dxf", "step"]
+            self.files_of_table(lib.obvid_nurbs_make, [read(c)], {}, whole, "nurbs", c)
+            self.files_of_table(lib.obvid_nurbs_make, [read(c)],
+                                {"degree": 2, "knots": "0,0,0,1,2,4,5,5,5", "weight-at": {"2": 3}, "move": {"4": 0.8},
+                                 "units": "in", "samples": 7}, whole, "nurbs", c, "--degree", "2", "--knots",
+                                "0,0,0,1,2,4,5,5,5", "--weight-at", "2=3", "--move", "4=0.8", "--units", "in",
+                                "--samples", "7")
+            said, _, patch = self.made_of_table(lib.obvid_nurbs_make, [read(n)], None, {"units": "cm"})
+            self.same(said, "nurbs", n, "--units", "cm", "--json")
+            for ending in ["json", "stl", "obj"]:
+                name = os.path.join(folder, "net." + ending)
+                program("nurbs", n, "--units", "cm", "-o", name)
+                with open(name, "rb") as file:
+                    self.assertEqual(surface_file(patch, ending), file.read(), ending)
+            lib.obvid_surface_free(patch)
+            for source, ending, options, code in (
+                    (c, None, {"knots": "0,1"}, 203), (c, None, {"move": {"2": 1}}, 203), (c, "stl", None, 202),
+                    (n, "step", None, 202), (c, None, {"degree": 10}, 203), (c, None, {"units": "smoots"}, 203)):
+                with self.assertRaises(Failed) as refused:
+                    self.made_of_table(lib.obvid_nurbs_make, [read(source)], ending, options)
+                self.assertEqual(refused.exception.code, code, refused.exception)
+
+    def test_series_has_the_points_and_what_is_given(self):
+        """No command prints it alone: the points are those of the file, by themselves and in analyse."""
+        with open(SERIES, encoding="utf-8") as file:
+            rows = [tuple(map(float, line.split(",")[:2])) for line in file if line[:1] in "-0123456789"]
+        said = json.loads(job("series", read(SERIES)))
+        self.assertEqual([tuple(p) for p in said["points"]], rows)
+        moved = json.loads(job("series", points([(0, 0), (1, 2), (3, 1)]), {"move": "10,-5", "scale": 2}))
+        self.assertEqual(moved["points"], [[10, -5], [12, -1], [16, -3]])
+        given = json.loads(job("series", text_input("x,y,heading_deg\n0,0,90\n1,2,\n3,1,\n")))["given"]
+        self.assertEqual([(one["point"], one["heading"]) for one in given], [(0, 0.5 * math.pi)])
+
+    def test_curves_over_each_other(self):
+        pair = [os.path.join(SOURCES, "examples", name) for name in ("naca2412.dat", "wing_template.dat")]
+        with tempfile.TemporaryDirectory() as folder:
+            for options, typed in (({"noise": "rounding"}, ["--noise", "rounding"]),
+                                   ({"noise": "rounding", "align": "chord", "enlarge": 40},
+                                    ["--noise", "rounding", "--align", "chord", "--enlarge", "40"])):
+                picture, places = os.path.join(folder, "d.svg"), os.path.join(folder, "d.csv")
+                program("compare", *pair, *typed, "-o", picture, "-o", places)
+                files, report, size = C.c_void_p(), C.c_void_p(), C.c_size_t()
+                ours = call(lib.obvid_compare_curves, (C.c_void_p * 2)(*[read(one).value for one in pair]),
+                            C.c_size_t(2), json.dumps(options).encode(), None, C.byref(files), C.byref(report),
+                            report=report)
+                self.same(ours, "compare", *pair, *typed, "--json")
+                lib.obvid_files_suffix.restype = C.c_char_p
+                made = {lib.obvid_files_suffix(files, C.c_size_t(k)).decode(): C.string_at(
+                    lib.obvid_files_data(files, C.c_size_t(k), C.byref(size)), size.value)
+                    for k in range(lib.obvid_files_count(files))}
+                for suffix, name in ((".svg", picture), (".csv", places)):
+                    with open(name, "rb") as file:
+                        self.assertEqual(made[suffix], file.read(), suffix)
+                lib.obvid_files_free(files)
+
     def test_files_with_options(self):
         with tempfile.TemporaryDirectory() as folder:
             name = os.path.join(folder, "contour.nc")
@@ -713,6 +835,39 @@ class Surfaces(unittest.TestCase):
                     handle, report, failed = surface(kind, inputs, options)
                     self.assertEqual(timeless(report), timeless(told))
                     self.assertEqual(failed, None)
+                    lib.obvid_surface_free(handle)
+
+    def test_nets_of_curves_and_offsets_are_those_of_the_command_line(self):
+        """Curves of the surface z = x y / 10 over [0, 30] x [0, 20]."""
+        def along(y):
+            return [(x, y, 0.1 * x * y) for x in range(0, 31, 5)]
+
+        def across(x):
+            return [(x, y, 0.1 * x * y) for y in range(0, 21, 5)]
+        with tempfile.TemporaryDirectory() as folder:
+            def stored(name, rows):
+                path = os.path.join(folder, name)
+                with open(path, "w", encoding="ascii") as file:
+                    file.write(table(rows))
+                return path
+            us = [stored(f"u{y}.csv", along(y)) for y in (0, 10, 20)]
+            vs = [stored(f"v{x}.csv", across(x)) for x in (0, 15, 30)]
+            grid = os.path.join(folder, "grid.json")
+            program("surface", "grid", self.example("wavy_grid.csv"), "-o", grid)
+            for kind, inputs, second, options, typed in (
+                    ("coons", [us[0], vs[2], us[2], vs[0]], [], None, []), ("gordon", us, vs, None, ["--across", *vs]),
+                    ("offset", [grid], [], {"distance": 0.5}, ["--distance", "0.5"])):
+                with self.subTest(kind=kind):
+                    told, _ = program("surface", kind, *inputs, *typed, "--json")
+                    handle, report, failed = surface(kind, [read(one) for one in inputs], options,
+                                                     [read(one) for one in second])
+                    self.assertEqual(failed, None)
+                    self.assertEqual(timeless(report), timeless(told))
+                    for ending in ("json", "obj"):
+                        name = os.path.join(folder, "made." + ending)
+                        program("surface", kind, *inputs, *typed, "-o", name)
+                        with open(name, "rb") as file:
+                            self.assertEqual(surface_file(handle, ending), file.read(), ending)
                     lib.obvid_surface_free(handle)
 
     def test_files_are_those_of_the_command_line(self):

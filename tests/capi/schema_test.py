@@ -223,6 +223,18 @@ class Reports(unittest.TestCase):
             self.holds("compare_curves", json.loads(c.call(c.lib.obvid_compare_curves, pair, C.c_size_t(2), options, None,
                                                            None, C.byref(text), report=text)))
 
+    def test_of_splines_and_control_points(self):
+        grid_table = "x,y,f\n0,0,0\n1,0,1\n0,1,1\n1,1,2\n"
+        for text, options in (("x,f\n0,0\n1,1\n2,0\n", None), ("x,f\n0,0\n1,1\n2,0\n", b'{"compare": true}'),
+                              ("x,y,z\n0,0,0\n1,1,0\n2,0,1\n", b'{"curve": true}'), (grid_table, None)):
+            out = C.c_void_p()
+            self.holds("spline", json.loads(c.call(c.lib.obvid_spline, c.text_input(text), None, options, None, None, None,
+                                                   None, C.byref(out), report=out)))
+        for text in ("x,y\n0,0\n1,2\n3,3\n", "row,col,x,y,z\n0,0,0,0,0\n0,1,1,0,1\n1,0,0,1,0\n1,1,1,1,3\n"):
+            out = C.c_void_p()
+            self.holds("nurbs_make", json.loads(c.call(c.lib.obvid_nurbs_make, c.text_input(text), None, None, None, None,
+                                                       None, C.byref(out), report=out)))
+
     def test_of_cutting(self):
         inputs = (C.c_void_p * 1)(c.read(example("plate.dxf")).value)
         files, out = C.c_void_p(), C.c_void_p()
@@ -275,6 +287,8 @@ class Options(unittest.TestCase):
         yield "surface_check", lambda o: c.call(lib.obvid_surface_check, surface, o, None, ref(text))
         yield "alignment", lambda o: c.call(lib.obvid_alignment, points, None, o, None, None, ref(out), ref(text))
         yield "compare_curves", lambda o: c.call(lib.obvid_compare_curves, inputs, C.c_size_t(1), o, None, ref(out), ref(text))
+        yield "spline", lambda o: c.call(lib.obvid_spline, points, None, o, None, None, None, None, ref(text))
+        yield "nurbs_make", lambda o: c.call(lib.obvid_nurbs_make, points, o, None, None, None, None, ref(text))
         yield "cut", lambda o: c.call(lib.obvid_cut, inputs, C.c_size_t(1), o, None, ref(out), ref(text))
         yield "surface_cut", lambda o: c.call(lib.obvid_surface_cut, surface, o, None, ref(out), ref(text))
         yield "surface_toolpath", lambda o: c.call(lib.obvid_surface_toolpath, surface, o, None, ref(out), ref(text))
@@ -300,12 +314,14 @@ class Options(unittest.TestCase):
                     ("cut",): names_of("cut"), ("alignment",): names_of("alignment"),
                     ("toolpath",): names_of("surface_toolpath") | names_of("surface_export"),
                     ("region",): names_of("region"), ("compare",): names_of("compare_curves") | names_of("export"),
-                    ("analyse",): names_of("analyse") | names_of("export"), ("verify",): set()}
+                    ("analyse",): names_of("analyse") | names_of("export"), ("verify",): set(),
+                    ("spline",): names_of("spline") | {"against"}, ("nurbs",): names_of("nurbs_make")}
         every = set()
         for command, known in commands.items():
             with self.subTest(command=command):
                 self.assertEqual(typed(*command) - known, set())
-        for command in [("fit",), ("region",), ("compare",), ("convert",), ("toolpath",), ("cut",), ("alignment",),
+        for command in [("fit",), ("region",), ("compare",), ("convert",), ("toolpath",), ("cut",), ("alignment",), ("spline",),
+                        ("nurbs",),
                         ("surface", "check"), ("surface", "cut")] + [
                 ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "scatter", "offset")]:
             every |= typed(*command)

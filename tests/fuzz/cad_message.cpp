@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes from the helper for STEP, IGES and BREP give a drawing, surfaces or a text that can be
 // worked with, or an error; any bytes sent to it give a job or none.
-#include "cad/client/message.h"
+#include "cad/client/helper_message.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "../common/shared_data.h"
-#include "blade_table.h"
 #include "obvid/io/read_sections.h"
+#include "read_blade_table.h"
 
 namespace obvid {
 namespace {

@@ -37,7 +37,7 @@ import obvid  # noqa: E402
 import obvid.contour  # noqa: E402
 import obvid.jobs  # noqa: E402
 import obvid.space  # noqa: E402
-import obvid.surfaces  # noqa: E402
+import obvid.splines  # noqa: E402
 
 SERIES = os.path.join(SOURCES, "examples/series10.csv")
 SECONDS = re.compile(r'"seconds": [0-9.e+-]+')
@@ -223,6 +223,33 @@ class AgainstTheProgram(unittest.TestCase):
                 obvid.compare_curves(paths, os.path.join(folder, "a.step"), noise="rounding")
         with self.assertRaises(obvid.UsageError):
             obvid.compare_curves(paths[:1], noise="rounding")
+
+    def test_splines_and_control_points_are_those_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tables = {"f.csv": "x,f,integral\n0,0,0.45\n1,0.84,0.95\n2,0.9,\n", "c.csv": "x,y\n0,0\n1,2\n3,3\n5,3\n7,2\n8,0\n",
+                      "g.csv": "x,y,f\n0,0,0\n1,0,1\n0,1,1\n1,1,2\n", "p.csv": "x,y,z\n0,0,0\n1,0,0.1\n2,0.3,0.3\n3,1,0.6\n"}
+            for name, text in tables.items():
+                pathlib.Path(folder, name).write_text(text, encoding="ascii")
+            at = {name: os.path.join(folder, name) for name in tables}
+            for ours, typed in (
+                    (lambda: obvid.spline(at["f.csv"], degree=4, compare=True), ("spline", at["f.csv"], "--degree", "4", "--compare")),
+                    (lambda: obvid.spline(at["p.csv"], curve=True), ("spline", at["p.csv"], "--curve")),
+                    (lambda: obvid.spline(at["g.csv"], smooth="values-free"), ("spline", at["g.csv"], "--smooth", "values-free")),
+                    (lambda: obvid.nurbs(at["c.csv"], move={3: 0.8}, degree=2), ("nurbs", at["c.csv"], "--move", "4=0.8", "--degree", "2"))):
+                made = ours()
+                self.assertEqual(made.report, json.loads(program(*typed, "--json")[0]))
+                for ending in ("csv", "json") if made.surface else ("csv", "json", "dxf"):
+                    name, mine = (os.path.join(folder, f"{who}.{ending}") for who in ("theirs", "ours"))
+                    program(*typed, "-o", name)
+                    made.write(mine)
+                    self.assertEqual(pathlib.Path(mine).read_bytes(), pathlib.Path(name).read_bytes())
+            columns = obvid.spline({"x": [0, 1, 2], "f": [0, 0.84, 0.9], "integral": [0.45, 0.95]}, degree=4, compare=True)
+            told = json.loads(program("spline", at["f.csv"], "--degree", "4", "--compare", "--json")[0])
+            self.assertEqual({**columns.report, "name": told["name"]}, told)
+        for work in (lambda: obvid.spline([1, 2, 3]), lambda: obvid.spline([[1, 2, 3, 4]]), lambda: obvid.nurbs([(0, 0), (1, 1)], move={0: 0.5}),
+                     lambda: obvid.spline({"x": [0, 1]}), lambda: obvid.spline([(0, 0), (1, 1)], cancelled=3)):
+            with self.assertRaises((ValueError, TypeError)):
+                work()
 
     def test_constructions_are_those_of_the_program(self):
         path = os.path.join(SOURCES, "examples/paper_series10.csv")
@@ -834,7 +861,7 @@ class Surfaces(unittest.TestCase):
 
 class Documents(unittest.TestCase):
     def test_examples_of_the_docstrings(self):
-        for module in (obvid, obvid.jobs, obvid.contour, obvid.space, obvid.surfaces):
+        for module in (obvid, obvid.jobs, obvid.contour, obvid.space, obvid.splines, obvid.surfaces):
             result = doctest.testmod(module)
             self.assertEqual(result.failed, 0, module.__name__)
 

@@ -51,6 +51,7 @@ from .reports import (
     Table,
     Verification,
 )
+from .splines import Spline, nurbs, spline
 from .space import Corner, SpaceCurve, SpaceSamples, SpaceVerification
 from .surfaces import (
     Surface,
@@ -69,10 +70,10 @@ __all__ = [
     "Alignment", "Analysis", "BSpline", "CancelledError", "CarrierRow", "Certificate", "Contour",
     "Corner", "CutProgram", "DrawingAnalysis", "FitReport", "InputError", "InternalError", "NoContourError",
     "NotProvedError", "ObvidError", "Piece", "Samples", "Segment", "Source", "SpaceCurve",
-    "SpaceSamples", "SpaceVerification", "Suggestion", "Surface", "SurfaceBranch", "SurfaceCut",
+    "SpaceSamples", "SpaceVerification", "Spline", "Suggestion", "Surface", "SurfaceBranch", "SurfaceCut",
     "SurfaceSamples", "SurfaceSection", "Table", "Toolpath",
     "UsageError", "Verification",
-    "__version__", "alignment", "analyse", "compare", "compare_curves", "cut", "fit", "fit_many", "fit_space", "read", "read_contour",
-    "read_space", "read_surface", "read_text", "region", "skin", "suggest", "surface", "toolpath",
+    "__version__", "alignment", "analyse", "compare", "compare_curves", "cut", "fit", "fit_many", "fit_space", "nurbs", "read", "read_contour",
+    "read_space", "read_surface", "read_text", "region", "skin", "spline", "suggest", "surface", "toolpath",
     "verify", "why_not", "worksheet",
 ]  # fmt: skip

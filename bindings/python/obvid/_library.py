@@ -106,6 +106,8 @@ def _load() -> C.CDLL:
         "obvid_cut": (C.c_int, [handle, size, text, run, out, out, error]),
         "obvid_surface_toolpath": (C.c_int, [handle, text, run, out, out, error]),
         "obvid_surface_cut": (C.c_int, [handle, text, run, out, out, error]),
+        "obvid_spline": (C.c_int, [handle, handle, text, text, run, out, out, out, error]),
+        "obvid_nurbs_make": (C.c_int, [handle, text, text, run, out, out, out, error]),
         "obvid_surface_patches": (size, [handle]),
         "obvid_surface_warning": (text, [handle, size]),
         "obvid_surface_evaluate": (

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/import.h"
@@ -29,9 +30,10 @@ struct AnalysedDrawing {
 };
 
 /// The curve that `options` ask for, else the longest; the drawing is placed as they say. `where`
-/// stands in errors. Errors: E203 when there is no such curve.
+/// stands in errors. Errors: E203 when there is no such curve; E103, asked for each piece.
 [[nodiscard]] Result<AnalysedDrawing> analyse_drawing(Drawing drawing, const ImportOptions& options,
-                                                      const std::string& where);
+                                                      const std::string& where,
+                                                      const RunContext& run = {});
 
 /// Says where the rounding of the coordinates decides which way the curvature changes.
 void add_rounding_warning(PointSeries& series, const Analysis& analysis);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "obvid/certify/certificate.h"
+#include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/curve/contour.h"
 #include "obvid/exchange/drawing.h"
 
@@ -68,5 +70,12 @@ struct CurveAudit {
 /// of the larger curvature. Places are found at 200 samples of each piece and refined: narrower
 /// swings are counted, not placed.
 [[nodiscard]] CurveAudit audit(const DrawnCurve& curve, const Units& units);
+/// The same of work that may be stopped: asks for each piece. Error: E103.
+[[nodiscard]] Result<CurveAudit> audit(const DrawnCurve& curve, const Units& units,
+                                       const RunContext& run);
+
+/// The contour alone that an audit speaks of: pieces, what is straight but for rounding straight,
+/// with joints; without runs and without a proof of anything.
+[[nodiscard]] Contour contour_as_drawn(const DrawnCurve& curve, const Units& units);
 
 }  // namespace obvid

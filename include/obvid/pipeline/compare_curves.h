@@ -40,7 +40,8 @@ struct CurveInput {
 [[nodiscard]] Result<CurveInput> formed_curve(const PointSeries& series, const FitJob& job,
                                               const RunContext& run = {});
 /// A curve that is drawn, as it is. Errors: those of `drawn_contour`.
-[[nodiscard]] Result<CurveInput> drawn_curve(Drawing drawing, const ReadCurveOptions& how);
+[[nodiscard]] Result<CurveInput> drawn_curve(Drawing drawing, const ReadCurveOptions& how,
+                                             const RunContext& run = {});
 /// Of a file: a list of points and series of points of drawings are formed, curves of drawings and
 /// stored contours are taken as they are (`DrawnUse::kPoints`: formed through points of them).
 /// Errors: those of reading, and of `fit`; `where` begins with the path.

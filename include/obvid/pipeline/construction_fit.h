@@ -12,8 +12,8 @@ namespace obvid {
 /// promises nothing beyond its points and tangents: the certificate says what it is. Steps of the
 /// curvature between its pieces are marked at their joints. Inserted points are joints without a
 /// source. `job.construction` is set.
-/// Errors: those of `region_table`; E401 where a conic would be no ellipse; E406 where it does not meet what was given (curvatures, with
-/// most of them).
+/// Errors: those of `region_table`; E401 where a conic would be no ellipse; E406 where it does not
+/// meet what was given (curvatures, with most of them).
 [[nodiscard]] Result<Fit> fit_construction(const PointSeries& series, const RegionJob& job,
                                            const RunContext& run = {});
 

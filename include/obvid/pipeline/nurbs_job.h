@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/core/units.h"
 #include "obvid/io/internal/read_columns.h"
 #include "obvid/surface/nurbs_surface.h"
+#include "obvid/surface/surface.h"
 
 namespace obvid {
 
@@ -58,16 +60,20 @@ struct NurbsReport {
 };
 
 /// Errors: E203 points that do not exist, weights and parts out of range, weights of a surface by
-/// options; those of `check` for knots and degrees.
-[[nodiscard]] Result<NurbsReport> nurbs_report(ControlTable table, const NurbsJob& job);
+/// options; those of `check` for knots and degrees; E103, asked for each control point.
+[[nodiscard]] Result<NurbsReport> nurbs_report(ControlTable table, const NurbsJob& job,
+                                               const RunContext& run = {});
 
 /// Everything as JSON: degrees, knots, points, weights and the rows.
 [[nodiscard]] std::string nurbs_json(const NurbsReport& report);
-/// u, x, y, z, curvature at `count` equal steps of the parameter of a curve.
+/// A net as a model of one patch; of a curve nothing.
+[[nodiscard]] std::optional<SurfaceModel> nurbs_surface(const NurbsReport& report,
+                                                        const Units& units);
 /// The curve in the format that the ending of `path` tells: .json, .csv (`samples` points), .dxf,
-/// .step, .iges, .brep. Errors: E202 no such format of a curve; those of the formats.
+/// .step, .iges, .brep. Errors: E202 no such format of a curve, or a net; those of the formats.
 [[nodiscard]] Result<std::string> nurbs_file(const NurbsReport& report, const std::string& path,
                                              const Units& units, std::size_t samples);
+/// u, x, y, z, curvature at `count` equal steps of the parameter of a curve.
 [[nodiscard]] std::string nurbs_samples_csv(const SpaceCurve& curve, std::size_t count);
 
 }  // namespace obvid

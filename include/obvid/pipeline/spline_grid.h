@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/idspline/internal/id_spline_2d.h"
 #include "obvid/io/internal/read_columns.h"
 #include "obvid/surface/surface.h"
@@ -55,9 +56,10 @@ struct GridSplineReport {
 };
 
 /// Forms the spline (`smooth`: C1, values give way), and the other choice beside it. Errors: those
-/// of `id_spline_2d`.
+/// of `id_spline_2d`; E103, asked between splines and every thousand places of `finer`.
 [[nodiscard]] Result<GridSplineReport> grid_spline_report(GridSplineInput input, bool smooth,
-                                                          const std::optional<GridPlaces>& finer);
+                                                          const std::optional<GridPlaces>& finer,
+                                                          const RunContext& run = {});
 
 /// The graph z = f(x, y) as a surface, exactly.
 [[nodiscard]] Result<SurfaceModel> graph_of(const GridSplineReport& report);

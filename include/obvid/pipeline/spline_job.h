@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/idspline/internal/id_spline.h"
 #include "obvid/io/internal/read_columns.h"
 
@@ -65,9 +66,10 @@ struct SplineReport {
 
 /// Forms the spline. `finer`: more places of the same function, or points of the same curve in the
 /// same order.
-/// Errors: those of `id_spline`.
+/// Errors: those of `id_spline`; E103, asked for each cell and each place of `finer`.
 [[nodiscard]] Result<SplineReport> spline_report(SplineInput input, const SplineJob& job,
-                                                 const std::optional<SplineInput>& finer);
+                                                 const std::optional<SplineInput>& finer,
+                                                 const RunContext& run = {});
 
 /// Values at `count` equal steps over the nodes: x or the parameter, then per dimension the value
 /// and its first and second derivative, then of a function the integral from the first node.

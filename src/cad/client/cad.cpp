@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "helper_file.h"
+#include "helper_message.h"
 #include "helper_process.h"
-#include "message.h"
 #include "obvid/exchange/internal/step/write.h"
 
 namespace obvid {
@@ -103,19 +103,6 @@ Result<std::string> cad_surface_text(const SurfaceModel& model, const CadWriteOp
 
 Result<CadSurfaces> read_cad_surfaces(const std::string& path, const CadRun& run) {
   return asked(cad::ReadFaces{path}, path, for_reading(run), &cad::unpacked_surfaces);
-}
-
-bool is_cad_text(std::string_view text) {
-  constexpr std::size_t kHead = 4096;
-  const std::string_view head = text.substr(0, kHead);
-  if (head.find("ISO-10303-21") != std::string_view::npos) return true;
-  if (head.find("DBRep_DrawableShape") != std::string_view::npos) return true;
-  if (head.find("CASCADE Topology") != std::string_view::npos) return true;
-  // IGES: column 73 of the first line says S, then the number 1
-  const std::string_view line = head.substr(0, head.find('\n'));
-  constexpr std::size_t kColumn = 72;
-  return line.size() > kColumn && line[kColumn] == 'S' &&
-         line.substr(kColumn + 1).find('1') != std::string_view::npos;
 }
 
 }  // namespace obvid

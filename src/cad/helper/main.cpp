@@ -20,8 +20,8 @@
 
 #include "cad_build_mark.h"
 #include "helper_file.h"
+#include "helper_message.h"
 #include "helper_process.h"
-#include "message.h"
 #include "read.h"
 #include "read_faces.h"
 #include "write.h"

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "faces.h"
+#include "file_text.h"
 #include "obvid/exchange/internal/step/letters.h"
-#include "shapes.h"
-#include "texts.h"
+#include "wires.h"
 
 namespace obvid::cad {
 Result<std::string> write_text(const std::vector<CadCurve>& curves,

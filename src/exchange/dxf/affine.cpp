@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dxf/shapes.h"
+#include "dxf/entity_shape.h"
 
 namespace obvid::dxf {
 namespace {

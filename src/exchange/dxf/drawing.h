@@ -9,7 +9,7 @@
 
 #include "dxf/chains.h"
 #include "dxf/document.h"
-#include "dxf/shapes.h"
+#include "dxf/entity_shape.h"
 #include "dxf/units.h"
 #include "obvid/exchange/drawing.h"
 

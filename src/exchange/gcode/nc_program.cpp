@@ -11,13 +11,14 @@
 #include <optional>
 #include <string>
 
+#include "obvid/core/internal/inch.h"
+
 namespace obvid::exchange {
 namespace {
 
 /// What controllers take for one radius: LinuxCNC's limits, others are no stricter.
 constexpr double kSameNcRadius = 0.002;  // mm
 constexpr double kSameNcRadiusPart = 1e-3;
-constexpr double kMmPerInch = 25.4;
 
 class Reader {
  public:

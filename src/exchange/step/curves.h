@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "step/file.h"
-#include "step/shapes.h"
+#include "step/piece_chain.h"
 
 namespace obvid::exchange {
 

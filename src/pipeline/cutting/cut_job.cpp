@@ -11,7 +11,7 @@
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
-#include "obvid/io/internal/json_text.h"
+#include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
 #include "obvid/pipeline/internal/job_values.h"
 
@@ -24,8 +24,8 @@ constexpr long kMostCount = 1000;           // of passes, tabs
 /// All curves of a drawing; those that are not asked for only say what lies in what.
 class Taken {
  public:
-  Taken(const ImportOptions& options, bool several, MadeCut& made)
-      : options_(options), several_(several), made_(made) {}
+  Taken(const ImportOptions& options, bool several, MadeCut& made, const RunContext& run)
+      : options_(options), several_(several), made_(made), run_(run) {}
 
   Result<void> add(const Drawing& drawing) {
     const std::size_t curves = drawing.curves.size();
@@ -56,7 +56,7 @@ class Taken {
   Result<void> add(const Drawing& drawing, std::size_t number, bool is_cut) {
     ImportOptions one = options_;
     one.curve = {number, {}, false};
-    auto drawn = drawn_contour(drawing, one, drawing.name);
+    auto drawn = drawn_contour(drawing, one, drawing.name, run_);
     OBVID_TRY(drawn);
     std::string name = drawn->name.empty() ? fmt::format("curve {}", number + 1) : drawn->name;
     if (several_) name = drawing.name + ": " + name;
@@ -67,6 +67,7 @@ class Taken {
   const ImportOptions& options_;
   bool several_;
   MadeCut& made_;
+  const RunContext& run_;
 };
 
 void add_polyline(SketchLayer& layer, const Piece& piece) {
@@ -88,12 +89,13 @@ Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& opt
                          const CutJob& job, const RunContext& run) {
   MadeCut made;
   std::vector<Units> units;
+  const RunContext asked{Progress{}, run.cancelled};  // its progress is that of the program
   for (Drawing& drawing : drawings) {
     if (job.units) {
       if (auto told = take_units(drawing.units, *job.units)) made.warnings.push_back(*told);
     }
     units.push_back(drawing.units);
-    OBVID_TRY(Taken(options, drawings.size() > 1, made).add(drawing));
+    OBVID_TRY(Taken(options, drawings.size() > 1, made, asked).add(drawing));
   }
   const auto common = common_units(units, "");
   OBVID_TRY(common);
@@ -182,9 +184,8 @@ std::string cut_json(const MadeCut& made) {
       .pair("short_of", r.short_of)
       .pair("spacing", r.spacing)
       .pair("left_in_corners", r.left_in_corners);
-  json.end_object().key("warnings").begin_array();
-  for (const std::string& warning : made.warnings) json.value(warning);
-  json.end_array().end_object();
+  json.end_object();
+  add_list(json, "warnings", made.warnings).end_object();
   return json.take();
 }
 

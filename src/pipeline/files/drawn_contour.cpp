@@ -8,7 +8,7 @@
 namespace obvid {
 
 Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options,
-                                   const std::string& where) {
+                                   const std::string& where, const RunContext& run) {
   place(options.placement, drawing);
   const auto chosen = chosen_curve(drawing, options.curve, where);
   OBVID_TRY(chosen);
@@ -21,9 +21,11 @@ Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options
   DrawnContour out;
   out.remarks = drawing.warnings;
   out.remarks.push_back(where + ": " + chosen_text(drawing, *chosen, options.curve.asked()));
-  CurveAudit audited =
+  auto made =
       audit(*chosen < curves ? drawing.curves[*chosen] : edges_of(drawing.series[*chosen - curves]),
-            drawing.units);
+            drawing.units, run);
+  OBVID_TRY(made);
+  CurveAudit& audited = *made;
   out.name = audited.name.empty() ? audited.label : audited.name;
   out.first_station = audited.station.value_or(0.0);
   out.picture = {drawing.name + ": " + audited.label, as_drawn(audited)};

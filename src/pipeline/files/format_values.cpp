@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <utility>
 #include <vector>
 
+#include "obvid/core/internal/typed_numbers.h"
 #include "obvid/pipeline/file_formats.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/profiles.h"
@@ -24,25 +24,9 @@ Result<void> check_length(const std::optional<double>& value, const char* option
   return fail(bad_option("a positive length is expected", option, "for example 0.01"));
 }
 
-/// All of the text as a list of numbers between commas; nothing where it is none.
-template <class Number>
-std::optional<std::vector<Number>> numbers_in(const std::string& text) {
-  std::vector<Number> out;
-  const char *at = text.data(), *const end = at + text.size();
-  while (true) {
-    Number value{};
-    const auto read = std::from_chars(at, end, value);
-    if (read.ec != std::errc{}) return std::nullopt;
-    out.push_back(value);
-    if (read.ptr == end) return out;
-    if (*read.ptr != ',') return std::nullopt;
-    at = read.ptr + 1;
-  }
-}
-
 Result<void> set_curve(const FormatValues& typed, CurveChoice& curve) {
   if (!typed.curve) return {};
-  const auto number = numbers_in<long>(*typed.curve);
+  const auto number = typed_numbers<long>(*typed.curve);
   if (typed.curve->empty() || (number && (number->size() != 1 || number->front() < 1))) {
     return fail(
         bad_option("curves are counted from 1", "--curve", "`obvid analyse FILE` lists them"));
@@ -64,7 +48,7 @@ Result<void> set_list(const FormatValues& typed, PointListOptions& list) {
   list.skip = static_cast<std::size_t>(typed.skip.value_or(0));
   if (typed.columns.empty()) return {};
   constexpr long kMost = 64;  // columns that are looked at
-  const auto both = numbers_in<long>(typed.columns);
+  const auto both = typed_numbers<long>(typed.columns);
   const bool fine = both && both->size() == 2 && both->front() != both->back() &&
                     std::all_of(both->begin(), both->end(),
                                 [](long column) { return column >= 1 && column <= kMost; });
@@ -93,10 +77,8 @@ Result<void> set_placement(const FormatValues& typed, Placement& placement) {
     placement.mirror = *mirror;
   }
   if (typed.move.empty()) return {};
-  const auto by = numbers_in<double>(typed.move);
-  const bool fine =
-      by && (by->size() == 2 || by->size() == 3) &&
-      std::all_of(by->begin(), by->end(), [](double one) { return std::isfinite(one); });
+  const auto by = typed_numbers(typed.move);
+  const bool fine = by && (by->size() == 2 || by->size() == 3);
   if (!fine) {
     return fail(bad_option("'" + typed.move + "' is no move", "--move",
                            "two lengths, along x and y: 100,-20 (a third one along z)"));

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "obvid/io/contour_json.h"
-#include "obvid/io/internal/json_text.h"
+#include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "verify/false_claim.h"
@@ -23,12 +23,6 @@ constexpr CurvatureRange kUnknownRange{kUnknownFigure, kUnknownFigure};
 /// A line of its own ends it, as in the contour file.
 void add_certificate(JsonText& json, const Certificate& certificate) {
   json.key("certificate").raw(certificate_to_json(certificate) + "\n");
-}
-
-void add_texts(JsonText& json, const char* name, const std::vector<std::string>& texts) {
-  json.key(name).begin_array();
-  for (const std::string& text : texts) json.value(text);
-  json.end_array();
 }
 
 void add_range(JsonText& json, const std::optional<FeasibleRange>& range) {
@@ -105,9 +99,9 @@ std::string fit_report_json(const Fit& fit, const Written& written) {
   add_taken_over(json, fit.contour);
   json.key("report").raw(report_to_json(fit.report));
   add_certificate(json, fit.certificate);
-  add_texts(json, "warnings", fit.warnings);
-  add_texts(json, "written", written.files);
-  add_texts(json, "remarks", written.remarks);
+  add_list(json, "warnings", fit.warnings);
+  add_list(json, "written", written.files);
+  add_list(json, "remarks", written.remarks);
   json.end_object();
   return json.take();
 }
@@ -130,8 +124,8 @@ std::string refusal_json(const Error& error, const PointSeries& series,
   }
   json.key("feasible_range");
   add_range(json, range);
-  add_texts(json, "warnings", series.warnings);
-  add_texts(json, "written", written);
+  add_list(json, "warnings", series.warnings);
+  add_list(json, "written", written);
   json.end_object();
   return json.take();
 }
@@ -210,9 +204,8 @@ Result<void> add_region_points(JsonText& json, const std::vector<RegionPoint>& p
 }
 
 void add_construction_row(JsonText& json, const ConstructionRow& row) {
-  json.begin_object().pair("segment", row.segment + 1).key("values").begin_array();
-  for (const double value : row.values) json.value(value);
-  json.end_array().pair("remark", row.remark).end_object();
+  json.begin_object().pair("segment", row.segment + 1);
+  add_list(json, "values", row.values).pair("remark", row.remark).end_object();
 }
 
 }  // namespace
@@ -241,7 +234,7 @@ Result<std::string> region_json(const PointSeries& series, const RegionTable& re
   if (region.construction) {
     const ConstructionTable& made = *region.construction;
     json.key("construction").begin_object();
-    add_texts(json, "columns", made.columns);
+    add_list(json, "columns", made.columns);
     json.key("segments").begin_array();
     for (const ConstructionRow& row : made.rows) {
       if (row.detail) continue;
@@ -252,7 +245,7 @@ Result<std::string> region_json(const PointSeries& series, const RegionTable& re
       if (row.detail) add_construction_row(json, row);
     }
     json.end_array();
-    add_texts(json, "remarks", made.remarks);
+    add_list(json, "remarks", made.remarks);
     json.end_object();
   }
   json.end_object();
@@ -263,7 +256,7 @@ std::string verification_json(const StoredContour& stored, const Verification& f
   JsonText json;
   json.begin_object().pair("holds", !broken_promise(stored, found));
   pipeline_detail::add_false_claim(json, found.false_claim ? &*found.false_claim : nullptr);
-  add_texts(json, "not_checked", found.not_checked);
+  add_list(json, "not_checked", found.not_checked);
   add_certificate(json, found.certificate);
   json.end_object();
   return json.take();
@@ -297,8 +290,8 @@ std::string trade_off_json(const TradeOff& t, const std::vector<std::string>& wa
     json.null();
   }
   json.pair("rule", trade_off_rule(t));
-  add_texts(json, "warnings", warnings);
-  add_texts(json, "written", written);
+  add_list(json, "warnings", warnings);
+  add_list(json, "written", written);
   json.end_object();
   return json.take();
 }

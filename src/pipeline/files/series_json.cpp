@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "obvid/io/internal/json_text.h"
+#include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/internal/report_json.h"
@@ -148,9 +148,7 @@ std::string series_json(const PointSeries& series) {
   json.end_array();
   add_given(json, series);
   json.pair("pieces_as_drawn", series.kept.size());
-  json.key("warnings").begin_array();
-  for (const std::string& one : series.warnings) json.value(one);
-  json.end_array().end_object();
+  add_list(json, "warnings", series.warnings).end_object();
   return json.take() + "\n";
 }
 
@@ -177,9 +175,7 @@ std::string series_report_json(const PointSeries& series, const Analysis& analys
   json.pair("inflections_lower_bound", analysis.inflections_lower_bound);
   json.pair("rounding_decided", analysis.rounding_decided.size());
   json.pair("largest_turning", analysis.largest_turning);
-  json.key("warnings").begin_array();
-  for (const std::string& warning : series.warnings) json.value(warning);
-  json.end_array().end_object();
+  add_list(json, "warnings", series.warnings).end_object();
   return json.take();
 }
 
@@ -214,9 +210,7 @@ std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& au
   json.end_array();
   add_series(json, drawing);
   if (!points.empty()) json.key("points").raw(points);
-  json.key("warnings").begin_array();
-  for (const std::string& warning : drawing.warnings) json.value(warning);
-  return json.end_array().end_object().take();
+  return add_list(json, "warnings", drawing.warnings).end_object().take();
 }
 
 }  // namespace obvid

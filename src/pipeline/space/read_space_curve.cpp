@@ -47,7 +47,7 @@ Result<ReadCurve> from_drawing(const SurfaceInput& input, const CurveReading& ho
         .hint("write the points to a text file and give that");
   }
   const DrawnCurve& drawn = drawing->curves[*chosen];
-  auto curve = curve_of_contour(audit(drawn, drawing->units).contour, Frame{}, drawn.label);
+  auto curve = curve_of_contour(contour_as_drawn(drawn, drawing->units), Frame{}, drawn.label);
   if (!curve) return curve;
   curve->warnings.insert(curve->warnings.end(), drawing->warnings.begin(), drawing->warnings.end());
   return curve;

@@ -2,11 +2,10 @@
 #include "obvid/pipeline/internal/space_values.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
 #include <utility>
 
+#include "obvid/core/internal/typed_numbers.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/internal/job_values.h"
 
@@ -20,20 +19,9 @@ Result<std::optional<Vec3>> direction_named(const std::string& typed) {
       return std::optional(axis);
     }
   }
-  std::array<double, 3> d{};
-  std::size_t count = 0, from = 0;
-  bool fine = true;
-  while (fine && from <= typed.size()) {
-    const std::size_t to = std::min(typed.find(',', from), typed.size());
-    const char *begin = typed.data() + from, *end = typed.data() + to;
-    fine = count < d.size();
-    if (!fine) break;
-    const auto read = std::from_chars(begin, end, d[count++]);
-    fine = read.ec == std::errc{} && read.ptr == end;
-    from = to + 1;
-  }
-  const Vec3 made{d[0], d[1], d[2]};
-  if (!fine || count != d.size() || !(norm(made) > 0.0) || !is_finite(made)) {
+  const auto d = typed_numbers(typed);
+  const Vec3 made = d && d->size() == 3 ? Vec3{(*d)[0], (*d)[1], (*d)[2]} : Vec3{};
+  if (!(norm(made) > 0.0)) {
     return fail(bad_option("'" + typed + "' is no direction", "--along",
                            "X, Y, Z, or three numbers: 1,0,0.5"));
   }

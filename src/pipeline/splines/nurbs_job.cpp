@@ -8,7 +8,7 @@
 
 #include "obvid/cad/internal/cad.h"
 #include "obvid/exchange/internal/dxf/space.h"
-#include "obvid/io/internal/json_text.h"
+#include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/file_formats.h"
 
 namespace obvid {
@@ -215,12 +215,6 @@ void add_vector(JsonText& json, Vec3 v) {
   json.begin_array().value(v.x).value(v.y).value(v.z).end_array();
 }
 
-void add_numbers(JsonText& json, const char* name, const std::vector<double>& values) {
-  json.key(name).begin_array();
-  for (const double value : values) json.value(value);
-  json.end_array();
-}
-
 }  // namespace
 
 Result<ControlTable> control_table(const ColumnTable& table, const std::string& name) {
@@ -260,7 +254,7 @@ Result<ControlTable> control_table(const ColumnTable& table, const std::string& 
   return out;
 }
 
-Result<NurbsReport> nurbs_report(ControlTable table, const NurbsJob& job) {
+Result<NurbsReport> nurbs_report(ControlTable table, const NurbsJob& job, const RunContext& run) {
   if (table.points.size() / table.rows < 2) {
     return fail(nurbs_error(ErrorCode::kTooFewPoints, "a curve needs at least 2 control points",
                             table.name, "add rows", static_cast<double>(table.points.size())));
@@ -274,7 +268,10 @@ Result<NurbsReport> nurbs_report(ControlTable table, const NurbsJob& job) {
   OBVID_TRY(knots);
   SpaceCurve curve{degree, std::move(*knots), out.table.points, out.table.weights};
   OBVID_TRY(take_weights(job, curve));
-  for (std::size_t i = 0; i < n; ++i) out.rows.push_back(WeightOfPoint(curve, i).row());
+  for (std::size_t i = 0; i < n; ++i) {
+    OBVID_TRY(tell(run, "weights", static_cast<double>(i) / static_cast<double>(n)));
+    out.rows.push_back(WeightOfPoint(curve, i).row());
+  }
   out.table.weights = curve.weights;
   out.shape = std::move(curve);
   return out;
@@ -286,18 +283,18 @@ std::string nurbs_json(const NurbsReport& report) {
   json.pair("name", report.table.name);
   if (const auto* curve = std::get_if<SpaceCurve>(&report.shape)) {
     json.pair("kind", "curve").pair("degree", curve->degree);
-    add_numbers(json, "knots", curve->knots);
+    add_list(json, "knots", curve->knots);
   } else {
     const auto& surface = std::get<NurbsSurface>(report.shape);
     json.pair("kind", "surface").pair("degree", surface.degree_u);
     json.pair("degree_v", surface.degree_v).pair("rows", report.table.rows);
-    add_numbers(json, "knots", surface.knots_u);
-    add_numbers(json, "knots_v", surface.knots_v);
+    add_list(json, "knots", surface.knots_u);
+    add_list(json, "knots_v", surface.knots_v);
   }
   json.key("points").begin_array();
   for (const Vec3& p : report.table.points) add_vector(json, p);
   json.end_array();
-  add_numbers(json, "weights", report.table.weights);
+  add_list(json, "weights", report.table.weights);
   json.key("rows_of_weights").begin_array();
   for (const WeightRow& row : report.rows) {
     json.begin_object().pair("point", row.point + 1).pair("u", row.u).pair("w", row.weight);
@@ -311,7 +308,7 @@ std::string nurbs_json(const NurbsReport& report) {
     json.end_object();
   }
   json.end_array().end_object();
-  return json.take() + "\n";
+  return json.take();
 }
 
 std::string nurbs_samples_csv(const SpaceCurve& curve, std::size_t count) {
@@ -333,8 +330,20 @@ Result<ControlTable> read_control_table(const std::string& path) {
   return control_table(*table, path == "-" ? "standard input" : path);
 }
 
+std::optional<SurfaceModel> nurbs_surface(const NurbsReport& report, const Units& units) {
+  const auto* const surface = std::get_if<NurbsSurface>(&report.shape);
+  if (surface == nullptr) return std::nullopt;
+  SurfaceModel model;
+  model.units = units;
+  model.patches.push_back({"surface", *surface});
+  return model;
+}
+
 Result<std::string> nurbs_file(const NurbsReport& report, const std::string& path,
                                const Units& units, std::size_t samples) {
+  if (!std::holds_alternative<SpaceCurve>(report.shape)) {
+    return error(ErrorCode::kUnknownFormat, "a net is written as a surface").where(path);
+  }
   const auto& curve = std::get<SpaceCurve>(report.shape);
   const auto format = space_format_of(path);
   if (format == FileFormat::kContour) return nurbs_json(report);

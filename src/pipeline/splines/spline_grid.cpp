@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "obvid/io/internal/json_text.h"
+#include "obvid/io/internal/json_list.h"
 
 namespace obvid {
 namespace {
@@ -56,8 +56,12 @@ std::vector<double> without_last(const std::vector<double>& at_places, std::size
   return out;
 }
 
-GridSplineRow row_of_grid(const IdSpline2d& spline, const GridSplineInput& input, std::string name,
-                          const std::optional<GridPlaces>& finer) {
+/// Places between two questions whether to go on.
+constexpr std::size_t kPlacesAtOnce = 1024;
+
+Result<GridSplineRow> row_of_grid(const IdSpline2d& spline, const GridSplineInput& input,
+                                  std::string name, const std::optional<GridPlaces>& finer,
+                                  const RunContext& run) {
   GridSplineRow row;
   row.name = std::move(name);
   const std::size_t nx = spline.x.size(), ny = spline.y.size();
@@ -69,6 +73,7 @@ GridSplineRow row_of_grid(const IdSpline2d& spline, const GridSplineInput& input
       integral(spline, spline.x.front(), spline.x.back(), spline.y.front(), spline.y.back());
   row.integral_error = input.cells_given ? 0.0 : kNotKnown;
   for (std::size_t j = 0; input.cells_given && j + 1 < ny; ++j) {
+    OBVID_TRY(may_go_on(run));
     for (std::size_t i = 0; i + 1 < nx; ++i) {
       const double here =
           integral(spline, spline.x[i], spline.x[i + 1], spline.y[j], spline.y[j + 1]);
@@ -82,6 +87,7 @@ GridSplineRow row_of_grid(const IdSpline2d& spline, const GridSplineInput& input
   }
   double squares = 0.0;
   for (std::size_t k = 0; k < finer->x.size(); ++k) {
+    if (k % kPlacesAtOnce == 0) OBVID_TRY(may_go_on(run));
     const double error = std::abs(evaluate(spline, finer->x[k], finer->y[k]).value - finer->f[k]);
     squares += error * error;
     if (error < row.largest_error) continue;
@@ -184,15 +190,18 @@ Result<GridSplineInput> grid_spline_input(const ColumnTable& table, const std::s
 }
 
 Result<GridSplineReport> grid_spline_report(GridSplineInput input, bool smooth,
-                                            const std::optional<GridPlaces>& finer) {
+                                            const std::optional<GridPlaces>& finer,
+                                            const RunContext& run) {
   const auto data = completed(input);
   OBVID_TRY(data);
   GridSplineReport out;
   for (const bool kind : {smooth, !smooth}) {
+    OBVID_TRY(tell(run, "spline", kind == smooth ? 0.0 : 0.5));
     auto spline = id_spline_2d(*data, kind);
     OBVID_TRY(spline);
-    out.rows.push_back(
-        row_of_grid(*spline, input, kind ? "C1, values free" : "values kept", finer));
+    auto row = row_of_grid(*spline, input, kind ? "C1, values free" : "values kept", finer, run);
+    OBVID_TRY(row);
+    out.rows.push_back(std::move(*row));
     if (kind == smooth) out.spline = std::move(*spline);
   }
   out.input = std::move(input);
@@ -248,19 +257,13 @@ std::string grid_spline_json(const GridSplineReport& report) {
   }
   json.end_array();
   const IdSpline2d& f = report.spline;
-  const auto list = [&](const char* name, const std::vector<double>& values) {
-    json.key(name).begin_array();
-    for (const double value : values) json.value(value);
-    json.end_array();
-  };
-  list("x", f.x);
-  list("y", f.y);
-  list("values", f.values);
-  list("integrals_x", f.along_x);
-  list("integrals_y", f.along_y);
-  list("integrals", f.cells);
-  json.end_object();
-  return json.take() + "\n";
+  add_list(json, "x", f.x);
+  add_list(json, "y", f.y);
+  add_list(json, "values", f.values);
+  add_list(json, "integrals_x", f.along_x);
+  add_list(json, "integrals_y", f.along_y);
+  add_list(json, "integrals", f.cells).end_object();
+  return json.take();
 }
 
 }  // namespace obvid

@@ -11,7 +11,7 @@
 
 #include "obvid/exchange/internal/sketch.h"
 #include "obvid/idspline/internal/scalar_cubic.h"
-#include "obvid/io/internal/json_text.h"
+#include "obvid/io/internal/json_list.h"
 
 namespace obvid {
 namespace {
@@ -80,8 +80,8 @@ double span_of_input(const SplineInput& input) {
 /// Straight moves along a spline, within a tolerance, as a program writes them.
 class Moves {
  public:
-  Moves(const Candidate& one, const SplineInput& input, double tolerance)
-      : one_(one), dimensions_(input.dimensions), tolerance_(tolerance) {
+  Moves(const Candidate& one, const SplineInput& input, double tolerance, const RunContext& run)
+      : one_(one), run_(run), dimensions_(input.dimensions), tolerance_(tolerance) {
     const double place = std::floor(std::log10(kProgrammedPart * tolerance));
     step_ = std::pow(10.0, place);
     add(place_of(one, dimensions_, input.nodes.front()));
@@ -90,6 +90,8 @@ class Moves {
     }
   }
 
+  /// E103 when they end before the spline does.
+  [[nodiscard]] const Result<void>& whole() const { return going_; }
   [[nodiscard]] const std::vector<Place>& places() const { return places_; }
   [[nodiscard]] double length() const {
     double sum = 0.0;
@@ -99,6 +101,8 @@ class Moves {
 
  private:
   void cut(double from, double to, int left) {
+    if (going_) going_ = may_go_on(run_);
+    if (!going_) return;
     const Place a = place_of(one_, dimensions_, from), b = place_of(one_, dimensions_, to);
     double far = 0.0;
     for (int k = 1; k < kPlacesOfMove; ++k) {
@@ -121,6 +125,8 @@ class Moves {
   }
 
   const Candidate& one_;
+  const RunContext& run_;
+  Result<void> going_;
   std::size_t dimensions_;
   double tolerance_, step_ = 0.0;
   std::vector<Place> places_;
@@ -129,10 +135,11 @@ class Moves {
 /// Figures of one spline.
 class RowMaker {
  public:
-  RowMaker(const SplineInput& input, const std::optional<SplineInput>& finer, double tolerance)
-      : input_(input), finer_(finer), tolerance_(tolerance) {}
+  RowMaker(const SplineInput& input, const std::optional<SplineInput>& finer, double tolerance,
+           const RunContext& run)
+      : input_(input), finer_(finer), tolerance_(tolerance), run_(run) {}
 
-  [[nodiscard]] SplineRow operator()(const Candidate& one) const {
+  [[nodiscard]] Result<SplineRow> operator()(const Candidate& one) const {
     SplineRow row;
     row.name = one.name;
     for (std::size_t i = 0; i < input_.nodes.size(); ++i) {
@@ -140,35 +147,39 @@ class RowMaker {
           std::max(row.largest_move,
                    away(place_of(one, input_.dimensions, input_.nodes[i]), place_of(input_, i)));
     }
-    add_integrals(one, row);
-    const Moves moves(one, input_, tolerance_);
+    OBVID_TRY(add_integrals(one, row));
+    const Moves moves(one, input_, tolerance_, run_);
+    OBVID_TRY(moves.whole());
     row.blocks = moves.places().size() - 1;
     row.path_length = moves.length();
-    add_errors(one, moves, row);
+    OBVID_TRY(add_errors(one, moves, row));
     return row;
   }
 
  private:
-  void add_integrals(const Candidate& one, SplineRow& row) const {
+  Result<void> add_integrals(const Candidate& one, SplineRow& row) const {
     row.integral = input_.dimensions == 1 ? 0.0 : kUnknownError;
     row.integral_error = input_.integrals.empty() ? kUnknownError : 0.0;
-    if (input_.dimensions != 1) return;
+    if (input_.dimensions != 1) return {};
     for (std::size_t i = 0; i + 1 < input_.nodes.size(); ++i) {
+      OBVID_TRY(may_go_on(run_));
       const double here = one.cell_integral(i);
       row.integral += here;
       if (input_.integrals.empty()) continue;
       row.integral_error = std::max(row.integral_error, std::abs(here - input_.integrals[i]));
     }
+    return {};
   }
 
-  void add_errors(const Candidate& one, const Moves& moves, SplineRow& row) const {
+  Result<void> add_errors(const Candidate& one, const Moves& moves, SplineRow& row) const {
     if (!finer_) {
       row.largest_error = row.largest_at = row.rms_error = row.path_deviation = kUnknownError;
-      return;
+      return {};
     }
     double squares = 0.0;
     std::size_t near = 0;  // move: both go the same way
     for (std::size_t i = 0; i < finer_->nodes.size(); ++i) {
+      OBVID_TRY(may_go_on(run_));
       const Place truth = place_of(*finer_, i);
       const double path = from_path(moves.places(), truth, near);
       row.path_deviation = std::max(row.path_deviation, path);
@@ -181,6 +192,7 @@ class RowMaker {
       row.largest_at = finer_->nodes[i];
     }
     row.rms_error = std::sqrt(squares / static_cast<double>(finer_->nodes.size()));
+    return {};
   }
 
   static double from_path(const std::vector<Place>& path, const Place& p, std::size_t& near) {
@@ -216,6 +228,7 @@ class RowMaker {
   const SplineInput& input_;
   const std::optional<SplineInput>& finer_;
   double tolerance_;
+  const RunContext& run_;
 };
 
 Result<std::vector<IdSpline>> id_parts(const SplineInput& input, const IdSplineOptions& options) {
@@ -408,19 +421,27 @@ Result<SplineInput> spline_input(const ColumnTable& table, const std::string& na
 }
 
 Result<SplineReport> spline_report(SplineInput input, const SplineJob& job,
-                                   const std::optional<SplineInput>& finer) {
+                                   const std::optional<SplineInput>& finer, const RunContext& run) {
   SplineReport out;
   auto parts = id_parts(input, job.options);
   OBVID_TRY(parts);
   out.parts = std::move(*parts);
   out.tolerance = job.tolerance.value_or(kMachiningPart * span_of_input(input));
   out.largest_jump = largest_jump(out.parts);
-  const RowMaker row(input, finer, out.tolerance);
-  out.rows.push_back(row(candidate_of(id_name(job.options), out.parts, input.nodes)));
+  std::vector<Candidate> all = {candidate_of(id_name(job.options), out.parts, input.nodes)};
   if (job.compare) {
-    const auto all = others(input, job.options);
-    OBVID_TRY(all);
-    for (const Candidate& one : *all) out.rows.push_back(row(one));
+    OBVID_TRY(tell(run, "spline", 0.0));
+    auto more = others(input, job.options);
+    OBVID_TRY(more);
+    all.insert(all.end(), more->begin(), more->end());
+  }
+  const RowMaker row_of(input, finer, out.tolerance, run);
+  for (const Candidate& one : all) {
+    OBVID_TRY(tell(run, "figures",
+                   static_cast<double>(out.rows.size()) / static_cast<double>(all.size())));
+    auto row = row_of(one);
+    OBVID_TRY(row);
+    out.rows.push_back(std::move(*row));
   }
   out.input = std::move(input);
   return out;
@@ -461,9 +482,8 @@ std::string spline_report_json(const SplineReport& report) {
     json.pair("path_length", row.path_length).pair("path_deviation", row.path_deviation);
     json.end_object();
   }
-  json.end_array().key("nodes").begin_array();
-  for (const double node : report.input.nodes) json.value(node);
-  json.end_array().key("parts").begin_array();
+  json.end_array();
+  add_list(json, "nodes", report.input.nodes).key("parts").begin_array();
   for (const IdSpline& part : report.parts) {
     json.begin_object().key("cells").begin_array();
     for (std::size_t i = 0; i + 1 < part.nodes.size(); ++i) {

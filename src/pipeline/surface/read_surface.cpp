@@ -7,17 +7,13 @@
 #include "files/cad_of_text.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/core/files.h"
+#include "obvid/io/internal/file_kind.h"
 #include "obvid/io/internal/read_control_net.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/pipeline/surface_job.h"
 
 namespace obvid {
 namespace {
-
-bool starts_with_brace(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != std::string::npos && text[first] == '{';
-}
 
 Result<CadSurfaces> read_faces(const std::string& path) { return read_cad_surfaces(path); }
 
@@ -32,8 +28,8 @@ Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::st
   }
   const Result<std::string> text = input.text ? *input.text : read_file(path);
   OBVID_TRY(text);
-  if (starts_with_brace(*text)) return surface_from_json(*text, path);
-  if (!is_cad_text(*text)) {
+  if (is_json_text(*text)) return surface_from_json(*text, path);
+  if (!needs_cad(*text)) {
     auto net = parse_control_net(*text, path);
     if (!net) return net;
     net->name = std::filesystem::path(path).stem().string();

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "obvid/core/internal/format_into.h"
-#include "obvid/io/internal/json_text.h"
+#include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/surface_cut_job.h"
 
 namespace obvid {
@@ -102,15 +102,9 @@ std::string surface_cut_json(const MadeSurfaceCut& made, const Written& written,
   for (const MadeSection& section : made.sections) add_plane_section(json, section, points);
   json.end_array();
   add_displaced(json, made);
-  const auto list = [&](const char* name, const std::vector<std::string>& all) {
-    json.key(name).begin_array();
-    for (const std::string& one : all) json.value(one);
-    json.end_array();
-  };
-  list("warnings", made.warnings);
-  list("written", written.files);
-  list("remarks", written.remarks);
-  json.end_object();
+  add_list(json, "warnings", made.warnings);
+  add_list(json, "written", written.files);
+  add_list(json, "remarks", written.remarks).end_object();
   return json.take();
 }
 

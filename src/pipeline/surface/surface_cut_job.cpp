@@ -223,14 +223,7 @@ Result<MadeSurfaceCut> cut_surface(const SurfaceModel& model, const SurfaceCutJo
         one.fair.push_back(fair_branch(one, branch, *job.fair, made.units, asked));
       }
     };
-    if (run.cancelled) {  // only this thread may ask
-      for (std::size_t i = 0; i < count; ++i) {
-        work(i, {Progress{}, run.cancelled});
-        if (failed[i]) return fail(*failed[i]);
-      }
-    } else {
-      in_parallel(count, 0, [&](std::size_t i) { work(i, {}); });
-    }
+    OBVID_TRY(in_parallel(count, 0, run, work));
     for (const auto& one : failed) {
       if (one) return fail(*one);
     }

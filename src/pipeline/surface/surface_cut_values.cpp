@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "obvid/core/internal/typed_numbers.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/surface_cut_job.h"
 
@@ -11,19 +12,6 @@ namespace obvid {
 namespace {
 
 constexpr double kMostSections = 10'000.0;
-
-/// Numbers between commas; nothing where one is none.
-std::optional<std::vector<double>> typed_numbers(std::string_view text) {
-  std::vector<double> out;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    const auto number = typed_number(text.substr(0, comma));
-    if (!number || !std::isfinite(*number)) return std::nullopt;
-    out.push_back(*number);
-    if (comma == std::string_view::npos) return out;
-    text.remove_prefix(comma + 1);
-  }
-}
 
 Result<void> set_places(const std::optional<std::string>& typed, const char* option,
                         PlacesAcross& places) {

@@ -2,12 +2,11 @@
 #include "obvid/pipeline/internal/surface_values.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "obvid/core/internal/near_name.h"
+#include "obvid/core/internal/typed_numbers.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/job_values.h"
 
@@ -25,19 +24,9 @@ const std::map<std::string, SurfaceKind>& surface_kinds() {
 
 /// "1,2,3" as a vector.
 Result<Vec3> vector_of(const std::string& typed, const char* option) {
-  std::array<double, 3> value{};
-  const char* at = typed.data();
-  const char* const end = at + typed.size();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto [stop, code] = std::from_chars(at, end, value[i]);
-    const bool separated = i == 2 ? stop == end : stop != end && *stop == ',';
-    if (code != std::errc() || !separated || !std::isfinite(value[i])) {
-      return fail(
-          bad_option("'" + typed + "' is no vector", option, "give X,Y,Z, for example 0,0,1"));
-    }
-    at = stop + 1;
-  }
-  return Vec3{value[0], value[1], value[2]};
+  const auto value = typed_numbers(typed);
+  if (value && value->size() == 3) return Vec3{(*value)[0], (*value)[1], (*value)[2]};
+  return fail(bad_option("'" + typed + "' is no vector", option, "give X,Y,Z, for example 0,0,1"));
 }
 
 Result<void> positive(const std::optional<double>& value, const char* option) {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fit/place_in_regions.h"
+#include "fit/outside_regions.h"
 #include "obvid/curve/internal/nearest_along.h"
 
 namespace obvid::pipeline_detail {

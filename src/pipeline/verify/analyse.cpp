@@ -70,15 +70,20 @@ std::string kind_of(const std::vector<Piece>& pieces, bool closed) {
 }  // namespace
 
 Result<AnalysedDrawing> analyse_drawing(Drawing drawing, const ImportOptions& options,
-                                        const std::string& where) {
+                                        const std::string& where, const RunContext& run) {
   place(options.placement, drawing);
   const auto chosen = chosen_curve(drawing, options.curve, where);
   if (!chosen && options.curve.asked()) return fail(chosen.error());
   AnalysedDrawing out{std::move(drawing), {}, {}, {}};
   if (options.curve.asked()) out.asked = *chosen;
   for (const DrawnCurve& one : out.drawing.curves) {
-    out.audits.push_back(audit(one, out.drawing.units));
-    out.audits.back().layer = one.layer;
+    OBVID_TRY(tell(
+        run, "curves",
+        static_cast<double>(out.audits.size()) / static_cast<double>(out.drawing.curves.size())));
+    auto audited = audit(one, out.drawing.units, run);
+    OBVID_TRY(audited);
+    audited->layer = one.layer;
+    out.audits.push_back(std::move(*audited));
   }
   const std::size_t curves = out.audits.size();
   if (chosen && *chosen >= curves) out.points = analysed(out.drawing, *chosen - curves);

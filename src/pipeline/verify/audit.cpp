@@ -8,6 +8,7 @@
 
 #include "fit/slope_step.h"
 #include "obvid/certify/certify.h"
+#include "obvid/core/internal/watch.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/curve/internal/curvature_extent.h"
 #include "obvid/curve/internal/piece_box.h"
@@ -51,7 +52,7 @@ struct Sample {
 
 class Auditor {
  public:
-  Auditor(const DrawnCurve& curve, const Units& units) {
+  Auditor(const DrawnCurve& curve, const Units& units, const RunContext& run) : watch_(run) {
     out_.label = curve.label;
     out_.name = curve.name;
     out_.station = curve.station;
@@ -63,12 +64,20 @@ class Auditor {
     size_ = about_size(out_.contour.pieces);
   }
 
-  CurveAudit run() {
+  /// What needs joints alone.
+  Contour joined() {
+    path_.emplace(out_.contour.pieces);
+    if (!out_.contour.pieces.empty()) lay_joints();
+    return std::move(out_.contour);
+  }
+
+  Result<CurveAudit> run() {
     if (out_.contour.pieces.empty()) return std::move(out_);
-    take_samples();
+    OBVID_TRY(take_samples());
     lay_joints();
-    lay_runs();
-    out_.certificate = certify(out_.contour);
+    OBVID_TRY(lay_runs());
+    out_.certificate = certify(out_.contour, watch_);
+    OBVID_TRY(goes_on());
     out_.vertices = out_.certificate.vertices;
     out_.inflections = out_.certificate.inflections;
     out_.counted =
@@ -179,7 +188,13 @@ class Auditor {
     return true;
   }
 
-  void take_samples() {
+  /// Asks. Error: E103.
+  Result<void> goes_on() {
+    if (watch_.cancelled()) return fail(cancelled_error());
+    return {};
+  }
+
+  Result<void> take_samples() {
     const std::vector<Piece>& pieces = out_.contour.pieces;
     out_.least_kappa = HUGE_VAL;
     out_.largest_kappa = -HUGE_VAL;
@@ -188,6 +203,7 @@ class Auditor {
     std::vector<double> at;
     for (int k = 0; k <= kPieceSamples; ++k) at.push_back(static_cast<double>(k) / kPieceSamples);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
+      OBVID_TRY(goes_on());
       for (const double t : at) {
         const double kappa = element_at(pieces[i], t).kappa;
         samples_.push_back({i, t, path_->length_at(i, t), kappa});
@@ -201,6 +217,7 @@ class Auditor {
     }
     rounding_ =
         kRippleRounding * std::max(std::abs(out_.least_kappa), std::abs(out_.largest_kappa));
+    return {};
   }
 
   [[nodiscard]] Element end_of(std::size_t piece, double t) const {
@@ -259,13 +276,15 @@ class Auditor {
     out_.continuity = std::min(out_.continuity, continuity);
   }
 
-  void lay_runs() {
+  Result<void> lay_runs() {
     std::vector<int> direction;
     for (const Piece& piece : out_.contour.pieces) {
+      OBVID_TRY(goes_on());
       direction.push_back(pipeline_detail::direction_of(prove_piece(piece).verdict));
     }
     out_.contour.runs = collect_runs(
         direction, [this](std::size_t i) { return out_.contour.joints[i].leaving.has_value(); });
+    return {};
   }
 
   void place(AuditPlace::Kind kind, const Sample& at) {
@@ -426,6 +445,7 @@ class Auditor {
     return before + path_->length_at(one.piece, high);
   }
 
+  Watch watch_;
   CurveAudit out_;
   double size_ = 0.0, rounding_ = 0.0;
   bool unbounded_ = false;  // some end of a piece has no curvature
@@ -461,7 +481,15 @@ std::string as_drawn(const CurveAudit& a) {
 }
 
 CurveAudit audit(const DrawnCurve& curve, const Units& units) {
-  return Auditor(curve, units).run();
+  return std::move(*Auditor(curve, units, {}).run());  // nobody stops it
+}
+
+Result<CurveAudit> audit(const DrawnCurve& curve, const Units& units, const RunContext& run) {
+  return Auditor(curve, units, run).run();
+}
+
+Contour contour_as_drawn(const DrawnCurve& curve, const Units& units) {
+  return Auditor(curve, units, {}).joined();
 }
 
 }  // namespace obvid

@@ -102,7 +102,7 @@ Result<CurveInput> curve_from(const CurveFile& source, const ReadCurveOptions& h
     const auto chosen = chosen_curve(*drawing, how.import.curve, source.name);
     OBVID_TRY(chosen);
     if (*chosen < drawing->curves.size()) {
-      auto made = drawn_curve(std::move(*drawing), how);
+      auto made = drawn_curve(std::move(*drawing), how, run);
       if (!made) return fail(at_input(made.error(), source.name));
       made->curve.points = points_behind(source);
       return made;
@@ -133,12 +133,13 @@ Result<CurveInput> formed_curve(const PointSeries& series, const FitJob& job,
   return out;
 }
 
-Result<CurveInput> drawn_curve(Drawing drawing, const ReadCurveOptions& how) {
+Result<CurveInput> drawn_curve(Drawing drawing, const ReadCurveOptions& how,
+                               const RunContext& run) {
   const std::string name = drawing.name;
   if (how.units) {
     if (auto told = take_units(drawing.units, *how.units)) drawing.warnings.push_back(*told);
   }
-  auto drawn = drawn_contour(std::move(drawing), how.import, name);
+  auto drawn = drawn_contour(std::move(drawing), how.import, name, {Progress{}, run.cancelled});
   OBVID_TRY(drawn);
   CurveInput out;
   out.curve.name = name;

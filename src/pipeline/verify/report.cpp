@@ -7,9 +7,9 @@
 #include <numbers>
 #include <span>
 
+#include "fit/form.h"
 #include "fit/given.h"
 #include "fit/parts.h"
-#include "fit/form.h"
 #include "obvid/certify/certify.h"
 #include "obvid/curve/internal/runs.h"
 #include "obvid/region/internal/farther_boundary.h"

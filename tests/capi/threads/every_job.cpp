@@ -2,6 +2,9 @@
 // Runs every job of the C interface by itself, then from two threads at once over the same handles,
 // and compares what they say; then asks for the end of each in its middle, from two threads as
 // well. usage: every_job SOURCE_FOLDER
+#include <time.h>
+
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -47,7 +50,8 @@ std::string told(obvid_files* files) {
 std::string code_text(int code) { return code == 0 ? "" : " E" + std::to_string(code); }
 
 struct Handles {
-  obvid_input *points = nullptr, *drawing = nullptr, *grid = nullptr, *rail = nullptr;
+  obvid_input *points = nullptr, *drawing = nullptr, *grid = nullptr, *rail = nullptr,
+              *table = nullptr, *net = nullptr, *stations = nullptr;
   obvid_contour* contour = nullptr;
   obvid_space* space = nullptr;
   obvid_surface* surface = nullptr;
@@ -188,6 +192,42 @@ std::vector<Job> jobs() {
                                     &files, &text, nullptr);
          return told(files) + taken(text) + code_text(code);
        }},
+      {"spline",
+       [](const Handles& h, const obvid_run* run) {
+         obvid_files* files = nullptr;
+         char* text = nullptr;
+         const int code = obvid_spline(h.table, h.table, "{\"compare\": true}", "dxf", run, nullptr,
+                                       &files, &text, nullptr);
+         return told(files) + taken(text) + code_text(code);
+       }},
+      {"nurbs_make",
+       [](const Handles& h, const obvid_run* run) {
+         obvid_surface* surface = nullptr;
+         char* text = nullptr;
+         const int code =
+             obvid_nurbs_make(h.net, nullptr, nullptr, run, &surface, nullptr, &text, nullptr);
+         const bool made = surface != nullptr;
+         obvid_surface_free(surface);
+         return taken(text) + (made ? " surface" : "") + code_text(code);
+       }},
+      {"scatter",
+       [](const Handles& h, const obvid_run* run) {
+         obvid_surface* surface = nullptr;
+         char* text = nullptr;
+         const int code = obvid_surface_make("scatter", &h.grid, 1, nullptr, 0,
+                                             "{\"tolerance\": 0.1}", run, &surface, &text, nullptr);
+         obvid_surface_free(surface);
+         return taken(text) + code_text(code);
+       }},
+      {"skin",
+       [](const Handles& h, const obvid_run* run) {
+         obvid_surface* surface = nullptr;
+         char* text = nullptr;
+         const int code = obvid_surface_make("skin", &h.stations, 1, nullptr, 0, nullptr, run,
+                                             &surface, &text, nullptr);
+         obvid_surface_free(surface);
+         return taken(text) + code_text(code);
+       }},
       {"surface_cut",
        [](const Handles& h, const obvid_run* run) {
          obvid_files* files = nullptr;
@@ -225,15 +265,59 @@ std::vector<Job> jobs() {
 struct Ending {
   int left = 0;
   bool ended = false;
+  int questions_after = 0;
 };
 
 int ends(void* user) {
   auto* const ending = static_cast<Ending*>(user);
+  if (ending->ended) ++ending->questions_after;
   ending->ended = ending->ended || ending->left-- <= 0;
   return ending->ended ? 1 : 0;
 }
 
-/// Cancelled at its questions 0, 1 and 3: there is nothing, or all of it where it asks less often.
+/// Processor time of this thread, s.
+double own_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Gaps {
+  double last = 0.0, longest = 0.0;
+  int questions = 0;
+};
+
+int notes(void* user) {
+  auto* const gaps = static_cast<Gaps*>(user);
+  const double now = own_seconds();
+  gaps->longest = std::max(gaps->longest, now - gaps->last);
+  gaps->last = now;
+  ++gaps->questions;
+  return 0;
+}
+
+#if defined(__SANITIZE_THREAD__)
+constexpr double kMostBetweenQuestions =
+    4.0;  // s of processor time; it is some twenty times slower
+#else
+constexpr double kMostBetweenQuestions = 0.2;  // of these small jobs; 50 ms are aimed at
+#endif
+
+/// A job that is asked to go on does, and asks again before long.
+void ask_often(const Job& job, const Handles& h, const std::string& wanted) {
+  if (!job.asks) return;
+  Gaps gaps{own_seconds()};
+  const obvid_run run{&gaps, nullptr, notes};
+  if (job.work(h, &run) != wanted) fault(job.name, "says something else when it is asked");
+  notes(&gaps);
+  if (gaps.questions < 2) fault(job.name, "never asks whether to go on");
+  if (gaps.longest > kMostBetweenQuestions) {
+    fault(job.name, ("asks too seldom: " + std::to_string(gaps.longest) + " s").c_str());
+  }
+}
+
+/// Cancelled at its questions 0, 1 and 3: there is nothing. Each job asks at least once; quick ones
+/// end before a later question, and say all then.
 void end_in_the_middle(const Job& job, const Handles& h, const std::string& wanted) {
   if (!job.asks) return;
   for (const int after : {0, 1, 3}) {
@@ -242,7 +326,9 @@ void end_in_the_middle(const Job& job, const Handles& h, const std::string& want
     const std::string got = job.work(h, &run);
     const std::string cancelled = code_text(OBVID_CANCELLED);
     const bool nothing = got == cancelled || got == "0" + cancelled;
+    if (after == 0 && !ending.ended) fault(job.name, "never asks whether to go on");
     if (ending.ended ? !nothing : got != wanted) fault(job.name, "its end left something behind");
+    if (ending.questions_after > 0) fault(job.name, "asks again after a yes");
   }
 }
 
@@ -266,10 +352,17 @@ bool prepare(const std::string& folder, Handles& h) {
   const obvid_input* grid[1] = {nullptr};
   if (!read("/examples/series10.csv", &h.points) ||
       !read("/tests/data/judge/series10.dxf", &h.drawing) ||
-      !read("/examples/surfaces/wavy_grid.csv", &h.grid)) {
+      !read("/examples/surfaces/wavy_grid.csv", &h.grid) ||
+      !read("/examples/surfaces/wigley_stations.csv", &h.stations)) {
     return false;
   }
   grid[0] = h.grid;
+  const std::string table = "x,f\n0,0\n1,0.84\n2,0.9\n3,0.14\n",
+                    net = "row,col,x,y,z\n0,0,0,0,0\n0,1,1,0,1\n1,0,0,1,0\n1,1,1,1,3\n";
+  if (obvid_read_text(table.data(), table.size(), "table", &h.table, nullptr) != 0 ||
+      obvid_read_text(net.data(), net.size(), "net", &h.net, nullptr) != 0) {
+    return false;
+  }
   return obvid_space_points(helix.data(), 8, &h.rail, nullptr) == 0 &&
          obvid_fit(h.points, nullptr, nullptr, &h.contour, nullptr, nullptr) == 0 &&
          obvid_fit_space(h.rail, nullptr, nullptr, &h.space, nullptr, nullptr) == 0 &&
@@ -299,6 +392,7 @@ int main(int count, char** arguments) {
     if (all[i].work(h, nullptr) != wanted[i])
       fault(all[i].name, "says something else beside another job");
   });
+  for (std::size_t i = 0; i < all.size(); ++i) ask_often(all[i], h, wanted[i]);
   from_two_threads(all.size(), [&](std::size_t i) { end_in_the_middle(all[i], h, wanted[i]); });
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].work(h, nullptr) != wanted[i])
@@ -307,7 +401,9 @@ int main(int count, char** arguments) {
   obvid_surface_free(h.surface);
   obvid_space_free(h.space);
   obvid_contour_free(h.contour);
-  for (obvid_input* input : {h.points, h.drawing, h.grid, h.rail}) obvid_input_free(input);
+  for (obvid_input* input : {h.points, h.drawing, h.grid, h.rail, h.table, h.net, h.stations}) {
+    obvid_input_free(input);
+  }
   std::printf("%zu jobs, %d faults\n", all.size(), faults.load());
   return faults == 0 ? 0 : 1;
 }

@@ -100,7 +100,4 @@ struct CadSurfaces {
 [[nodiscard]] Result<CadSurfaces> read_cad_surfaces(const std::string& path,
                                                     const CadRun& run = {});
 
-/// Whether a file looks like one of these formats, by its first bytes.
-[[nodiscard]] bool is_cad_text(std::string_view text);
-
 }  // namespace obvid

@@ -15,9 +15,16 @@ void in_parallel(std::size_t count, std::size_t threads,
                  const std::function<void(std::size_t)>& work);
 
 /// The same for work that whoever waits may stop: the calling thread, which works too, asks after
-/// each of its numbers. Error: E103; some numbers are left out then.
+/// each of its numbers, and every few milliseconds while it waits for others. Error: E103; some
+/// numbers are left out then.
 [[nodiscard]] Result<void> in_parallel(std::size_t count, std::size_t threads,
                                        const RunContext& run,
                                        const std::function<void(std::size_t)>& work);
+
+/// The same for work that takes long itself: it gets a context that it asks in between. On the
+/// calling thread that asks `run`, on others whether it said to stop; it tells no progress.
+[[nodiscard]] Result<void> in_parallel(
+    std::size_t count, std::size_t threads, const RunContext& run,
+    const std::function<void(std::size_t, const RunContext&)>& work);
 
 }  // namespace obvid

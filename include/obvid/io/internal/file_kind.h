@@ -23,4 +23,7 @@ enum class FileKind {
 
 [[nodiscard]] FileKind file_kind(std::string_view text);
 
+/// Whether it is a JSON object of any kind.
+[[nodiscard]] bool is_json_text(std::string_view text);
+
 }  // namespace obvid

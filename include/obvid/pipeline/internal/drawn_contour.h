@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/run_context.h"
 #include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/import.h"
 
@@ -19,8 +20,9 @@ struct DrawnContour {
 };
 
 /// Takes the curve that `options` choose. Errors: those of `chosen_curve`; E310 where that is a
-/// series of points and its edges were not asked for. `where` stands in errors and remarks.
+/// series of points and its edges were not asked for; E103. `where` stands in errors and remarks.
 [[nodiscard]] Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options,
-                                                 const std::string& where);
+                                                 const std::string& where,
+                                                 const RunContext& run = {});
 
 }  // namespace obvid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "begun_at_first_point.h"
+#include "loop_start.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entities as pieces in the plane: docs/methods/dxf.md, section 3.
-#include "dxf/shapes.h"
+#include "dxf/entity_shape.h"
 
 #include <fmt/format.h>
 

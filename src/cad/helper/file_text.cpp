@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "texts.h"
+#include "file_text.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "message.h"
+#include "helper_message.h"
 
 #include <algorithm>
 #include <cmath>

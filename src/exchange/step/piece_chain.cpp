@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "step/shapes.h"
+#include "step/piece_chain.h"
 
 #include <algorithm>
 #include <cmath>

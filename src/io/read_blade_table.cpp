@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "blade_table.h"
+#include "read_blade_table.h"
 
 #include <fmt/format.h>
 

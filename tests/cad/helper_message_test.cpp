@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What travels between the program and its helper, and what must not pass for it.
-#include "message.h"
+#include "helper_message.h"
 
 #include <gtest/gtest.h>
 
@@ -125,8 +125,8 @@ TEST(CadMessage, DegreesKindsAndCodesOutsideTheirRangeAreRefused) {
   one.curves.push_back({"", {parabola()}, false});
   const std::string bytes = packed(Result<Drawing>(one));
   ASSERT_EQ(refusal(bytes), "");
-  // made, size of name, of units, their source, number of curves, size of label, number of pieces, kind,
-  // origin, degree
+  // made, size of name, of units, their source, number of curves, size of label, number of pieces,
+  // kind, origin, degree
   constexpr std::size_t kKind = 7, kDegree = 10;
   EXPECT_EQ(refusal(with_word(bytes, kKind, std::uint64_t{4})), "not whole");
   for (const std::int64_t degree : {0LL, -1LL, 8LL, 1LL << 32}) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/place_in_regions.h"
+#include "fit/outside_regions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "fit/parts.h"
 #include "fit/form.h"
+#include "fit/parts.h"
 #include "obvid/curve/internal/runs.h"
 #include "obvid/region/internal/boundary_distance.h"
 #include "obvid/region/internal/segment_region.h"
