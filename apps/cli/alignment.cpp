@@ -72,9 +72,11 @@ std::string alignment_text(const AlignmentReport& report, const std::vector<std:
   facts.add("alignment",
             fmt::format("{}: {}", counted(alignment.elements.size(), "element", "elements"),
                         kinds_text(alignment)));
-  facts.add("length", known_length(alignment.length, report.units.text()));
+  facts.add("length", known_length(alignment.length, report.units.text()) +
+                          (alignment.closed ? ", closed" : ""));
+  const std::size_t joints = alignment.elements.size() - (alignment.closed ? 0 : 1);
   facts.add("curvature", fmt::format("steps at {} of {}", curvature_steps(alignment.elements),
-                                     counted(alignment.elements.size() - 1, "joint", "joints")));
+                                     counted(joints, "joint", "joints")));
   facts.add("points", fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
                                   counted(alignment.deviations.size(), "point", "points"),
                                   significant(largest, kOffsetDigits), report.units.text(),
@@ -141,7 +143,7 @@ int run(const AlignmentCommand& command) {
   ExportOptions formats;
   formats.name = series->label.empty() ? series->name : series->label;
   formats.picture = {series->name, alignment_verdict(*made)};
-  formats.first_station = command.job.first_station;
+  formats.first_station = made->alignment.elements.front().station;
   formats.transitions = made->transitions;
   if (made->profile) formats.profile = made->profile->profile;
   std::vector<Output> drawn, own;

@@ -326,7 +326,7 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     auto out = std::make_unique<obvid_contour>();
     out->stored = made->stored;
     out->name = series->label.empty() ? series->name : series->label;
-    out->first_station = job.first_station;
+    out->first_station = made->alignment.elements.front().station;
     if (made->profile) out->profile = made->profile->profile;
     out->transitions = made->transitions;
     out->picture = {series->name, alignment_verdict(*made)};

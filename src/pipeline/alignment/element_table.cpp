@@ -41,7 +41,9 @@ std::optional<std::vector<AlignmentElement>> elements_of(const Contour& contour,
     e.start = element_at(piece, 0.0);
     e.kappa1 = element_at(piece, 1.0).kappa;
     e.length = arc_length(piece, 0.0);  // exact: none of them is a Bezier piece
-    const double before = k == 0 ? e.start.kappa : out[k - 1].kappa1;
+    const double before = k > 0            ? out[k - 1].kappa1
+                          : contour.closed ? element_at(contour.pieces.back(), 1.0).kappa
+                                           : e.start.kappa;
     const double larger = std::max(std::abs(before), std::abs(e.start.kappa));
     e.step = std::abs(e.start.kappa - before) > kMostCurvatureStep * larger;
     station += e.length;
