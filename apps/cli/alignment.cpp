@@ -22,30 +22,6 @@ namespace {
 
 constexpr int kOffsetDigits = 3;
 
-/// Grades and vertical curves with stations, lengths, heights, grades, radii and K values.
-std::string profile_text(const VerticalProfile& profile, double size) {
-  constexpr double kPercent = 100.0;
-  Table table;
-  table.column("element");
-  table.column("kind", Table::Align::kLeft);
-  for (const char* head :
-       {"station", "length", "height", "grade\nat start %", "grade\nat end %", "radius", "K"}) {
-    table.column(head);
-  }
-  for (std::size_t k = 0; k < profile.elements.size(); ++k) {
-    const ProfileElement& e = profile.elements[k];
-    const bool bends = e.kind != ProfileKind::kGrade;
-    // length for a change of the grade of one percent
-    const double change = kPercent * std::abs(e.grade1 - e.grade0);
-    table.row({std::to_string(k + 1), to_string(e.kind), coordinate(e.station, size),
-               coordinate(e.length, size), coordinate(e.height, size),
-               fmt::format("{:.4f}", kPercent * e.grade0),
-               fmt::format("{:.4f}", kPercent * e.grade1), bends ? significant(e.radius, 5) : "-",
-               bends && change > 0.0 ? significant(e.length / change, 4) : "-"});
-  }
-  return table.text();
-}
-
 void add_profile_facts(const ProfileReport& report, const Units& units, Facts& facts) {
   const VerticalProfile& profile = report.profile;
   std::array<std::size_t, 3> count{};

@@ -137,6 +137,8 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
     out->stored = std::move(drawn->stored);
     out->name = std::move(drawn->name);
     out->first_station = drawn->first_station;
+    out->transitions = std::move(drawn->transitions);
+    out->profile = std::move(drawn->profile);
     out->picture = std::move(drawn->picture);
   } else {
     auto stored = contour_from_json(input.text, input.name);

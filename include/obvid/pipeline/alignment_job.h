@@ -101,9 +101,6 @@ struct AlignmentReport {
 /// The kinds, and how far points are off: below the title of pictures.
 [[nodiscard]] std::string alignment_verdict(const AlignmentReport& report);
 
-/// "grade", "crest", "sag".
-[[nodiscard]] const char* to_string(ProfileKind kind);
-
 /// All figures; angles in rad, lengths in units, curvatures in 1/unit.
 [[nodiscard]] std::string alignment_json(const AlignmentReport& report);
 
