@@ -46,7 +46,7 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   double squares = 0.0;
   for (std::size_t i = 0; i < feet.size(); ++i) {
     double at = station[feet[i].element] + feet[i].s;
-    if (closed && at >= out.length) at -= out.length;
+    if (closed && (i == 0 || at >= out.length)) at = i == 0 ? 0.0 : at - out.length;
     out.deviations.push_back({at, feet[i].offset});
     out.largest_share = std::max(out.largest_share, std::abs(feet[i].offset) / tolerance[i]);
     squares += feet[i].offset * feet[i].offset;

@@ -140,12 +140,12 @@ std::optional<Corner> corner_of(pugi::xml_node node) {
 }
 
 /// Coefficients of a height over the station from `s` on.
-struct Cubic {
+struct ElevationCubic {
   double s = 0.0, a = 0.0, b = 0.0, c = 0.0, d = 0.0;
 };
 
-std::optional<Cubic> cubic_of(pugi::xml_node node) {
-  Cubic out;
+std::optional<ElevationCubic> cubic_of(pugi::xml_node node) {
+  ElevationCubic out;
   for (const auto& [name, value] :
        {std::pair{"s", &out.s}, std::pair{"a", &out.a}, std::pair{"b", &out.b},
         std::pair{"c", &out.c}, std::pair{"d", &out.d}}) {
@@ -190,7 +190,7 @@ std::optional<VerticalProfile> landxml_profile(pugi::xml_node alignment, XmlWarn
 std::optional<VerticalProfile> opendrive_profile(pugi::xml_node road, XmlWarnings& warnings) {
   const pugi::xml_node all = child_of(road, "elevationProfile");
   const auto length = number_of(road.attribute("length").value());
-  std::vector<Cubic> parts;
+  std::vector<ElevationCubic> parts;
   for (const pugi::xml_node child : all.children()) {
     if (local_name(child) != "elevation") continue;
     const auto one = cubic_of(child);
@@ -204,13 +204,13 @@ std::optional<VerticalProfile> opendrive_profile(pugi::xml_node road, XmlWarning
     }
     parts.push_back(*one);
   }
-  const bool flat = std::all_of(parts.begin(), parts.end(), [](const Cubic& one) {
+  const bool flat = std::all_of(parts.begin(), parts.end(), [](const ElevationCubic& one) {
     return one.a == 0.0 && one.b == 0.0 && one.c == 0.0;
   });
   if (flat || !length) return std::nullopt;
   VerticalProfile out;
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    const Cubic& one = parts[k];
+    const ElevationCubic& one = parts[k];
     const double end = k + 1 < parts.size() ? parts[k + 1].s : *length;
     const double along = end - one.s;
     if (!(along > kTouching * *length)) continue;

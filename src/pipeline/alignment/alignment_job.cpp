@@ -63,7 +63,7 @@ Piece piece_of(const AlignmentElement& e, Vec2 end) {
 }
 
 /// An arc as pieces that turn by less than half a turn, which is what can be proved of one.
-void add_arc(const AlignmentElement& e, Vec2 end, DrawnCurve& curve) {
+void add_arc_pieces(const AlignmentElement& e, Vec2 end, DrawnCurve& curve) {
   const double turn = std::abs(e.start.kappa) * e.length;
   const int parts = 1 + static_cast<int>(turn / std::numbers::pi);
   AlignmentElement part = e;
@@ -101,7 +101,7 @@ DrawnCurve curve_of(const Alignment& alignment, const std::string& name, double 
     const AlignmentElement& e = alignment.elements[k];
     const Vec2 end = (last ? alignment.end : alignment.elements[k + 1].start).point;
     if (e.kind == AlignmentKind::kArc) {
-      add_arc(e, end, out);
+      add_arc_pieces(e, end, out);
     } else if (transition_of(e.kind) == Transition::kClothoid) {
       out.pieces.push_back(piece_of(e, end));
     } else {
