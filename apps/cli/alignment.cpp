@@ -22,30 +22,6 @@ namespace {
 
 constexpr int kOffsetDigits = 3;
 
-/// Grades and vertical curves with stations, lengths, heights, grades, radii and K values.
-std::string profile_text(const VerticalProfile& profile, double size) {
-  constexpr double kPercent = 100.0;
-  Table table;
-  table.column("element");
-  table.column("kind", Table::Align::kLeft);
-  for (const char* head :
-       {"station", "length", "height", "grade\nat start %", "grade\nat end %", "radius", "K"}) {
-    table.column(head);
-  }
-  for (std::size_t k = 0; k < profile.elements.size(); ++k) {
-    const ProfileElement& e = profile.elements[k];
-    const bool bends = e.kind != ProfileKind::kGrade;
-    // length for a change of the grade of one percent
-    const double change = kPercent * std::abs(e.grade1 - e.grade0);
-    table.row({std::to_string(k + 1), to_string(e.kind), coordinate(e.station, size),
-               coordinate(e.length, size), coordinate(e.height, size),
-               fmt::format("{:.4f}", kPercent * e.grade0),
-               fmt::format("{:.4f}", kPercent * e.grade1), bends ? significant(e.radius, 5) : "-",
-               bends && change > 0.0 ? significant(e.length / change, 4) : "-"});
-  }
-  return table.text();
-}
-
 void add_profile_facts(const ProfileReport& report, const Units& units, Facts& facts) {
   const VerticalProfile& profile = report.profile;
   std::array<std::size_t, 3> count{};
@@ -72,9 +48,11 @@ std::string alignment_text(const AlignmentReport& report, const std::vector<std:
   facts.add("alignment",
             fmt::format("{}: {}", counted(alignment.elements.size(), "element", "elements"),
                         kinds_text(alignment)));
-  facts.add("length", known_length(alignment.length, report.units.text()));
+  facts.add("length", known_length(alignment.length, report.units.text()) +
+                          (alignment.closed ? ", closed" : ""));
+  const std::size_t joints = alignment.elements.size() - (alignment.closed ? 0 : 1);
   facts.add("curvature", fmt::format("steps at {} of {}", curvature_steps(alignment.elements),
-                                     counted(alignment.elements.size() - 1, "joint", "joints")));
+                                     counted(joints, "joint", "joints")));
   facts.add("points", fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
                                   counted(alignment.deviations.size(), "point", "points"),
                                   significant(largest, kOffsetDigits), report.units.text(),
@@ -141,7 +119,7 @@ int run(const AlignmentCommand& command) {
   ExportOptions formats;
   formats.name = series->label.empty() ? series->name : series->label;
   formats.picture = {series->name, alignment_verdict(*made)};
-  formats.first_station = command.job.first_station;
+  formats.first_station = made->alignment.elements.front().station;
   formats.transitions = made->transitions;
   if (made->profile) formats.profile = made->profile->profile;
   std::vector<Output> drawn, own;

@@ -70,6 +70,9 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
                  "How far the alignment may pass the points, input units, or rounding: half a unit "
                  "of the last printed digit, or auto: estimated from their scatter [rounding]")
       ->type_name("EPS");
+  app.add_flag("--closed", command.job.closed,
+               "Around a loop: behind the last point comes the first one, and the alignment has no "
+               "joint of its own there");
   for (const NumberOption& option : kNumberOptions) {
     app.add_option(option.name, raw.*option.text, option.help)->type_name(option.value);
   }
@@ -106,7 +109,7 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
       "Elements join with common tangents; curvature steps only where the points ask for it.\n"
       "Examples:\n"
       "  obvid alignment survey.csv --noise 0.02 --units m -o road.xml\n"
-      "  obvid alignment track.geojson --noise 0.5 -o road.xodr -o elements.csv\n"
+      "  obvid alignment track.geojson --closed --noise 0.5 -o road.xodr -o elements.csv\n"
       "  obvid alignment survey.csv --noise 0.02 --profile levels.csv --profile-noise 0.01 -o "
       "road.xml"));
 }

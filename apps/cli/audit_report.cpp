@@ -167,6 +167,7 @@ std::string audit_text(const AnalysedDrawing& analysed, bool all) {
     if (!elements && audits[i].places.empty() && audits[i].straightened == 0) continue;
     out += fmt::format("\ncurve {}, {}\n", i + 1, audits[i].label);
     if (elements) out += elements_text(*elements, audits[i].length) + "\n";
+    if (audits[i].profile) out += profile_text(*audits[i].profile, audits[i].length) + "\n";
     add_straightened(audits[i], out);
     if (audits[i].places.empty()) continue;
     out += place_table(audits[i]) + unplaced_text(audits[i]);

@@ -35,6 +35,8 @@ Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions&
   formats.name = std::move(drawn->name);
   formats.picture = std::move(drawn->picture);
   formats.first_station = drawn->first_station;
+  formats.transitions = std::move(drawn->transitions);
+  formats.profile = std::move(drawn->profile);
   return std::move(drawn->stored);
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "table.h"
@@ -55,6 +56,29 @@ std::string elements_text(const std::vector<AlignmentElement>& elements, double 
     }
     cells.emplace_back(e.step ? "curvature steps here" : "");
     table.row(std::move(cells));
+  }
+  return table.text();
+}
+
+std::string profile_text(const VerticalProfile& profile, double size) {
+  constexpr double kPercent = 100.0;
+  Table table;
+  table.column("element");
+  table.column("kind", Table::Align::kLeft);
+  for (const char* head :
+       {"station", "length", "height", "grade\nat start %", "grade\nat end %", "radius", "K"}) {
+    table.column(head);
+  }
+  for (std::size_t k = 0; k < profile.elements.size(); ++k) {
+    const ProfileElement& e = profile.elements[k];
+    const bool bends = e.kind != ProfileKind::kGrade;
+    // length for a change of the grade of one percent
+    const double change = kPercent * std::abs(e.grade1 - e.grade0);
+    table.row({std::to_string(k + 1), to_string(e.kind), coordinate(e.station, size),
+               coordinate(e.length, size), coordinate(e.height, size),
+               fmt::format("{:.4f}", kPercent * e.grade0),
+               fmt::format("{:.4f}", kPercent * e.grade1), bends ? significant(e.radius, 5) : "-",
+               bends && change > 0.0 ? significant(e.length / change, 4) : "-"});
   }
   return table.text();
 }

@@ -14,4 +14,7 @@ namespace obvid {
 [[nodiscard]] std::string elements_text(const std::vector<AlignmentElement>& elements, double size,
                                         const std::optional<SpeedLimit>& limit = {});
 
+/// Grades and vertical curves with stations, lengths, heights, grades, radii and K values.
+[[nodiscard]] std::string profile_text(const VerticalProfile& profile, double size);
+
 }  // namespace obvid

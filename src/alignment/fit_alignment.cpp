@@ -18,10 +18,17 @@ AlignmentKind kind_of(const std::array<int, 2>& ends, Transition law) {
 }
 
 Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
-                       const std::vector<double>& tolerance) {
+                       const std::vector<double>& tolerance, bool closed) {
   Alignment out;
+  out.closed = closed;
   const std::vector<Element> joints = chain.joints();
+  for (const double length : chain.length) out.length += length;
   std::vector<double> station = {0.0};
+  if (closed) {  // the first point is on the last element, or the start of the only one
+    for (std::size_t k = 0; k < feet.front().element; ++k) station[0] -= chain.length[k];
+    station[0] -= feet.front().s;
+    if (station[0] < 0.0) station[0] += out.length;
+  }
   for (std::size_t k = 0; k < chain.size(); ++k) {
     AlignmentElement e;
     e.kind = kind_of(chain.ends[k], chain.law[k]);
@@ -29,15 +36,18 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
     e.start = joints[k];
     e.length = chain.length[k];
     e.kappa1 = chain.curvature(k, 1);
-    e.step = k > 0 && chain.ends[k - 1][1] != chain.ends[k][0];
+    const std::size_t before = k > 0 ? k - 1 : chain.size() - 1;
+    e.step = (k > 0 || closed) && chain.ends[before][1] != chain.ends[k][0];
     station.push_back(station.back() + e.length);
     out.elements.push_back(e);
   }
   out.end = joints.back();
-  out.length = station.back();
+  if (closed) out.end.point = joints.front().point;
   double squares = 0.0;
   for (std::size_t i = 0; i < feet.size(); ++i) {
-    out.deviations.push_back({station[feet[i].element] + feet[i].s, feet[i].offset});
+    double at = station[feet[i].element] + feet[i].s;
+    if (closed && (i == 0 || at >= out.length)) at = i == 0 ? 0.0 : at - out.length;
+    out.deviations.push_back({at, feet[i].offset});
     out.largest_share = std::max(out.largest_share, std::abs(feet[i].offset) / tolerance[i]);
     squares += feet[i].offset * feet[i].offset;
   }
@@ -76,9 +86,17 @@ Transition transition_of(AlignmentKind kind) {
 Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
                                 const std::vector<double>& tolerance,
                                 const AlignmentOptions& options, const RunContext& run) {
+  if (options.closed && given.size() > 1 && given.back() == given.front()) {
+    std::vector<double> allowed(tolerance.begin(), tolerance.end() - 1);
+    allowed.front() = std::min(allowed.front(), tolerance.back());
+    auto once = fit_alignment({given.begin(), given.end() - 1}, allowed, options, run);
+    OBVID_TRY(once);
+    once->deviations.push_back(once->deviations.front());
+    return once;
+  }
   const auto found = alignment::find_chain(given, tolerance, options, {}, run);
   OBVID_TRY(found);
-  Alignment out = alignment::alignment_of(found->chain, found->feet, tolerance);
+  Alignment out = alignment::alignment_of(found->chain, found->feet, tolerance, options.closed);
   OBVID_TRY(alignment::keeps_limits(out, options));
   for (AlignmentElement& e : out.elements) e.start.point = e.start.point + found->origin;
   out.end.point = out.end.point + found->origin;

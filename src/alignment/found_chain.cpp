@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fewest_pieces.h"
+#include "whole_circle.h"
 
 namespace obvid::alignment {
 namespace {
@@ -21,25 +22,28 @@ constexpr double kHopelessOffset = 3.0;
 constexpr int kPasses = 4;         ///< over all conditions
 constexpr double kSlow = 0.25;     ///< of a run's change of curvature: what may be an arc beside it
 constexpr double kSlowRate = 0.1;  ///< of the fastest change of curvature: what may be an arc
-constexpr std::size_t kLongestRun = 9;  ///< elements that one transition takes the place of
-constexpr int kPolishes = 3;            ///< over the whole alignment, where an offset is too large
+constexpr std::size_t kLongestRun = 9;   ///< elements that one transition takes the place of
+constexpr int kPolishes = 3;             ///< over the whole alignment, where an offset is too large
+constexpr std::size_t kLeastAround = 4;  ///< elements that a loop begins with
+constexpr int kMoreAtSeam = 2;           ///< elements that may be added to close a loop
 
 class Simplifier {
  public:
-  Simplifier(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
+  /// Of a closed alignment the last point is the first one again; `close` leaves it out.
+  Simplifier(std::vector<Vec2> points, std::vector<double> tolerance,
              const AlignmentOptions& options, bool constant, Chain chain, std::vector<Foot> feet)
-      : points_(points),
-        tolerance_(tolerance),
+      : points_(std::move(points)),
+        tolerance_(std::move(tolerance)),
         transitions_(options.transitions),
         constant_(constant),
         chain_(std::move(chain)),
         feet_(std::move(feet)) {
     double length = 0.0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      const Vec2 chord = points[i] - points[i - 1];
+    for (std::size_t i = 1; i < points_.size(); ++i) {
+      const Vec2 chord = points_[i] - points_[i - 1];
       length += chain_.plane == Plane::kMap ? norm(chord) : chord.x;
     }
-    least_length_ = std::max(kLeastLength * length / static_cast<double>(points.size() - 1),
+    least_length_ = std::max(kLeastLength * length / static_cast<double>(points_.size() - 1),
                              options.least_length);
     if (options.least_radius > 0.0) largest_curvature_ = 1.0 / options.least_radius;
   }
@@ -50,6 +54,47 @@ class Simplifier {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
     if (auto on = polish(run, &joints); !on) return on;
+    return simplify(run);
+  }
+
+  /// The same around a loop: the ends of what was found are joined, and everything is tried once
+  /// with the seam where the points begin and once with it half way around, where it is no other
+  /// joint than the rest. At last the chain begins at the joint behind the first point.
+  Result<void> run_around(const RunContext& run) {
+    const std::vector<Element> joints = chain_.joints();
+    for (double& kappa : chain_.kappa) {
+      kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
+    }
+    if (auto on = polish(run, &joints); !on) return on;
+    if (auto on = close(run); !on) return on;
+    for (int turn = 0; turn < 2; ++turn) {
+      if (auto on = simplify(run); !on) return on;
+      turn_to(chain_.size() / 2);
+    }
+    if (auto on = merge_all(run); !on) return on;
+    const std::size_t first = (points_.size() - first_given_) % points_.size();
+    turn_to((feet_[first].element + 1) % chain_.size());
+    if (largest() > 1.0) return polish(run);
+    return {};
+  }
+
+  /// Foot of a point, as points were given.
+  [[nodiscard]] const Foot& foot_of_given(std::size_t i) const {
+    return feet_[(i + feet_.size() - first_given_) % feet_.size()];
+  }
+
+  [[nodiscard]] const Chain& chain() const { return chain_; }
+  [[nodiscard]] double largest() {
+    find_feet(chain_, points_, feet_);
+    double out = 0.0;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      out = std::max(out, std::abs(feet_[i].offset) / tolerance_[i]);
+    }
+    return out;
+  }
+
+ private:
+  Result<void> simplify(const RunContext& run) {
     if (auto on = merge_all(run); !on) return on;
     for (int pass = 0; pass < kPasses; ++pass) {
       const auto taken = take_conditions(run);
@@ -74,18 +119,6 @@ class Simplifier {
     return {};
   }
 
-  [[nodiscard]] const Chain& chain() const { return chain_; }
-  [[nodiscard]] const std::vector<Foot>& feet() const { return feet_; }
-  [[nodiscard]] double largest() {
-    find_feet(chain_, points_, feet_);
-    double out = 0.0;
-    for (std::size_t i = 0; i < feet_.size(); ++i) {
-      out = std::max(out, std::abs(feet_[i].offset) / tolerance_[i]);
-    }
-    return out;
-  }
-
- private:
   /// Some elements with their points, cut out.
   struct Window {
     std::size_t first = 0;  ///< element
@@ -111,10 +144,14 @@ class Simplifier {
     out.chain.plane = chain.plane;
     out.chain.start = joints[first].point;
     out.chain.theta = joints[first].theta;
-    out.held.start = first > 0;
+    out.held.start = first > 0 || closed_;
     out.held.least_length = least_length_;
     out.held.largest_curvature = largest_curvature_;
-    if (last < chain.size()) out.held.end = joints[end];
+    if (last < chain.size()) {
+      out.held.end = joints[end];
+    } else if (closed_) {
+      out.held.end = joints.front();
+    }
     for (std::size_t k = first; k < last; ++k) {
       out.chain.length.push_back(chain.length[k]);
       out.chain.law.push_back(chain.law[k]);
@@ -486,11 +523,93 @@ class Simplifier {
   }
 
   /// Elements that share a curvature follow one another: those beside the window tell.
-  static bool is_used_outside(const Chain& chain, int number, std::size_t first, std::size_t last) {
+  [[nodiscard]] bool is_used_outside(const Chain& chain, int number, std::size_t first,
+                                     std::size_t last) const {
     const auto uses = [&](std::size_t element) {
       return chain.ends[element][0] == number || chain.ends[element][1] == number;
     };
-    return (first > 0 && uses(first - 1)) || (last < chain.size() && uses(last));
+    const bool before = first > 0, behind = last < chain.size();
+    return (before && uses(first - 1)) || (behind && uses(last)) ||
+           (closed_ && behind && !before && uses(chain.size() - 1)) ||
+           (closed_ && before && !behind && uses(0));
+  }
+
+  /// Begins the chain, and the points, with element m.
+  void turn_to(std::size_t m) {
+    const std::vector<Element> joints = chain_.joints();
+    chain_.start = joints[m].point;
+    chain_.theta = joints[m].theta;
+    const auto turn = [m](auto& of_elements) {
+      std::rotate(of_elements.begin(), of_elements.begin() + static_cast<std::ptrdiff_t>(m),
+                  of_elements.end());
+    };
+    turn(chain_.length);
+    turn(chain_.ends);
+    turn(chain_.law);
+    const auto first = std::find_if(feet_.begin(), feet_.end(),
+                                    [m](const Foot& foot) { return foot.element >= m; }) -
+                       feet_.begin();
+    for (Foot& foot : feet_) foot.element = (foot.element + chain_.size() - m) % chain_.size();
+    std::rotate(feet_.begin(), feet_.begin() + first, feet_.end());
+    std::rotate(points_.begin(), points_.begin() + first, points_.end());
+    std::rotate(tolerance_.begin(), tolerance_.begin() + first, tolerance_.end());
+    first_given_ = (first_given_ + static_cast<std::size_t>(first)) % points_.size();
+  }
+
+  /// Element k as two, which bend as they like.
+  void halve(std::size_t k) {
+    const double middle = 0.5 * (chain_.curvature(k, 0) + chain_.curvature(k, 1));
+    const auto [k0, k1] = chain_.ends[k];
+    const auto at = static_cast<std::ptrdiff_t>(k);
+    const int number = static_cast<int>(chain_.kappa.size());
+    chain_.kappa.insert(chain_.kappa.end(), {middle, middle});
+    if (constant_) {
+      chain_.ends[k] = {number, number};
+      chain_.ends.insert(chain_.ends.begin() + at, {k0, k0});
+    } else {
+      chain_.ends[k] = {number + 1, k1};
+      chain_.ends.insert(chain_.ends.begin() + at, {k0, number});
+    }
+    chain_.length[k] *= 0.5;
+    chain_.length.insert(chain_.length.begin() + at, chain_.length[k]);
+    chain_.law.insert(chain_.law.begin() + at, chain_.law[k]);
+    for (Foot& foot : feet_) {
+      if (foot.element < k || (foot.element == k && foot.s <= chain_.length[k])) continue;
+      if (foot.element == k) foot.s -= chain_.length[k];
+      ++foot.element;
+    }
+  }
+
+  /// Joins the end to the start: elements around the seam, few of them and then more, are fitted
+  /// between the poses of those beside them; where none will do, with one element more.
+  Result<void> close(const RunContext& run) {
+    points_.pop_back();
+    tolerance_.pop_back();
+    feet_.pop_back();
+    while (chain_.size() < kLeastAround) halve(chain_.size() - 1);
+    const std::vector<Element> open = chain_.joints();
+    const std::size_t half = chain_.size() / 2;
+    std::size_t seam = chain_.size() - half;
+    turn_to(half);
+    closed_ = true;
+    for (int more = 0; more <= kMoreAtSeam; ++more) {
+      for (std::size_t beside = kBeside; beside <= kWindow; beside *= 2) {
+        OBVID_TRY(may_go_on(run));
+        const std::size_t first = seam - std::min(seam, beside);
+        const std::size_t last = std::min(seam + beside, chain_.size());
+        Window window = cut(chain_, first, last);
+        if (last < chain_.size()) window.held.end = open[last - seam];
+        if (fits(window)) {
+          put_back(window, chain_);
+          return {};
+        }
+        if (first == 0 && last == chain_.size()) break;
+      }
+      halve(seam - 1);
+      ++seam;
+    }
+    return fail(error(ErrorCode::kNoSpiral, "the ends of what was found could not be joined")
+                    .hint("allow a larger tolerance, or shorter elements and smaller radii"));
   }
 
   [[nodiscard]] bool is_used(int number) const {
@@ -524,10 +643,12 @@ class Simplifier {
     return taken;
   }
 
-  const std::vector<Vec2>& points_;
-  const std::vector<double>& tolerance_;
+  std::vector<Vec2> points_;
+  std::vector<double> tolerance_;
   Transition transitions_ = Transition::kClothoid;
-  bool constant_ = false;  ///< curvature of each element
+  bool constant_ = false;        ///< curvature of each element
+  bool closed_ = false;          ///< the pose at the end is that at the start, and stays
+  std::size_t first_given_ = 0;  ///< number, as given, of the first point
   Chain chain_;
   std::vector<Foot> feet_;
   double least_length_ = 0.0;
@@ -561,14 +682,17 @@ void set_chain(const std::vector<Node>& nodes, std::size_t points, const Sought&
 
 /// What a search or a fit cannot begin with.
 Result<void> check_points(const std::vector<Vec2>& points, const AlignmentOptions& options) {
-  if (points.size() < 2) {
-    return error(ErrorCode::kTooFewPoints, "an alignment needs at least two points")
+  const std::size_t least = options.closed ? 3 : 2;
+  if (points.size() < least) {
+    return error(ErrorCode::kTooFewPoints, options.closed
+                                               ? "a closed alignment needs at least three points"
+                                               : "an alignment needs at least two points")
         .value(static_cast<double>(points.size()));
   }
-  for (const double least : {options.least_length, options.least_radius}) {
-    if (least >= 0.0 && std::isfinite(least)) continue;
+  for (const double limit : {options.least_length, options.least_radius}) {
+    if (limit >= 0.0 && std::isfinite(limit)) continue;
     return fail(
-        error(ErrorCode::kBadOption, "a least length or radius must be 0 or more").value(least));
+        error(ErrorCode::kBadOption, "a least length or radius must be 0 or more").value(limit));
   }
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i] != points[i - 1]) continue;
@@ -587,17 +711,28 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
   // coordinates of maps are far from their origin
   out.origin = given.front();
   std::vector<Vec2> points;
-  points.reserve(given.size());
+  points.reserve(given.size() + 1);
   for (const Vec2 p : given) points.push_back(p - out.origin);
-  const auto nodes = fewest_pieces(points, tolerance, options, sought, run);
+  std::vector<double> allowed = tolerance;
+  if (options.closed) {
+    if (auto circle = whole_circle(points, tolerance)) {
+      if (!(std::abs(circle->chain.kappa.front()) * options.least_radius > 1.0)) {
+        circle->origin = out.origin;
+        return *circle;
+      }
+    }
+    points.push_back(points.front());
+    allowed.push_back(allowed.front());
+  }
+  const auto nodes = fewest_pieces(points, allowed, options, sought, run);
   OBVID_TRY(nodes);
   Chain chain;
   std::vector<Foot> feet;
   set_chain(*nodes, points.size(), sought, chain, feet);
   find_feet(chain, points, feet);
-  Simplifier simplifier(points, tolerance, options, sought.constant, std::move(chain),
-                        std::move(feet));
-  OBVID_TRY(simplifier.run(run));
+  Simplifier simplifier(std::move(points), std::move(allowed), options, sought.constant,
+                        std::move(chain), std::move(feet));
+  OBVID_TRY(options.closed ? simplifier.run_around(run) : simplifier.run(run));
   const double largest = simplifier.largest();
   if (!(largest <= 1.0)) {
     return fail(
@@ -606,7 +741,7 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
             .value(largest));
   }
   out.chain = simplifier.chain();
-  out.feet = simplifier.feet();
+  for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(simplifier.foot_of_given(i));
   return out;
 }
 

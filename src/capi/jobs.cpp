@@ -139,6 +139,8 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
     out->stored = std::move(drawn->stored);
     out->name = std::move(drawn->name);
     out->first_station = drawn->first_station;
+    out->transitions = std::move(drawn->transitions);
+    out->profile = std::move(drawn->profile);
     out->picture = std::move(drawn->picture);
   } else {
     auto stored = contour_from_json(input.text, input.name);
@@ -331,7 +333,7 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     auto out = std::make_unique<obvid_contour>();
     out->stored = made->stored;
     out->name = series->label.empty() ? series->name : series->label;
-    out->first_station = job.first_station;
+    out->first_station = made->alignment.elements.front().station;
     if (made->profile) out->profile = made->profile->profile;
     out->transitions = made->transitions;
     out->picture = {series->name, alignment_verdict(*made)};

@@ -109,6 +109,7 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
   if (known.alignment) {
     AlignmentJob& job = out.alignment;
     all.insert({{"noise", text(w.alignment.noise)},
+                {"closed", flag(job.closed)},
                 {"min-length", number(job.least_length)},
                 {"min-radius", number(job.least_radius)},
                 {"station", number(job.first_station)},

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace obvid {
@@ -240,6 +242,129 @@ TEST(Alignment, EndsWhenItIsAskedTo) {
   const auto found = fit_alignment(points, std::vector<double>(points.size(), 0.01), {}, run);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
+}
+
+/// Two straight lines and two half circles, with clothoids between them or without; heading and
+/// place come back after both halves, as each turns by pi.
+std::vector<RoadPart> oval(double straight, double arc, double transition) {
+  const double kappa = std::numbers::pi / (arc + transition);
+  std::vector<RoadPart> half = {{straight, 0, 0}};
+  if (transition > 0.0) half.push_back({transition, 0, kappa});
+  half.push_back({arc, kappa, kappa});
+  if (transition > 0.0) half.push_back({transition, kappa, 0});
+  std::vector<RoadPart> out = half;
+  out.insert(out.end(), half.begin(), half.end());
+  return out;
+}
+
+/// Points of a closed road without the last one, which is the first; begun somewhere on it.
+std::vector<Vec2> loop_points(const std::vector<RoadPart>& parts, double step, std::size_t from) {
+  std::vector<Vec2> out = road_points(parts, step);
+  out.pop_back();
+  std::rotate(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(from), out.end());
+  return out;
+}
+
+/// The end of the last element by Simpson's rule is the start of the first.
+void expect_closed(const Alignment& made, double tolerance) {
+  ASSERT_TRUE(made.closed);
+  Vec2 at = made.elements.front().start.point;
+  double theta = made.elements.front().start.theta;
+  for (const AlignmentElement& e : made.elements) {
+    constexpr int kSlices = 2000;
+    const double h = e.length / kSlices;
+    for (int i = 0; i < kSlices; ++i) {
+      const auto turned = [&](double t) {
+        const double u = (i + t) * h;
+        return theta + e.start.kappa * u + 0.5 * (e.kappa1 - e.start.kappa) * u * u / e.length;
+      };
+      const double a = turned(0.0), b = turned(0.5), c = turned(1.0);
+      at = at + h / 6.0 *
+                    Vec2{std::cos(a) + 4.0 * std::cos(b) + std::cos(c),
+                         std::sin(a) + 4.0 * std::sin(b) + std::sin(c)};
+    }
+    theta += 0.5 * (e.start.kappa + e.kappa1) * e.length;
+  }
+  EXPECT_LT(norm(at - made.elements.front().start.point), 1e-6 * tolerance + 1e-10 * made.length);
+  EXPECT_NEAR(
+      std::abs(std::remainder(theta - made.elements.front().start.theta, 2.0 * std::numbers::pi)),
+      0.0, 1e-9);
+}
+
+TEST(ClosedAlignment, HasTheElementsOfALoopWhereverItsPointsBegin) {
+  // 0: in a line, 10: in a transition, 14: in an arc
+  const auto parts = oval(50.0, 60.0, 15.0);
+  for (const std::size_t from : {2U, 10U, 14U, 40U}) {
+    const auto points = disturbed(loop_points(parts, 5.0, from), 0.002);
+    const std::vector<double> tolerance(points.size(), 0.008);
+    AlignmentOptions options;
+    options.closed = true;
+    const auto made = fit_alignment(points, tolerance, options);
+    ASSERT_TRUE(made) << made.error().what;
+    ASSERT_EQ(made->elements.size(), 8U) << from;
+    EXPECT_NEAR(made->length, 280.0, 0.05);
+    expect_closed(*made, 0.008);
+    for (const AlignmentElement& e : made->elements) EXPECT_FALSE(e.step) << from;
+    for (const AlignmentDeviation& d : made->deviations) EXPECT_LE(std::abs(d.offset), 0.008);
+    ASSERT_EQ(made->deviations.size(), points.size());
+    EXPECT_NEAR(made->deviations.front().station, 0.0, 1e-9);
+    for (const AlignmentElement& e : made->elements) {
+      EXPECT_TRUE(e.kind != AlignmentKind::kArc ||
+                  std::abs(1.0 / e.start.kappa - 75.0 / std::numbers::pi) < 0.02);
+    }
+  }
+}
+
+TEST(ClosedAlignment, HasStepsWhereTheyAreAndNoneWherePointsBegin) {
+  const auto points = disturbed(loop_points(oval(50.0, 75.0, 0.0), 5.0, 13), 0.002);
+  AlignmentOptions options;
+  options.closed = true;
+  const auto made = fit_alignment(points, std::vector<double>(points.size(), 0.008), options);
+  ASSERT_TRUE(made) << made.error().what;
+  ASSERT_EQ(made->elements.size(), 4U);
+  expect_closed(*made, 0.008);
+  for (const AlignmentElement& e : made->elements) EXPECT_TRUE(e.step);
+}
+
+TEST(ClosedAlignment, OfACircleIsOneArcOfAnySizeAnywhere) {
+  for (const double size : {1e-9, 1.0, 1e9}) {
+    for (const double sense : {1.0, -1.0}) {
+      std::vector<Vec2> points;
+      Noise noise;
+      for (int i = 0; i < 40; ++i) {
+        const double a = sense * 2.0 * std::numbers::pi * i / 40.0;
+        points.push_back(
+            size * (Vec2{1e6, -3e6} + (20.0 + 0.01 * noise()) * Vec2{std::cos(a), std::sin(a)}));
+      }
+      AlignmentOptions options;
+      options.closed = true;
+      const auto made =
+          fit_alignment(points, std::vector<double>(points.size(), 0.05 * size), options);
+      ASSERT_TRUE(made) << made.error().what;
+      ASSERT_EQ(made->elements.size(), 1U) << size;
+      const AlignmentElement& e = made->elements.front();
+      EXPECT_NEAR(sense / (e.start.kappa * size), 20.0, 0.05);
+      EXPECT_NEAR(e.length * std::abs(e.start.kappa), 2.0 * std::numbers::pi, 1e-12);
+      EXPECT_FALSE(e.step);
+    }
+  }
+}
+
+TEST(ClosedAlignment, NeedsThreePointsAndTakesTheFirstAgainAtTheEnd) {
+  AlignmentOptions options;
+  options.closed = true;
+  const auto none = fit_alignment({{0, 0}, {1, 0}}, {0.1, 0.1}, options);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kTooFewPoints);
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 12; ++i) {
+    const double a = 2.0 * std::numbers::pi * (i % 12) / 12.0;
+    points.push_back({std::cos(a), std::sin(a)});
+  }
+  const auto made = fit_alignment(points, std::vector<double>(points.size(), 1e-6), options);
+  ASSERT_TRUE(made) << made.error().what;
+  EXPECT_EQ(made->elements.size(), 1U);
+  EXPECT_EQ(made->deviations.size(), points.size());
 }
 
 }  // namespace

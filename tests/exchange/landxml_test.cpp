@@ -2,12 +2,15 @@
 #include "obvid/exchange/internal/road/landxml.h"
 #include "drawing_checks.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -92,7 +95,7 @@ TEST(LandXmlRead, WhatCannotBeDrawnIsNamedAndCutsTheCurve) {
        {line("0 0", "0 0"), line("0", "1 1"), line("0 x", "1 1"), line("0 nan", "1 1"),
         curve("rot='cw' radius='-3'", "0 0", "0 1", "0 2"), curve("rot='cw'", "0 0", "", "0 2"),
         curve("rot='cw' radius='1'", "0 0", "", "0 9"), curve("radius='1'", "0 0", "0 1", "0 2"),
-        "<Spiral spiType='bloss' length='1' radiusStart='INF' radiusEnd='9' rot='cw'>" + spiral,
+        "<Spiral spiType='cubic' length='1' radiusStart='INF' radiusEnd='9' rot='cw'>" + spiral,
         "<Spiral spiType='clothoid' length='1' radiusStart='0' radiusEnd='9' rot='cw'>" + spiral,
         "<Spiral spiType='clothoid' length='-1' radiusStart='INF' radiusEnd='9' rot='cw'>" + spiral,
         std::string("<Chain>a b</Chain>")}) {
@@ -102,10 +105,98 @@ TEST(LandXmlRead, WhatCannotBeDrawnIsNamedAndCutsTheCurve) {
   }
   EXPECT_TRUE(
       warns(read_landxml_text(file_of(good +
-                                      "<Spiral spiType='bloss' length='1' radiusStart='INF' "
+                                      "<Spiral spiType='cubic' length='1' radiusStart='INF' "
                                       "radiusEnd='9' rot='cw'>" +
                                       spiral)),
-            "'bloss'"));
+            "'cubic'"));
+}
+
+std::string file_with_profile(const std::string& places) {
+  std::string out = file_of(line("0 0", "0 600"));
+  const std::string_view end = "</CoordGeom>";
+  out.insert(out.find(end) + end.size(),
+             "<Profile><ProfAlign name='p'>" + places + "</ProfAlign></Profile>");
+  return out;
+}
+
+TEST(LandXmlRead, ProfilesAreGradesAndCurves) {
+  // 2 % up to station 200, then -2 %: a parabola of 100 m, its height 2 (0.04) 100 / 8 below
+  const Drawing d = read_landxml_text(file_with_profile(
+      "<PVI>0 10</PVI><ParaCurve length='100'>200 14</ParaCurve><PVI>600 6</PVI>"));
+  ASSERT_TRUE(d.curves[0].profile);
+  const VerticalProfile& profile = *d.curves[0].profile;
+  ASSERT_EQ(profile.elements.size(), 3U);
+  const ProfileElement& crest = profile.elements[1];
+  EXPECT_EQ(crest.kind, ProfileKind::kCrest);
+  EXPECT_NEAR(crest.station, 150.0, 1e-12);
+  EXPECT_NEAR(crest.length, 100.0, 1e-12);
+  EXPECT_NEAR(crest.radius, -2500.0, 1e-9);
+  EXPECT_NEAR(profile_at(profile, 200.0).height, 14.0 - 0.04 * 100.0 / 8.0, 1e-12);
+  EXPECT_NEAR(profile.end_height, 6.0, 1e-12);
+  // lengths 60 and 20 beside the corner: below it by 0.04 60 20 / (2 80)
+  const Drawing unlike = read_landxml_text(file_with_profile(
+      "<PVI>0 10</PVI><UnsymParaCurve lengthIn='60' lengthOut='20'>200 14</UnsymParaCurve>"
+      "<PVI>600 6</PVI>"));
+  ASSERT_TRUE(unlike.curves[0].profile);
+  ASSERT_EQ(unlike.curves[0].profile->elements.size(), 4U);
+  EXPECT_NEAR(profile_at(*unlike.curves[0].profile, 200.0).height, 14.0 - 0.04 * 60 * 20 / 160,
+              1e-12);
+  // an arc of 5000: tangents of 5000 tan(turn / 2), its middle 5000 (1/cos(turn / 2) - 1) below
+  const Drawing round = read_landxml_text(file_with_profile(
+      "<PVI>0 10</PVI><CircCurve length='200' radius='5000'>200 14</CircCurve><PVI>600 6</PVI>"));
+  ASSERT_TRUE(round.curves[0].profile);
+  EXPECT_EQ(round.curves[0].profile->curves, ProfileCurves::kArcs);
+  const double half = std::atan(0.02);
+  EXPECT_NEAR(profile_at(*round.curves[0].profile, 200.0).height,
+              14.0 - 5000.0 * (1.0 / std::cos(half) - 1.0), 1e-9);
+  for (const char* bad :
+       {"<PVI>0 10</PVI><ParaCurve length='500'>200 14</ParaCurve><PVI>600 6</PVI>",
+        "<PVI>0 10</PVI><ParaCurve>200 14</ParaCurve><PVI>600 6</PVI>",
+        "<PVI>0 10</PVI><PVI>-5 10</PVI>", "<PVI>0 10</PVI><PVI>x 10</PVI>"}) {
+    const Drawing none = read_landxml_text(file_with_profile(bad));
+    EXPECT_FALSE(none.curves[0].profile) << bad;
+    EXPECT_TRUE(warns(none, "is not used")) << bad;
+  }
+}
+
+TEST(LandXmlRead, CantIsSaidToBeLeftOut) {
+  std::string text = file_of(line("0 0", "0 600"));
+  const std::string_view end = "</CoordGeom>";
+  text.insert(text.find(end) + end.size(), "<Cant name='c'/>");
+  EXPECT_TRUE(warns(read_landxml_text(text), "cant is not used"));
+}
+
+TEST(LandXmlRead, SpiralsOfOtherLawsTurnAsTheyShould) {
+  // By Simpson's rule on the law itself: curvature 0 to 1/300 over 120.
+  const auto share = [](const std::string& kind, double u) {
+    constexpr double kPi = std::numbers::pi;
+    if (kind == "bloss") return u * u * (3.0 - 2.0 * u);
+    if (kind == "sinusoid") return u - std::sin(2.0 * kPi * u) / (2.0 * kPi);
+    if (kind == "cosine") return 0.5 * (1.0 - std::cos(kPi * u));
+    return u < 0.5 ? 2.0 * u * u : 1.0 - 2.0 * (1.0 - u) * (1.0 - u);
+  };
+  for (const char* kind : {"bloss", "sinusoid", "cosine", "biquadratic"}) {
+    constexpr int kSlices = 20000;
+    constexpr double h = 120.0 / kSlices;
+    double theta = 0.0;
+    Vec2 at;
+    for (int i = 0; i < kSlices; ++i) {
+      const double middle = theta + 0.5 * h * share(kind, (i + 0.25) / kSlices) / 300.0;
+      at = at + h * Vec2{std::cos(middle), std::sin(middle)};
+      theta += h * share(kind, (i + 0.5) / kSlices) / 300.0;
+    }
+    const Drawing d = read_landxml_text(file_of(
+        fmt::format("<Spiral spiType='{}' length='120' radiusStart='INF' radiusEnd='300' rot='ccw'>"
+                    "<Start>0 0</Start><PI>0 80</PI><End>{:.12f} {:.12f}</End></Spiral>",
+                    kind, at.y, at.x)));
+    ASSERT_EQ(d.curves.size(), 1U) << kind;
+    ASSERT_EQ(d.curves[0].transitions.size(), 1U) << kind;
+    EXPECT_EQ(d.curves[0].transitions[0].length, 120.0);
+    EXPECT_NEAR(d.curves[0].transitions[0].kappa1, 1.0 / 300.0, 1e-15);
+    EXPECT_FALSE(warns(d, "from their stated ends")) << kind;
+    const auto& first = std::get<ClothoidPiece>(d.curves[0].pieces.front());
+    EXPECT_NEAR(first.theta0, 0.0, 1e-7) << kind;
+  }
 }
 
 TEST(LandXmlRead, ContradictionsAreNamed) {
@@ -278,19 +369,34 @@ TEST(LandXmlWrite, TheJudgeSeesATurnToTheOtherSideAndAUnitOfTheOtherSystem) {
   EXPECT_EQ(systems.size(), 2U);
 }
 
+/// Without the names by which reading knows parts of one element.
+std::string without_names(std::string text) {
+  const std::string name = " name=\"1\"";
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
+    text.erase(at, name.size());
+  }
+  return text;
+}
+
 TEST(LandXmlWrite, SpiralsThroughAnInflectionAndLargeTurnsAreCut) {
   const Contour wave = Road({{0.0, 0.0}, 0.0, 0.0}).add(0.01, -0.02, 60.0).take();
   const auto text = landxml_text(wave);
   ASSERT_TRUE(text.has_value());
-  const Drawing d = read_landxml_text(*text);
+  const Drawing d = read_landxml_text(without_names(*text));
   ASSERT_EQ(d.curves[0].pieces.size(), 2U);
   const auto& first = std::get<ClothoidPiece>(d.curves[0].pieces[0]);
   const auto& second = std::get<ClothoidPiece>(d.curves[0].pieces[1]);
   EXPECT_NEAR(first.length, 20.0, 1e-12);
   EXPECT_EQ(first.kappa1, 0.0);
   EXPECT_EQ(second.kappa0, 0.0);
+  const Drawing whole = read_landxml_text(*text);
+  ASSERT_EQ(whole.curves[0].pieces.size(), 1U);
+  const auto& one = std::get<ClothoidPiece>(whole.curves[0].pieces[0]);
+  EXPECT_NEAR(one.length, 60.0, 1e-12);
+  EXPECT_NEAR(one.kappa0, 0.01, 1e-15);
+  EXPECT_NEAR(one.kappa1, -0.02, 1e-15);
   const Contour round = Road({{0.0, 0.0}, 0.0, 0.0}).add(0.1, 0.1, 60.0).take();
-  const auto again = read_landxml_text(*landxml_text(round));  // outlives the loop
+  const auto again = read_landxml_text(without_names(*landxml_text(round)));  // outlives the loop
   for (const Piece& piece : again.curves[0].pieces) {
     const auto& arc = std::get<ArcPiece>(piece);
     EXPECT_LE(arc.kappa * arc.length, 0.5 * std::numbers::pi + 1e-12);

@@ -134,7 +134,11 @@ TEST(OpenDrivePublicFiles, EachHasItsElementsAndLength) {
     const auto d = parse_opendrive(slurp(folder / expected.file), expected.file);
     ASSERT_TRUE(d.has_value()) << expected.file << d.error().what;
     EXPECT_EQ(d->curves.size(), expected.roads) << expected.file;
-    EXPECT_TRUE(d->warnings.empty()) << expected.file << d->warnings.front();
+    for (const std::string& warning : d->warnings) {
+      EXPECT_TRUE(warning.starts_with("superelevation is not used") ||
+                  warning.starts_with("an elevation profile with cubics is not used"))
+          << expected.file << warning;
+    }
     std::vector<std::size_t> kinds(4);
     double length = 0.0;
     for (const DrawnCurve& curve : d->curves) {

@@ -24,7 +24,8 @@ struct AlignmentElement {
   Element start;         ///< point, heading (rad, unwrapped), curvature at the start (1/unit)
   double length = 0.0;   ///< units
   double kappa1 = 0.0;   ///< curvature at the end, 1/unit
-  bool step = false;     ///< the curvature at its start differs from that before
+  bool step = false;     ///< the curvature at its start differs from that before; around a loop
+                         ///< the last element is before the first one
 };
 
 /// How far a point lies from the alignment.
@@ -35,8 +36,10 @@ struct AlignmentDeviation {
 
 struct Alignment {
   std::vector<AlignmentElement> elements;
-  Element end;                                 ///< of the last element
-  double length = 0.0;                         ///< units
+  Element end;          ///< of the last element
+  double length = 0.0;  ///< units
+  bool closed = false;  ///< `end` is the start of the first element. Stations count from the foot
+                        ///< of the first point: elements from the joint behind it on, once around
   std::vector<AlignmentDeviation> deviations;  ///< of each point
   double largest_share = 0.0;  ///< largest |offset| over the point's tolerance: 1 or less
   double rms = 0.0;            ///< root of the mean square of the offsets, units
@@ -49,6 +52,7 @@ struct AlignmentOptions {
   double least_length = 0.0;  ///< of each element, units; 0: a quarter of the mean distance of
                               ///< points. An alignment of one element may be shorter
   double least_radius = 0.0;  ///< of each place, units; 0: any
+  bool closed = false;        ///< around a loop: behind the last point comes the first one
   /// What takes the place of clothoids between lines and arcs, and at the ends, wherever the
   /// tolerance allows it; others stay clothoids.
   Transition transitions = Transition::kClothoid;
@@ -59,14 +63,20 @@ struct AlignmentOptions {
 /// at the ends. Among elements of the same number curvatures without steps, arcs and lines are
 /// preferred wherever the tolerance allows them.
 ///
+/// Closed alignments go on behind the last point to the first one, with nothing of their own where
+/// they begin: no point is met by a joint. The ends of an open search are joined there, and
+/// everything is tried again with the seam elsewhere. A last point that is the first one again
+/// stands for it. Points that lie on one circle have one arc.
+///
 /// Guaranteed: every offset is at most its tolerance (else an error), elements join exactly but for
 /// rounding, and are as long and as blunt as the options ask for. Not guaranteed: that no fewer
 /// elements exist (the number is the fewest that a search by dynamic programming over polygons of
 /// possible offsets and headings found: docs/methods/alignment.md). Deterministic; reentrant.
 ///
-/// Errors: E203 a least length or radius that is negative or no number, E304 fewer than two points,
-/// E402 coinciding neighbours, E401 none found (`index`: the first point that was not reached),
-/// E502 not within the tolerance with such lengths and radii, E103 cancelled.
+/// Errors: E203 a least length or radius that is negative or no number, E304 fewer than two points
+/// (closed: three), E402 coinciding neighbours (closed: the last and the first are), E401 none
+/// found (`index`: the first point that was not reached), E502 not within the tolerance with such
+/// lengths and radii, E103 cancelled.
 [[nodiscard]] Result<Alignment> fit_alignment(const std::vector<Vec2>& points,
                                               const std::vector<double>& tolerance,
                                               const AlignmentOptions& options = {},

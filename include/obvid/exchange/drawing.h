@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "obvid/alignment/profile.h"
+#include "obvid/alignment/transition.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/series/point_series.h"
 
@@ -17,7 +19,9 @@ struct DrawnCurve {
   bool closed = false;        ///< the last piece ends where the first one starts
   std::string layer{};        ///< of the drawing, where it has layers
   std::string name{};         ///< what the file itself calls it, where it does
-  std::optional<double> station{};  ///< of its start, units; of alignments
+  std::optional<double> station{};              ///< of its start, units; of alignments
+  std::vector<PlacedTransition> transitions{};  ///< what clothoids stand for, in order
+  std::optional<VerticalProfile> profile{};     ///< heights over its stations, units
 };
 
 /// What a file of an exchange format holds: curves, and series of points. Lengths in `units`.

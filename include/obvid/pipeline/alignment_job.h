@@ -38,6 +38,7 @@ struct AlignmentJob {
   bool noise_from_scatter = false;  ///< estimated from the points, in place of `noise`
   double least_length = 0.0;   ///< of each element, units; 0: a quarter of the points' distance
   double least_radius = 0.0;   ///< of each place, units; 0: any
+  bool closed = false;         ///< around a loop; without a profile
   double first_station = 0.0;  ///< of the first point, units
   Transition transitions = Transition::kClothoid;  ///< wanted between lines and arcs
   std::optional<double> acceleration{};            ///< to the side, m/s^2: what limits the speed
@@ -99,9 +100,6 @@ struct AlignmentReport {
 [[nodiscard]] std::string kinds_text(const Alignment& alignment);
 /// The kinds, and how far points are off: below the title of pictures.
 [[nodiscard]] std::string alignment_verdict(const AlignmentReport& report);
-
-/// "grade", "crest", "sag".
-[[nodiscard]] const char* to_string(ProfileKind kind);
 
 /// All figures; angles in rad, lengths in units, curvatures in 1/unit.
 [[nodiscard]] std::string alignment_json(const AlignmentReport& report);

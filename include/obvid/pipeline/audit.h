@@ -38,12 +38,14 @@ struct AuditPlace {
 /// The curvature of a curve that another system made.
 struct CurveAudit {
   std::string label;
-  std::string layer;              ///< of the drawing, where it has layers
-  std::string name;               ///< what the file itself calls it; empty: nothing
-  std::optional<double> station;  ///< of its start, units; of alignments
-  Contour contour;                ///< the pieces with joints; promises nothing (carrier `baseline`)
-  Certificate certificate;        ///< proved verdict of each piece, gaps, counts
-  double length = 0.0;            ///< units
+  std::string layer;                          ///< of the drawing, where it has layers
+  std::string name;                           ///< what the file itself calls it; empty: nothing
+  std::optional<double> station;              ///< of its start, units; of alignments
+  std::vector<PlacedTransition> transitions;  ///< which pieces are clothoids in their place
+  std::optional<VerticalProfile> profile;     ///< of alignments whose file has heights
+  Contour contour;          ///< the pieces with joints; promises nothing (carrier `baseline`)
+  Certificate certificate;  ///< proved verdict of each piece, gaps, counts
+  double length = 0.0;      ///< units
   /// Signed, 1/unit, sampled. NaN where an end of a piece has no curvature: it has no bound then.
   double least_kappa = 0.0, largest_kappa = 0.0;
   bool counted = true;  ///< false where a piece has no curvature somewhere (a control point on an

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "obvid/alignment/alignment.h"
+#include "obvid/alignment/profile.h"
 #include "obvid/curve/contour.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/pipeline/audit.h"
@@ -13,9 +14,11 @@
 namespace obvid {
 
 /// The elements of a contour as surveyors list them, stations counted from `first_station`
-/// (units). Nothing where a piece is no line, arc or clothoid.
-[[nodiscard]] std::optional<std::vector<AlignmentElement>> elements_of(const Contour& contour,
-                                                                       double first_station);
+/// (units). Clothoids that stand for a transition are that. Nothing where a piece is no line, arc
+/// or clothoid.
+[[nodiscard]] std::optional<std::vector<AlignmentElement>> elements_of(
+    const Contour& contour, double first_station,
+    const std::vector<PlacedTransition>& transitions = {});
 
 /// The same of a curve whose file counts stations; nothing where it does not.
 [[nodiscard]] std::optional<std::vector<AlignmentElement>> elements_of(const CurveAudit& audit);
@@ -37,6 +40,11 @@ struct SpeedLimit {
 /// An array of objects; angles in rad, lengths in units, curvatures in 1/unit, speeds in km/h.
 void add_elements(JsonText& json, const std::vector<AlignmentElement>& elements,
                   const std::optional<SpeedLimit>& limit = {});
+
+/// An object with the elements of a profile; lengths in units, grades as heights over stations.
+void add_profile(JsonText& json, const VerticalProfile& profile);
+/// "grade", "crest", "sag".
+[[nodiscard]] const char* to_string(ProfileKind kind);
 
 /// "line", "arc", "clothoid", "bloss", "sine", "cosine", "helmert".
 [[nodiscard]] const char* to_string(AlignmentKind kind);

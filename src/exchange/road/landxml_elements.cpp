@@ -91,7 +91,13 @@ std::optional<PlacedPiece> placed(const StatedSpiral& spiral, std::string& why) 
     why = "a Spiral whose length is not greater than 0";
     return std::nullopt;
   }
-  const Vec2 chord = c.end - c.start, own = clothoid_step(0.0, c.kappa0, c.kappa1, c.length);
+  const auto step = [&](double theta) {
+    return spiral.law == Transition::kClothoid
+               ? clothoid_step(theta, c.kappa0, c.kappa1, c.length)
+               : transition_at(spiral.law, {{}, theta, c.kappa0}, c.kappa1, c.length, c.length)
+                     .point;
+  };
+  const Vec2 chord = c.end - c.start, own = step(0.0);
   const bool by_chord = std::min(norm(chord), norm(own)) > kShortChord * c.length;
   if (!by_chord && !spiral.meeting) {
     why = "a Spiral whose start and end do not say its heading";
@@ -104,7 +110,7 @@ std::optional<PlacedPiece> placed(const StatedSpiral& spiral, std::string& why) 
   if (std::abs(std::remainder(c.theta0 - to_meeting, kFullTurn)) > kAlongTangent) {
     out.doubt = "the PI of a Spiral contradicts its start, end, length and radii; it is not used";
   }
-  const Vec2 end = c.start + clothoid_step(c.theta0, c.kappa0, c.kappa1, c.length);
+  const Vec2 end = c.start + step(c.theta0);
   if (!is_finite(end)) {
     why = "a Spiral that comes to no point";
     return std::nullopt;
@@ -116,6 +122,34 @@ std::optional<PlacedPiece> placed(const StatedSpiral& spiral, std::string& why) 
                                 : Piece(ArcPiece{c.start, c.end, c.theta0, c.kappa0, c.length});
   }
   return out;
+}
+
+std::optional<Piece> joined(const Piece& first, const Piece& second) {
+  constexpr double kSame = 1e-9;  // of the larger: what the digits of a file leave
+  const auto same = [](double a, double b) {
+    return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b));
+  };
+  if (const auto* a = std::get_if<ArcPiece>(&first)) {
+    const auto* b = std::get_if<ArcPiece>(&second);
+    if (b == nullptr || !same(a->kappa, b->kappa)) return std::nullopt;
+    const double length = a->length + b->length;
+    if (std::abs(a->kappa) * length >= 0.5 * kFullTurn) return std::nullopt;
+    return ArcPiece{a->start, b->end, a->theta0, a->kappa, length};
+  }
+  const auto* a = std::get_if<ClothoidPiece>(&first);
+  const auto* b = std::get_if<ClothoidPiece>(&second);
+  if (a == nullptr || b == nullptr) return std::nullopt;
+  const double rate = (a->kappa1 - a->kappa0) / a->length;
+  const bool goes_on = a->kappa1 == b->kappa0 || same(a->kappa1, b->kappa0);
+  if (!goes_on || !same(rate, (b->kappa1 - b->kappa0) / b->length)) return std::nullopt;
+  return ClothoidPiece{a->start, b->end, a->theta0, a->kappa0, b->kappa1, a->length + b->length};
+}
+
+bool ends_meet(const std::vector<Piece>& pieces) {
+  constexpr double kMeeting = 1e-9;  // of the length
+  double length = 0.0;
+  for (const Piece& piece : pieces) length += norm(end_point(piece) - start_point(piece));
+  return norm(end_point(pieces.back()) - start_point(pieces.front())) <= kMeeting * length;
 }
 
 }  // namespace obvid::exchange

@@ -11,6 +11,7 @@
 #include "obvid/exchange/internal/road/landxml.h"
 #include "road/landxml_elements.h"
 #include "road/landxml_units.h"
+#include "road/profile_read.h"
 #include "xml_text.h"
 
 namespace obvid {
@@ -26,6 +27,9 @@ using std::string_view;
 
 // Ends that differ by more from what is stated, as part of the length, are worth a warning.
 constexpr double kMisplacedEnd = 1e-6;
+
+// Of the length of a transition: how near the clothoids that stand for it keep to it.
+constexpr double kNearTransition = 1e-7;
 
 // Fields of one point of a list.
 constexpr std::size_t kMostCoordinates = 3;
@@ -90,6 +94,7 @@ class LandXmlReader {
     label_ = fmt::format("{} {}", shortened(local_name(owner)), name);
     name_ = name;
     part_ = 0;
+    const std::size_t first_curve = drawing_.curves.size();
     station_.reset();  // parcels and plan features have none
     if (local_name(owner) == "Alignment") {
       station_ = number_of(owner.attribute("staStart").value()).value_or(0.0);
@@ -100,14 +105,21 @@ class LandXmlReader {
       element(child);
     }
     finish();
+    if (local_name(owner) != "Alignment") return;
+    if (child_of(owner, "Cant")) warnings_.add("cant is not used", child_of(owner, "Cant"));
+    auto profile = exchange::landxml_profile(owner, warnings_);
+    if (profile && first_curve < drawing_.curves.size()) {
+      drawing_.curves[first_curve].profile = std::move(profile);
+    }
   }
 
   void finish() {
+    last_name_.clear();
     if (curve_.pieces.empty()) return;
     ++part_;
     curve_.label = part_ == 1 ? label_ : fmt::format("{}, part {}", label_, part_);
     curve_.name = part_ == 1 ? name_ : fmt::format("{}, part {}", name_, part_);
-    curve_.closed = start_point(curve_.pieces.front()) == end_point(curve_.pieces.back());
+    curve_.closed = exchange::ends_meet(curve_.pieces);
     drawing_.curves.push_back(std::exchange(curve_, {}));
   }
 
@@ -124,9 +136,30 @@ class LandXmlReader {
   }
 
   /// A piece of the curve that is read.
-  void add(const Piece& piece) {
-    curve_.pieces.push_back(piece);
+  void add(const Piece& piece, const std::string& name = {}) {
     if (station_) *station_ += arc_length(piece, 1.0);
+    // parts of an element that this program had to cut have one name
+    const auto whole = !name.empty() && name == last_name_ && !curve_.pieces.empty()
+                           ? exchange::joined(curve_.pieces.back(), piece)
+                           : std::nullopt;
+    last_name_ = name;
+    if (whole) {
+      curve_.pieces.back() = *whole;
+    } else {
+      curve_.pieces.push_back(piece);
+    }
+  }
+
+  /// A transition of another law: clothoids in its place, and what they stand for.
+  void add(const ClothoidPiece& ends, Transition law) {
+    auto pieces = clothoids_along(law, {ends.start, ends.theta0, ends.kappa0}, ends.kappa1,
+                                  ends.length, kNearTransition * ends.length);
+    pieces.back().end = ends.end;
+    curve_.transitions.push_back(
+        {curve_.pieces.size(), pieces.size(), law, ends.kappa0, ends.kappa1, ends.length});
+    curve_.pieces.insert(curve_.pieces.end(), pieces.begin(), pieces.end());
+    if (station_) *station_ += ends.length;
+    last_name_.clear();
   }
 
   void element(pugi::xml_node node) {
@@ -165,11 +198,13 @@ class LandXmlReader {
   }
 
   void add(const std::optional<PlacedPiece>& placed, const std::string& why, double length,
-           pugi::xml_node node) {
+           pugi::xml_node node, Transition law = Transition::kClothoid) {
     if (!placed) return leave_out(why, node);
     if (!placed->doubt.empty()) warnings_.add(placed->doubt, node);
     if (placed->off_end > kMisplacedEnd * length) off_end_ = std::max(off_end_, placed->off_end);
-    add(placed->piece);
+    const auto* clothoid = std::get_if<ClothoidPiece>(&placed->piece);
+    if (law != Transition::kClothoid && clothoid != nullptr) return add(*clothoid, law);
+    add(placed->piece, node.attribute("name").value());
   }
 
   void curve(pugi::xml_node node) {
@@ -199,7 +234,9 @@ class LandXmlReader {
 
   void spiral(pugi::xml_node node) {
     const string_view kind = node.attribute("spiType").value();
-    if (kind != "clothoid") {
+    const auto law =
+        std::find(exchange::kLandXmlSpirals.begin(), exchange::kLandXmlSpirals.end(), kind);
+    if (law == exchange::kLandXmlSpirals.end()) {
       return leave_out(fmt::format("a Spiral of type '{}'", shortened(kind)), node);
     }
     const auto start = point(node, "Start"), end = point(node, "End");
@@ -212,10 +249,12 @@ class LandXmlReader {
     }
     if (!kappa0 || !kappa1) return leave_out("a Spiral whose radii are not INF or > 0", node);
     std::string why;
-    const auto placed = exchange::placed(
-        exchange::StatedSpiral{*start, *end, point(node, "PI"), *kappa0, *kappa1, *length, *left},
-        why);
-    add(placed, why, *length, node);
+    const auto transition = static_cast<Transition>(law - exchange::kLandXmlSpirals.begin());
+    const auto placed =
+        exchange::placed(exchange::StatedSpiral{*start, *end, point(node, "PI"), *kappa0, *kappa1,
+                                                *length, *left, transition},
+                         why);
+    add(placed, why, *length, node, transition);
   }
 
   /// Start, a list of points, end.
@@ -250,6 +289,7 @@ class LandXmlReader {
   DrawnCurve curve_;               ///< in the making
   std::string label_;              ///< of the CoordGeom
   std::string name_;               ///< of the alignment or whatever has it
+  std::string last_name_;          ///< of the last element that was taken
   std::optional<double> station_;  ///< of the next element; unknown behind one without a length
   std::size_t part_ = 0;
   double off_end_ = 0.0;

@@ -14,9 +14,14 @@ struct LandXmlUnit {
 };
 
 inline constexpr std::array kLandXmlUnits = {
-    LandXmlUnit{"m", "meter"},         LandXmlUnit{"mm", "millimeter"},
-    LandXmlUnit{"cm", "centimeter"},   LandXmlUnit{"km", "kilometer"},
-    LandXmlUnit{"ft", "foot", false},  LandXmlUnit{"usft", "USSurveyFoot", false},
-    LandXmlUnit{"in", "inch", false},  LandXmlUnit{"mi", "mile", false}};
+    LandXmlUnit{"m", "meter"},        LandXmlUnit{"mm", "millimeter"},
+    LandXmlUnit{"cm", "centimeter"},  LandXmlUnit{"km", "kilometer"},
+    LandXmlUnit{"ft", "foot", false}, LandXmlUnit{"usft", "USSurveyFoot", false},
+    LandXmlUnit{"in", "inch", false}, LandXmlUnit{"mi", "mile", false}};
+
+/// What `spiType` calls transitions, in the order of `Transition`. The format calls Helmert's
+/// (Schramm's) law biquadratic.
+inline constexpr std::array<std::string_view, 5> kLandXmlSpirals = {"clothoid", "bloss", "sinusoid",
+                                                                    "cosine", "biquadratic"};
 
 }  // namespace obvid::exchange

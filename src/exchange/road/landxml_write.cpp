@@ -108,7 +108,11 @@ class LandXmlWriter {
           piece += next->pieces - 1;
           continue;
         }
-        for (const RoadElement& part : parts_of(line.elements[k])) write(part);
+        const std::vector<RoadElement> parts = parts_of(line.elements[k]);
+        // parts of one element have its number as their name: reading makes them one again
+        const std::string name_of_parts =
+            parts.size() > 1 ? fmt::format(" name=\"{}\"", piece + 1) : "";
+        for (const RoadElement& part : parts) write(part, name_of_parts);
       }
     }
     put("      </CoordGeom>\n");
@@ -130,29 +134,29 @@ class LandXmlWriter {
     return kappa == 0.0 ? "INF" : fmt::format("{}", 1.0 / std::abs(kappa));
   }
 
-  void write(const RoadElement& e) {
+  void write(const RoadElement& e, const std::string& named) {
     if (e.is_line()) {
       put("        <Line length=\"{}\">\n", e.length);
       point("Start", e.start);
       point("End", e.end);
       put("        </Line>\n");
     } else if (e.is_arc()) {
-      put("        <Curve rot=\"{}\" crvType=\"arc\" radius=\"{}\" length=\"{}\">\n",
+      put("        <Curve{} rot=\"{}\" crvType=\"arc\" radius=\"{}\" length=\"{}\">\n", named,
           e.kappa0 > 0.0 ? "ccw" : "cw", radius(e.kappa0), e.length);
       point("Start", e.start);
       point("Center", e.start + left_normal(unit_at(e.theta)) / e.kappa0);
       point("End", e.end);
       put("        </Curve>\n");
     } else {
-      spiral(e, "clothoid");
+      spiral(e, "clothoid", named);
     }
   }
 
-  void spiral(const RoadElement& e, const char* kind) {
-    put("        <Spiral length=\"{}\" radiusStart=\"{}\" radiusEnd=\"{}\" rot=\"{}\" "
+  void spiral(const RoadElement& e, std::string_view kind, const std::string& named = {}) {
+    put("        <Spiral{} length=\"{}\" radiusStart=\"{}\" radiusEnd=\"{}\" rot=\"{}\" "
         "spiType=\"{}\">\n",
-        e.length, radius(e.kappa0), radius(e.kappa1), e.kappa0 + e.kappa1 > 0.0 ? "ccw" : "cw",
-        kind);
+        named, e.length, radius(e.kappa0), radius(e.kappa1),
+        e.kappa0 + e.kappa1 > 0.0 ? "ccw" : "cw", kind);
     point("Start", e.start);
     point("PI", tangents_meet(e));
     point("End", e.end);
@@ -161,15 +165,12 @@ class LandXmlWriter {
 
   /// One Spiral from the start of the first element to the end of the last.
   void transition(const PlacedTransition& t, const RoadElement& first, const RoadElement& last) {
-    // in the order of Transition; the format calls Helmert's (Schramm's) law biquadratic
-    static constexpr std::array kSpiralKinds = {"clothoid", "bloss", "sinusoid", "cosine",
-                                                "biquadratic"};
     RoadElement whole = first;
     whole.end = last.end;
     whole.kappa0 = t.kappa0 / ratio_;
     whole.kappa1 = t.kappa1 / ratio_;
     whole.length = t.length * ratio_;  // turns as a clothoid does: by half of both curvatures
-    spiral(whole, kSpiralKinds[static_cast<std::size_t>(t.kind)]);
+    spiral(whole, exchange::kLandXmlSpirals[static_cast<std::size_t>(t.kind)]);
   }
 
   /// A PVI at both ends, and where grades meet one with its curve; a corner none.

@@ -7,6 +7,8 @@
 
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/exchange/internal/road/opendrive.h"
+#include "road/landxml_elements.h"
+#include "road/profile_read.h"
 #include "xml_text.h"
 
 namespace obvid {
@@ -131,7 +133,7 @@ class OpenDriveReader {
       curve.label = part == 1 ? label : fmt::format("{}, part {}", label, part);
       const std::string& own = name.empty() ? id : name;
       curve.name = part == 1 ? own : fmt::format("{}, part {}", own, part);
-      curve.closed = start_point(curve.pieces.front()) == end_point(curve.pieces.back());
+      curve.closed = exchange::ends_meet(curve.pieces);
       drawing_.curves.push_back(std::exchange(curve, {}));
     };
     double station = -1.0;
@@ -150,6 +152,17 @@ class OpenDriveReader {
       }
     }
     finish();
+    for (const pugi::xml_node one : exchange::child_of(node, "lateralProfile").children()) {
+      if (exchange::local_name(one) != "superelevation") continue;
+      double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
+      const bool read = read_numbers(one, {{"a", &a}, {"b", &b}, {"c", &c}, {"d", &d}});
+      if (!read || a != 0.0 || b != 0.0 || c != 0.0 || d != 0.0) {
+        warnings_.add("superelevation is not used", one);
+      }
+    }
+    if (drawing_.curves.size() > before) {
+      drawing_.curves[before].profile = exchange::opendrive_profile(node, warnings_);
+    }
     if (drawing_.curves.size() == before) warnings_.add("a road without geometry left out", node);
   }
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "alignment/heights.h"
 #include "alignment/profile_table.h"
 #include "obvid/core/internal/figures.h"
+#include "obvid/curve/internal/clothoid.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/picture/internal/alignment_svg.h"
 #include "obvid/pipeline/audit.h"
@@ -60,6 +62,20 @@ Piece piece_of(const AlignmentElement& e, Vec2 end) {
   return ClothoidPiece{a.point, end, a.theta, a.kappa, e.kappa1, e.length};
 }
 
+/// An arc as pieces that turn by less than half a turn, which is what can be proved of one.
+void add_arc_pieces(const AlignmentElement& e, Vec2 end, DrawnCurve& curve) {
+  const double turn = std::abs(e.start.kappa) * e.length;
+  const int parts = 1 + static_cast<int>(turn / std::numbers::pi);
+  AlignmentElement part = e;
+  part.length = e.length / parts;
+  for (int k = 1; k <= parts; ++k) {
+    const Element behind = clothoid_at(part.start, 0.0, part.length);
+    const Vec2 to = k == parts ? end : behind.point;
+    curve.pieces.emplace_back(piece_of(part, to));
+    part.start = {to, behind.theta, e.start.kappa};
+  }
+}
+
 constexpr int kDrawnSteps = 32;  ///< of a curvature that is not linear
 
 /// Of a tolerance: how near clothoids stay to a transition of another kind.
@@ -79,11 +95,14 @@ DrawnCurve curve_of(const Alignment& alignment, const std::string& name, double 
                     std::vector<PlacedTransition>& placed) {
   DrawnCurve out;
   out.label = name;
+  out.closed = alignment.closed;
   for (std::size_t k = 0; k < alignment.elements.size(); ++k) {
     const bool last = k + 1 == alignment.elements.size();
     const AlignmentElement& e = alignment.elements[k];
     const Vec2 end = (last ? alignment.end : alignment.elements[k + 1].start).point;
-    if (transition_of(e.kind) == Transition::kClothoid) {
+    if (e.kind == AlignmentKind::kArc) {
+      add_arc_pieces(e, end, out);
+    } else if (transition_of(e.kind) == Transition::kClothoid) {
       out.pieces.push_back(piece_of(e, end));
     } else {
       add_transition(e, end, tolerance, out, placed);
@@ -135,10 +154,15 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   OBVID_TRY(tolerance);
   const auto limit = speed_limit(series.units, job.acceleration);
   OBVID_TRY(limit);
+  if (job.closed && job.heights) {
+    return fail({ErrorCode::kBadOption, "a closed alignment has no profile", "--profile",
+                 "leave one of --closed and --profile out"});
+  }
   AlignmentOptions limits;
   limits.least_length = job.least_length;
   limits.least_radius = job.least_radius;
   limits.transitions = job.transitions;
+  limits.closed = job.closed;
   auto alignment = fit_alignment(series.points, *tolerance, limits, run);
   OBVID_TRY(alignment);
   for (AlignmentElement& e : alignment->elements) e.station += job.first_station;
@@ -239,6 +263,7 @@ std::string alignment_json(const AlignmentReport& report) {
   json.begin_object().pair("format", "obvid-alignment").pair("version", 1);
   json.pair("name", report.name).pair("units", report.units.text());
   json.pair("tolerance", report.tolerance).pair("length", alignment.length);
+  json.pair("closed", alignment.closed);
   json.pair("largest_share", alignment.largest_share).pair("rms", alignment.rms);
   json.pair("curvature_steps", curvature_steps(alignment.elements));
   json.key("elements");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "alignment/profile_table.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/internal/angle.h"
 
@@ -27,21 +28,35 @@ std::optional<AlignmentKind> kind_of_element(const Piece& piece) {
 
 }  // namespace
 
-std::optional<std::vector<AlignmentElement>> elements_of(const Contour& contour,
-                                                         double first_station) {
+std::optional<std::vector<AlignmentElement>> elements_of(
+    const Contour& contour, double first_station,
+    const std::vector<PlacedTransition>& transitions) {
   std::vector<AlignmentElement> out;
   double station = first_station;
+  auto next = transitions.begin();
   for (std::size_t k = 0; k < contour.pieces.size(); ++k) {
     const Piece& piece = contour.pieces[k];
     const auto kind = kind_of_element(piece);
     if (!kind) return std::nullopt;
+    while (next != transitions.end() && next->first_piece < k) ++next;
+    const bool stands_for = next != transitions.end() && next->first_piece == k;
     AlignmentElement& e = out.emplace_back();
     e.kind = *kind;
     e.station = station;
     e.start = element_at(piece, 0.0);
     e.kappa1 = element_at(piece, 1.0).kappa;
     e.length = arc_length(piece, 0.0);  // exact: none of them is a Bezier piece
-    const double before = k == 0 ? e.start.kappa : out[k - 1].kappa1;
+    if (stands_for) {
+      e.kind = static_cast<AlignmentKind>(static_cast<int>(AlignmentKind::kClothoid) +
+                                          static_cast<int>(next->kind));
+      e.start.kappa = next->kappa0;
+      e.kappa1 = next->kappa1;
+      e.length = next->length;
+      k += next->pieces - 1;
+    }
+    const double before = out.size() > 1   ? out[out.size() - 2].kappa1
+                          : contour.closed ? element_at(contour.pieces.back(), 1.0).kappa
+                                           : e.start.kappa;
     const double larger = std::max(std::abs(before), std::abs(e.start.kappa));
     e.step = std::abs(e.start.kappa - before) > kMostCurvatureStep * larger;
     station += e.length;
@@ -50,7 +65,8 @@ std::optional<std::vector<AlignmentElement>> elements_of(const Contour& contour,
 }
 
 std::optional<std::vector<AlignmentElement>> elements_of(const CurveAudit& audit) {
-  return audit.station ? elements_of(audit.contour, *audit.station) : std::nullopt;
+  return audit.station ? elements_of(audit.contour, *audit.station, audit.transitions)
+                       : std::nullopt;
 }
 
 std::optional<double> speed_kmh(const AlignmentElement& element, const SpeedLimit& limit) {
@@ -93,6 +109,39 @@ void add_elements(JsonText& json, const std::vector<AlignmentElement>& elements,
     json.end_object();
   }
   json.end_array();
+}
+
+void add_profile(JsonText& json, const VerticalProfile& profile) {
+  json.begin_object();
+  json.pair("curves", profile.curves == ProfileCurves::kArcs ? "arcs" : "parabolas");
+  pipeline_detail::add_profile_elements(json, profile);
+  json.end_object();
+}
+
+namespace pipeline_detail {
+
+void add_profile_elements(JsonText& json, const VerticalProfile& profile) {
+  json.pair("end_station", profile.end_station).pair("end_height", profile.end_height);
+  json.key("elements").begin_array();
+  for (const ProfileElement& e : profile.elements) {
+    json.begin_object().pair("kind", to_string(e.kind)).pair("station", e.station);
+    json.pair("length", e.length).pair("height", e.height);
+    json.pair("grade_start", e.grade0).pair("grade_end", e.grade1);
+    if (e.kind != ProfileKind::kGrade) {
+      const Vec2 meeting = grades_meet(e, profile.curves);
+      json.pair("radius", e.radius);
+      json.pair("pvi_station", meeting.x).pair("pvi_height", meeting.y);
+    }
+    json.end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace pipeline_detail
+
+const char* to_string(ProfileKind kind) {
+  static constexpr std::array kNames = {"grade", "crest", "sag"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 const char* to_string(AlignmentKind kind) {

@@ -106,6 +106,10 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   const bool any = std::any_of(series.fixed.begin(), series.fixed.end(),
                                [](const FixedData& f) { return f.height.has_value(); });
   if (!job.heights && !any) return std::optional<ProfileReport>();
+  if (alignment.closed) {
+    remarks.emplace_back("heights are not used: a closed alignment has no profile");
+    return std::optional<ProfileReport>();
+  }
   ProfileReport out;
   double rounding = series.height_rounding;
   if (job.heights) {

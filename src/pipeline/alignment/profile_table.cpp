@@ -3,14 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 namespace obvid {
-
-const char* to_string(ProfileKind kind) {
-  static constexpr std::array kNames = {"grade", "crest", "sag"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
 
 std::string profile_csv(const VerticalProfile& profile) {
   std::string out =
@@ -37,20 +30,7 @@ void add_profile(JsonText& json, const ProfileReport& report) {
   json.pair("curves", profile.curves == ProfileCurves::kArcs ? "arcs" : "parabolas");
   json.pair("tolerance", report.tolerance).pair("largest_share", profile.largest_share);
   json.pair("rms", profile.rms);
-  json.pair("end_station", profile.end_station).pair("end_height", profile.end_height);
-  json.key("elements").begin_array();
-  for (const ProfileElement& e : profile.elements) {
-    json.begin_object().pair("kind", to_string(e.kind)).pair("station", e.station);
-    json.pair("length", e.length).pair("height", e.height);
-    json.pair("grade_start", e.grade0).pair("grade_end", e.grade1);
-    if (e.kind != ProfileKind::kGrade) {
-      const Vec2 meeting = grades_meet(e, profile.curves);
-      json.pair("radius", e.radius);
-      json.pair("pvi_station", meeting.x).pair("pvi_height", meeting.y);
-    }
-    json.end_object();
-  }
-  json.end_array();
+  add_profile_elements(json, profile);
   json.key("deviations").begin_array();
   for (std::size_t i = 0; i < report.heights.size(); ++i) {
     json.begin_object().pair("station", report.heights[i].x).pair("height", report.heights[i].y);

@@ -6,6 +6,9 @@
 
 namespace obvid::pipeline_detail {
 
+/// End and elements of a profile, within an object.
+void add_profile_elements(JsonText& json, const VerticalProfile& profile);
+
 /// The profile of a report as an object.
 void add_profile(JsonText& json, const ProfileReport& report);
 

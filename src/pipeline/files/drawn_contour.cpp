@@ -28,6 +28,8 @@ Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options
   CurveAudit& audited = *made;
   out.name = audited.name.empty() ? audited.label : audited.name;
   out.first_station = audited.station.value_or(0.0);
+  out.transitions = std::move(audited.transitions);
+  out.profile = std::move(audited.profile);
   out.picture = {drawing.name + ": " + audited.label, as_drawn(audited)};
   out.stored = {std::move(audited.contour), std::nullopt, std::move(audited.certificate)};
   return out;

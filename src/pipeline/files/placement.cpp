@@ -69,6 +69,15 @@ class Placing {
     if (data.kappas) data.kappas = range(kappa(data.kappas->low), kappa(data.kappas->high));
   }
 
+  /// Heights grow as lengths do.
+  void profile(VerticalProfile& heights) const {
+    for (ProfileElement& e : heights.elements) {
+      for (double* one : {&e.station, &e.length, &e.height, &e.radius}) *one = length(*one);
+    }
+    heights.end_station = length(heights.end_station);
+    heights.end_height = length(heights.end_height);
+  }
+
   [[nodiscard]] Piece operator()(const LinePiece& line) const {
     return LinePiece{point(line.start), point(line.end)};
   }
@@ -131,6 +140,13 @@ void place(const Placement& placement, Drawing& drawing) {
   const Placing placing(placement);
   for (DrawnCurve& curve : drawing.curves) {
     for (Piece& piece : curve.pieces) piece = std::visit(placing, piece);
+    if (curve.station) curve.station = placing.length(*curve.station);
+    for (PlacedTransition& one : curve.transitions) {
+      one.kappa0 = placing.kappa(one.kappa0);
+      one.kappa1 = placing.kappa(one.kappa1);
+      one.length = placing.length(one.length);
+    }
+    if (curve.profile) placing.profile(*curve.profile);
   }
   for (PointSeries& series : drawing.series) place(placement, series);
 }

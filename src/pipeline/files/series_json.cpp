@@ -205,6 +205,10 @@ std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& au
       json.key("elements");
       add_elements(json, *elements);
     }
+    if (a.profile) {
+      json.key("profile");
+      add_profile(json, *a.profile);
+    }
     json.end_object();
   }
   json.end_array();

@@ -56,6 +56,8 @@ class Auditor {
     out_.label = curve.label;
     out_.name = curve.name;
     out_.station = curve.station;
+    out_.transitions = curve.transitions;
+    out_.profile = curve.profile;
     out_.contour.units = units;
     out_.contour.carrier = Carrier::kImported;
     out_.contour.closed = curve.closed;

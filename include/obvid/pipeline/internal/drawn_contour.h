@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,12 @@ namespace obvid {
 /// A curve of a drawing as it is drawn, with what can be proved about it.
 struct DrawnContour {
   StoredContour stored;
-  std::string name;                  ///< of the curve
-  double first_station = 0.0;        ///< of its start, units
-  PictureTitles picture;             ///< of a picture of it
-  std::vector<std::string> remarks;  ///< what was left out, and which curve was taken
+  std::string name;                           ///< of the curve
+  double first_station = 0.0;                 ///< of its start, units
+  std::vector<PlacedTransition> transitions;  ///< which pieces are clothoids in their place
+  std::optional<VerticalProfile> profile;     ///< of heights
+  PictureTitles picture;                      ///< of a picture of it
+  std::vector<std::string> remarks;           ///< what was left out, and which curve was taken
 };
 
 /// Takes the curve that `options` choose. Errors: those of `chosen_curve`; E310 where that is a

@@ -21,9 +21,11 @@ namespace obvid {
 ///
 /// A Curve has the stated radius and is placed by its start and end (from 1 rad on, by its centre);
 /// a Spiral has the stated length and radii and points where start and end want it. Where they end
-/// elsewhere than stated, a warning gives the largest distance. Elements that are left out (spirals
-/// of other kinds, radii <= 0, unreadable coordinates, missing parts) are named, and a new curve
-/// begins behind them. Profiles, surfaces and pipes are not used.
+/// elsewhere than stated, a warning gives the largest distance. Spirals of type bloss, sinusoid,
+/// cosine and biquadratic are clothoids within 1e-7 of their length, and named in `transitions`.
+/// Elements that are left out (spirals of other kinds, radii <= 0, unreadable coordinates, missing
+/// parts) are named, and a new curve begins behind them. The first profile is read (PVI, ParaCurve,
+/// UnsymParaCurve, CircCurve); cant is said to be not used; surfaces and pipes are not used.
 ///
 /// Linear time. Errors: E308 XML that is not well-formed (truncated files), E310 another kind of
 /// XML, E311 no CoordGeom with a curve. Never throws on any input. `name` stands in errors. Source:
