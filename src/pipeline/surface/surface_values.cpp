@@ -23,21 +23,36 @@ const std::map<std::string, SurfaceKind>& surface_kinds() {
   return all;
 }
 
-/// "1,2,3" as a vector.
-Result<Vec3> vector_of(const std::string& typed, const char* option) {
-  std::array<double, 3> value{};
+/// "1,2,3" as so many numbers; nothing: it is something else.
+template <std::size_t N>
+std::optional<std::array<double, N>> numbers_of(const std::string& typed) {
+  std::array<double, N> value{};
   const char* at = typed.data();
   const char* const end = at + typed.size();
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < N; ++i) {
     const auto [stop, code] = std::from_chars(at, end, value[i]);
-    const bool separated = i == 2 ? stop == end : stop != end && *stop == ',';
-    if (code != std::errc() || !separated || !std::isfinite(value[i])) {
-      return fail(
-          bad_option("'" + typed + "' is no vector", option, "give X,Y,Z, for example 0,0,1"));
-    }
+    const bool separated = i + 1 == N ? stop == end : stop != end && *stop == ',';
+    if (code != std::errc() || !separated || !std::isfinite(value[i])) return std::nullopt;
     at = stop + 1;
   }
-  return Vec3{value[0], value[1], value[2]};
+  return value;
+}
+
+Result<Vec3> vector_of(const std::string& typed, const char* option) {
+  const auto value = numbers_of<3>(typed);
+  if (value) return Vec3{(*value)[0], (*value)[1], (*value)[2]};
+  return fail(bad_option("'" + typed + "' is no vector", option, "give X,Y,Z, for example 0,0,1"));
+}
+
+Result<void> set_stock(const std::string& typed, ToolpathOptions& plan) {
+  if (typed.empty()) return {};
+  const auto v = numbers_of<6>(typed);
+  if (!v) {
+    return fail(bad_option("'" + typed + "' is no box", "--stock",
+                           "give X0,Y0,Z0,X1,Y1,Z1: its lowest and its highest corner"));
+  }
+  plan.stock = {Vec3{(*v)[0], (*v)[1], (*v)[2]}, Vec3{(*v)[3], (*v)[4], (*v)[5]}};
+  return {};
 }
 
 Result<void> positive(const std::optional<double>& value, const char* option) {
@@ -239,7 +254,8 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
       .and_then([&] {
         return pick<ToolpathStrategy>({{"zigzag", ToolpathStrategy::kZigzag},
                                        {"isoparametric", ToolpathStrategy::kIsoparametric},
-                                       {"scallop", ToolpathStrategy::kConstantScallop}},
+                                       {"scallop", ToolpathStrategy::kConstantScallop},
+                                       {"rough", ToolpathStrategy::kRough}},
                                       typed.strategy, "--strategy", plan.strategy);
       })
       .and_then([&] {
@@ -250,7 +266,8 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
       .and_then([&] {
         return pick<bool>({{"arcs", true}, {"lines", false}}, typed.motion, "--motion",
                           plan.gcode.arcs);
-      });
+      })
+      .and_then([&] { return set_stock(typed.stock, plan); });
 }
 
 Result<std::size_t> checked_samples(long samples) {
