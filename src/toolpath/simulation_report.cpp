@@ -148,7 +148,10 @@ Result<SimulationReport> Simulation::rough_report(double allowed, const std::arr
     const Cell& cell = cells_.cells()[i];
     out.area += cell.area;
     if (cell.normal == Vec3{}) continue;
-    raise_extreme(out.left, std::min(nodes_[i].left, out_of_box(stock, cell)), cell.point);
+    const double left = std::min(nodes_[i].left, out_of_box(stock, cell));
+    if (left > out.left.found && !hidden(part_, cell.point, cell.normal)) {
+      raise_extreme(out.left, left, cell.point);
+    }
   }
   out.left.most = std::numeric_limits<double>::infinity();
   return out;
