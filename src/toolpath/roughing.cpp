@@ -185,7 +185,7 @@ class Roughing {
       OBVID_TRY(may_go_on(run));
       for (Stretch& s : level[first]) {
         if (s.done || !begin(first, s, over, z)) continue;
-        follow(level, first, z);
+        follow(level, first, over, z);
       }
     }
     return {};
@@ -200,6 +200,11 @@ class Roughing {
     const double dx = std::max({stock_[0].x - p.x, p.x - stock_[1].x, 0.0});
     const double dy = std::max({stock_[0].y - p.y, p.y - stock_[1].y, 0.0});
     return std::hypot(dx, dy) >= part_.cutter().radius;
+  }
+
+  [[nodiscard]] bool can_begin(const Stretch& s, std::size_t line, double over, double z) const {
+    return legs_of_ramp(s.to - s.from, over - z) <= kMostLegs ||
+           beside_stock(place(s.from, line, z)) || beside_stock(place(s.to, line, z));
   }
 
   /// Comes down at one end of a stretch and takes it; false: it is too short for a ramp.
@@ -220,15 +225,21 @@ class Roughing {
     return true;
   }
 
+  [[nodiscard]] double ramp_length(double down) const {
+    return down / std::tan(options_.ramp_deg.value_or(kRampDeg) * std::numbers::pi / 180.0);
+  }
+  /// An even number, so that a ramp ends where it begins.
+  [[nodiscard]] double legs_of_ramp(double length, double down) const {
+    return 2.0 * std::max(1.0, std::ceil(ramp_length(down) / (2.0 * length)));
+  }
+
   /// Up and down a stretch that is free down to `over`, to the start on the level.
   bool ramp_down(Vec3 start, Vec3 end, double over, double z) {
     const double length = norm(end - start);
-    const double steep = std::tan(options_.ramp_deg.value_or(kRampDeg) * std::numbers::pi / 180.0);
-    const double pairs = std::max(1.0, std::ceil((over - z) / steep / (2.0 * length)));
-    if (!(2.0 * pairs <= kMostLegs)) return false;
-    const double leg = std::min(length, (over - z) / steep / (2.0 * pairs));
+    const double legs = legs_of_ramp(length, over - z);
+    if (!(legs <= kMostLegs)) return false;
+    const double leg = std::min(length, ramp_length(over - z) / legs);
     std::vector<Vec3> way;
-    const double legs = 2.0 * pairs;
     for (double k = 0.0; k <= legs; ++k) {
       const double along = std::fmod(k, 2.0) == 1.0 ? leg / length : 0.0;
       Vec3 p = start + along * (end - start);
@@ -242,13 +253,14 @@ class Roughing {
   }
 
   /// From line to line as long as a straight way on the level leads on.
-  void follow(Stretches& level, std::size_t line, double z) {
+  void follow(Stretches& level, std::size_t line, double over, double z) {
     while (!options_.one_way && line + 1 < level.size()) {
       Stretch* next = nullptr;
       bool backwards = false;
       double nearest = -kNothing;
       for (Stretch& s : level[line + 1]) {
-        if (s.done) continue;
+        // what is too short for a ramp stays on all levels: else several would be cut at once
+        if (s.done || !can_begin(s, line + 1, over, z)) continue;
         for (const bool from_end : {false, true}) {
           const Vec3 start = place(from_end ? s.to : s.from, line + 1, z);
           const double far = norm(start - list_.at());
