@@ -89,12 +89,23 @@ std::string toolpath_place(Vec3 p) {
   return fmt::format("{} {} {}", significant(p.x, 6), significant(p.y, 6), significant(p.z, 6));
 }
 
+void add_rough_facts(const ToolpathReport& r, const std::string& unit, Facts& facts) {
+  facts.add("left",
+            fmt::format("up to {} {} over part and allowance, measured along normals, at {}",
+                        significant(r.scallop.found, 3), unit, toolpath_place(r.scallop.place)));
+  if (r.narrow_stretches > 0) {
+    facts.add("left out", fmt::format("{} stretches too short for the ramp", r.narrow_stretches));
+  }
+}
+
 std::string toolpath_text(const Made& made, const std::vector<std::string>& files) {
   const ToolpathReport& r = made.job.path.report;
   const std::string& unit = made.job.path.units;
   Facts facts;
-  facts.add("passes", fmt::format("{}, {} of them between others that left too much", r.passes,
-                                  r.added_passes));
+  const bool rough = r.levels > 0;
+  facts.add("passes", rough ? fmt::format("{} on {} levels", r.passes, r.levels)
+                            : fmt::format("{}, {} of them between others that left too much",
+                                          r.passes, r.added_passes));
   facts.add("length", fmt::format("{} {} at feed, {} {} rapid", significant(r.cutting_length, 5),
                                   unit, significant(r.rapid_length, 5), unit));
   facts.add("time", fmt::format("{} minutes at the stated feeds, without acceleration",
@@ -103,22 +114,29 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
     return std::isfinite(most) ? fmt::format(fmt::runtime(words), significant(most, 3))
                                : std::string("no bound is known");
   };
-  facts.add("scallop", fmt::format("{} where the cutter reaches, at {}; {}",
-                                   std::isfinite(r.scallop.found)
-                                       ? fmt::format("{} {}", significant(r.scallop.found, 3), unit)
-                                       : std::string("unbounded"),
-                                   toolpath_place(r.scallop.place),
-                                   bound("{} nowhere exceeded", r.scallop.most)));
+  if (rough) {
+    add_rough_facts(r, unit, facts);
+  } else {
+    facts.add(
+        "scallop",
+        fmt::format("{} where the cutter reaches, at {}; {}",
+                    std::isfinite(r.scallop.found)
+                        ? fmt::format("{} {}", significant(r.scallop.found, 3), unit)
+                        : std::string("unbounded"),
+                    toolpath_place(r.scallop.place), bound("{} nowhere exceeded", r.scallop.most)));
+  }
   facts.add("gouges", fmt::format("{} {} the deepest found, {}; avoided by lifting at {} points",
                                   significant(r.gouge.found, 3), unit,
                                   bound("none beyond {}", r.gouge.most), r.lifted_points));
-  facts.add("not seen from above", area_share(r.hidden_area, r.surface_area));
-  facts.add("not reached",
-            area_share(r.unreached_area, r.surface_area) +
-                (r.unreached_area > 0.0
-                     ? fmt::format(", up to {} {} left at {}", significant(r.unreached_depth, 3),
-                                   unit, toolpath_place(r.unreached_place))
-                     : ""));
+  if (!rough) {
+    facts.add("not seen from above", area_share(r.hidden_area, r.surface_area));
+    facts.add("not reached",
+              area_share(r.unreached_area, r.surface_area) +
+                  (r.unreached_area > 0.0
+                       ? fmt::format(", up to {} {} left at {}", significant(r.unreached_depth, 3),
+                                     unit, toolpath_place(r.unreached_place))
+                       : ""));
+  }
   facts.add("program", fmt::format("{} blocks, {} of them arcs; read back and simulated at places "
                                    "{} {} apart and nearer",
                                    made.job.path.program.blocks, made.job.path.program.arc_blocks,

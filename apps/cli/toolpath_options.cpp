@@ -43,15 +43,17 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
   const char* group = "Passes";
   ToolpathOptions& plan = raw.command.job.plan;
   app.add_option("--strategy", raw.values.strategy,
-                 "zigzag (parallel planes), isoparametric (along the patches' parameters) or "
-                 "scallop (constant height between passes) [zigzag]")
+                 "zigzag (parallel planes), isoparametric (along the patches' parameters), "
+                 "scallop (constant height between passes) or rough (a box of stock, level by "
+                 "level) [zigzag]")
       ->type_name("NAME")
       ->group(group);
   app.add_option("--scallop", plan.scallop,
                  "Greatest residual scallop height between passes, units [0.01 diameters]")
       ->type_name("H")
       ->group(group);
-  app.add_option("--step-over", plan.step_over, "Greatest distance of passes, units [by scallop]")
+  app.add_option("--step-over", plan.step_over,
+                 "Greatest distance of passes, units [by scallop; roughing: 0.4 diameters]")
       ->type_name("S")
       ->group(group);
   app.add_option("--angle", plan.angle_deg, "Of the passes against X, degrees [0]")
@@ -63,9 +65,27 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
                  "Deepest gouge of the printed program, units [0.01 mm]")
       ->type_name("T")
       ->group(group);
+  app.add_option("--allowance", plan.allowance, "What stays for later passes, units [0]")
+      ->type_name("A")
+      ->group(group);
   app.add_option("--safe-z", plan.safe_z,
-                 "Height of rapid moves, units [half a diameter above the part]")
+                 "Height of rapid moves, units [half a diameter above part and stock]")
       ->type_name("Z")
+      ->group(group);
+}
+
+void add_roughing(CLI::App& app, RawToolpath& raw) {
+  const char* group = "Roughing";
+  ToolpathOptions& plan = raw.command.job.plan;
+  app.add_option("--step-down", plan.step_down, "Most of a level, units [half a diameter]")
+      ->type_name("Z")
+      ->group(group);
+  app.add_option("--stock", raw.values.stock,
+                 "Lowest and highest corner of the stock, units [box of part and allowance]")
+      ->type_name("X0,Y0,Z0,X1,Y1,Z1")
+      ->group(group);
+  app.add_option("--ramp", plan.ramp_deg, "Steepest way down into the stock, degrees [5]")
+      ->type_name("DEG")
       ->group(group);
 }
 
@@ -76,8 +96,15 @@ void add_program(CLI::App& app, RawToolpath& raw) {
       ->type_name("F")
       ->group(group);
   app.add_option("--plunge-feed", plan.plunge_feed,
-                 "Feed straight down [300 mm/min; inches: 12 in/min]")
+                 "Feed straight down and on ramps [300 mm/min; inches: 12 in/min]")
       ->type_name("F")
+      ->group(group);
+  app.add_option("--rapid-feed", plan.rapid_feed,
+                 "Of rapid moves, for the time [5000 mm/min; inches: 200 in/min]")
+      ->type_name("F")
+      ->group(group);
+  app.add_option("--spindle", plan.spindle, "Revolutions a minute: M3, M5 [none]")
+      ->type_name("S")
       ->group(group);
   app.add_option("--controller", raw.values.controller, "grbl, linuxcnc, fanuc or marlin [grbl]")
       ->type_name("NAME")
@@ -118,6 +145,7 @@ Result<Command> parse_toolpath(int argc, const char* const* argv) {
   add_output(app, raw.command.outputs, raw.format, kOutputHelp, "nc");
   add_cutter(app, raw);
   add_passes(app, raw);
+  add_roughing(app, raw);
   add_program(app, raw);
   app.add_option("--view", raw.view, "Of the picture: iso, front, top, side, back or bottom [iso]")
       ->type_name("NAME");
@@ -128,7 +156,7 @@ Result<Command> parse_toolpath(int argc, const char* const* argv) {
       "Example: obvid toolpath hull.json --cutter ball --diameter 6 --scallop 0.02 -o hull.nc\n\n"
       "The part lies as the surface says, Z upwards; the tip of the cutter is programmed. Read "
       "the\n"
-      "program before you run it: it knows neither clamps nor stock."));
+      "program before you run it: it knows no clamps, and of stock only what roughing is told."));
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "machine_units.h"
+#include "move_list.h"
 
 namespace obvid::toolpath {
 namespace {
@@ -12,72 +12,40 @@ namespace {
 constexpr double kLinkSteps = 3.0;   // level steps seen from above: farther, the cutter is lifted
 constexpr double kLinkDetour = 3.0;  // a link up and down is not longer than this times straight
 
-double length_of(const std::vector<Vec3>& points) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += norm(points[i] - points[i - 1]);
-  return sum;
-}
-
 class Layer {
  public:
   Layer(const ToolpathOptions& options, double level_step, Walker& walker, Toolpath& out)
-      : options_(options), level_step_(level_step), walker_(walker), out_(out) {}
+      : options_(options), level_step_(level_step), walker_(walker), list_(out) {}
 
   void cut(std::vector<Vec3> points, PassPlane plane) {
-    if (!begun_) {
-      enter(points.front());
+    if (!list_.begun()) {
+      list_.enter(points.front());
     } else if (!linked(points.front())) {
-      leave();
-      enter(points.front());
+      list_.leave();
+      list_.enter(points.front());
     }
-    at_ = points.back();
-    begun_ = true;
-    ++out_.report.passes;
-    out_.report.cutting_length += length_of(points);
-    out_.moves.push_back({ToolMove::kPass, plane, std::move(points)});
+    list_.add(ToolMove::kPass, std::move(points), plane);
   }
 
-  void leave() {
-    if (!begun_) return;
-    add(ToolMove::kRapid, {at_, {at_.x, at_.y, safe()}});
-  }
-
-  [[nodiscard]] Vec3 at() const { return at_; }
-  [[nodiscard]] bool begun() const { return begun_; }
+  void leave() { list_.leave(); }
+  [[nodiscard]] Vec3 at() const { return list_.at(); }
+  [[nodiscard]] bool begun() const { return list_.begun(); }
 
  private:
-  [[nodiscard]] double safe() const { return out_.report.safe_z; }
-
-  void add(ToolMove kind, std::vector<Vec3> points) {
-    at_ = points.back();
-    const double length = length_of(points);
-    (kind == ToolMove::kRapid    ? out_.report.rapid_length
-     : kind == ToolMove::kPlunge ? out_.report.plunge_length
-                                 : out_.report.cutting_length) += length;
-    out_.moves.push_back({kind, PassPlane::kNone, std::move(points)});
-  }
-
-  void enter(Vec3 start) {
-    const Vec3 above{start.x, start.y, safe()};
-    add(ToolMove::kRapid, begun_ ? std::vector<Vec3>{at_, above} : std::vector<Vec3>{above});
-    add(ToolMove::kPlunge, {above, start});
-  }
-
   bool linked(Vec3 start) {
-    const double level = std::hypot(start.x - at_.x, start.y - at_.y);
+    const Vec3 at = list_.at();
+    const double level = std::hypot(start.x - at.x, start.y - at.y);
     if (options_.one_way || level > kLinkSteps * level_step_) return false;
-    auto way = walker_.link(at_, start);
-    if (!way || length_of(*way) > kLinkDetour * (norm(start - at_) + level_step_)) return false;
-    add(ToolMove::kLink, std::move(*way));
+    auto way = walker_.link(at, start);
+    if (!way || length_of(*way) > kLinkDetour * (norm(start - at) + level_step_)) return false;
+    list_.add(ToolMove::kLink, std::move(*way));
     return true;
   }
 
   const ToolpathOptions& options_;
   double level_step_;
   Walker& walker_;
-  Toolpath& out_;
-  Vec3 at_;
-  bool begun_ = false;
+  MoveList list_;
 };
 
 std::vector<Vec3> tips(const std::vector<PassPoint>& piece, bool backwards) {
@@ -129,10 +97,7 @@ void lay_moves(const Family& family, const ToolpathOptions& options, double leve
     }
   }
   layer.leave();
-  ToolpathReport& report = out.report;
-  report.minutes = machine_scale(out.units) * (report.cutting_length / out.feeds.pass +
-                                               report.plunge_length / out.feeds.plunge +
-                                               report.rapid_length / out.feeds.rapid);
+  list_minutes(out);
 }
 
 }  // namespace obvid::toolpath

@@ -57,21 +57,23 @@ Vec2 offset_change(const CutterShape& cutter, Vec3 n, Vec3 dn) {
 }  // namespace
 
 Result<Part> Part::make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
-                        const RunContext& run) {
+                        double allowance, const RunContext& run) {
   TessellationOptions options;
   options.chord_tolerance = kTriangleShare * tolerance;
   options.angle = kEdgeAngle;
   auto meshes = tessellate(model, options, run);
   OBVID_TRY(meshes);
-  return Part(model, cutter, tolerance, std::move(*meshes));
+  return Part(model, cutter, tolerance, allowance, std::move(*meshes));
 }
 
-Part::Part(const SurfaceModel& model, CutterShape cutter, double tolerance,
+Part::Part(const SurfaceModel& model, CutterShape cutter, double tolerance, double allowance,
            std::vector<Mesh> meshes)
     : model_(model),
       cutter_(cutter),
-      slim_(cutter),
+      wide_{cutter.radius + allowance, cutter.corner + allowance},
+      slim_(wide_),
       tolerance_(tolerance),
+      allowance_(allowance),
       meshes_(std::move(meshes)),
       field_(meshes_) {
   slim_.radius -= std::min(kWallShare * tolerance, 0.5 * cutter.radius);
@@ -104,6 +106,7 @@ std::optional<Place> Part::drop(Vec2 axis) const {
   place.contact = found->rest.point;
   place.open = ((static_cast<unsigned>(t.open) >> found->rest.feature) & 1U) != 0;
   if (!place.open) polish(axis, place);
+  place.tip.z += allowance_;
   return place;
 }
 

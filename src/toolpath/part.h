@@ -38,9 +38,17 @@ struct Place {
 class Part {
  public:
   static Result<Part> make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
-                           const RunContext& run);
+                           double allowance, const RunContext& run);
 
   [[nodiscard]] const CutterShape& cutter() const { return cutter_; }
+  /// What stays on the part everywhere: a cutter rests where its body, wider by that all around,
+  /// touches the part.
+  [[nodiscard]] double allowance() const { return allowance_; }
+  /// From the axis to the contact, turned round, and the tip over a contact.
+  [[nodiscard]] Vec2 offset(Vec3 normal) const { return wide_.offset(normal); }
+  [[nodiscard]] Vec3 tip(Vec3 contact, Vec3 normal) const {
+    return wide_.tip(contact, normal) + Vec3{0.0, 0.0, allowance_};
+  }
   [[nodiscard]] double tolerance() const { return tolerance_; }
   [[nodiscard]] const DropField& field() const { return field_; }
   [[nodiscard]] const SurfaceModel& model() const { return model_; }
@@ -55,13 +63,15 @@ class Part {
   [[nodiscard]] Place on_triangle(std::uint32_t triangle, const std::array<double, 3>& w) const;
 
  private:
-  Part(const SurfaceModel& model, CutterShape cutter, double tolerance, std::vector<Mesh> meshes);
+  Part(const SurfaceModel& model, CutterShape cutter, double tolerance, double allowance,
+       std::vector<Mesh> meshes);
   void polish(Vec2 axis, Place& place) const;
 
   const SurfaceModel& model_;
   CutterShape cutter_;
+  CutterShape wide_;  ///< by the allowance
   CutterShape slim_;
-  double tolerance_;
+  double tolerance_, allowance_;
   std::vector<Mesh> meshes_;
   DropField field_;
 };

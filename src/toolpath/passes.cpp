@@ -60,7 +60,7 @@ Walker::Station Walker::resting(Vec2 axis, double t) const {
   const auto place = part_.drop(axis);
   if (!place) return std::nullopt;
   if (place->open) {
-    const double allowed = norm(part_.cutter().offset(place->normal)) + overrun_;
+    const double allowed = norm(part_.offset(place->normal)) + overrun_;
     const Vec2 away = axis - Vec2{place->contact.x, place->contact.y};
     if (norm(away) > allowed && !part_.surface_over(axis)) return std::nullopt;
   }
@@ -86,7 +86,7 @@ Walker::Station Walker::touching(const Rail& rail, double t) const {
   const Vec3 beside = jet.point + tolerance * place.normal;  // walls do not hide themselves
   const auto over = part_.surface_over({beside.x, beside.y});
   if (over && over->contact.z > beside.z + tolerance) return std::nullopt;
-  place.tip = part_.cutter().tip(place.contact, place.normal);
+  place.tip = part_.tip(place.contact, place.normal);
   const auto rest = part_.drop({place.tip.x, place.tip.y});
   if (!rest) return out;  // a wall that the cutter just touches
   out.lifted = (rest->tip.z - place.tip.z) * std::max(place.normal.z, rest->normal.z) > tolerance;

@@ -11,6 +11,7 @@
 #include "obvid/toolpath/toolpath.h"
 #include "pass_families.h"
 #include "program_check.h"
+#include "roughing.h"
 #include "scallop_survey.h"
 
 namespace obvid {
@@ -22,14 +23,45 @@ using namespace toolpath;
 constexpr int kMostAttempts = 3;
 constexpr double kLowerShare = 0.96;
 constexpr double kCellOfRadius = 1.0 / 8.0, kCellOfStep = 0.25;
-constexpr double kDefaultSafe = 0.5;  // diameters above the highest point
-constexpr double kMostAngle = 1e6;    // degrees: beyond, the angle is lost in rounding
+constexpr double kDefaultSafe = 0.5;    // diameters above the highest point
+constexpr double kSteepestRamp = 90.0;  // degrees
+constexpr double kMostAngle = 1e6;      // degrees: beyond, the angle is lost in rounding
 
 Result<void> refuse(std::string what, double value, std::string hint = "") {
   return error(ErrorCode::kBadOption, std::move(what)).hint(std::move(hint)).value(value);
 }
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
+
+Result<void> check_roughing(const ToolpathOptions& o) {
+  if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {
+    return refuse("the allowance must not be less than 0", o.allowance);
+  }
+  if (o.spindle && !(std::isfinite(*o.spindle) && *o.spindle >= 0.0)) {
+    return refuse("the spindle's speed must not be less than 0", *o.spindle);
+  }
+  if (o.strategy != ToolpathStrategy::kRough) {
+    if (!o.step_down && !o.stock && !o.ramp_deg) return {};
+    return refuse("step down, stock and ramp are for roughing", 0.0, "add --strategy rough");
+  }
+  if (o.scallop) {
+    return refuse("roughing keeps no scallop", *o.scallop, "give the step over and the allowance");
+  }
+  if (o.step_down && !positive(*o.step_down)) {
+    return refuse("the step down must be greater than 0", *o.step_down);
+  }
+  if (o.ramp_deg && !(*o.ramp_deg > 0.0 && *o.ramp_deg < kSteepestRamp)) {
+    return refuse("the ramp must lie between 0 and 90 degrees", *o.ramp_deg);
+  }
+  if (o.stock) {
+    const Vec3 size = (*o.stock)[1] - (*o.stock)[0];
+    if (!positive(size.x) || !positive(size.y) || !positive(size.z)) {
+      return refuse("the stock's second corner must lie above its first in x, y and z",
+                    std::min({size.x, size.y, size.z}));
+    }
+  }
+  return {};
+}
 
 Result<void> check_sizes(const ToolpathOptions& o) {
   if (!positive(o.tolerance)) return refuse("the tolerance must be greater than 0", o.tolerance);
@@ -40,6 +72,7 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
     if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
   }
+  OBVID_TRY(check_roughing(o));
   if (!o.scallop && !o.step_over) {
     return refuse("neither scallop nor step over is given", 0.0, "give one of them or both");
   }
@@ -67,6 +100,7 @@ Result<Family> family_of(const Part& part, const ToolpathOptions& options, const
     case ToolpathStrategy::kIsoparametric:
       return isoparametric(part, options, rule, walker, run);
     case ToolpathStrategy::kConstantScallop:
+    case ToolpathStrategy::kRough:
       break;
   }
   return constant_scallop(part, options, rule, walker, run);
@@ -120,6 +154,10 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
         "a ball cutter, another strategy or angle, or a smaller --step-over "
         "leaves less");
   }
+  if (r.narrow_stretches > 0) {
+    out.warnings.push_back(fmt::format("{} stretches are too short for the ramp and are left out",
+                                       r.narrow_stretches));
+  }
   if (r.unreached_area > 0.0) {
     add(fmt::format(
             "about {:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
@@ -148,12 +186,19 @@ Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nea
   return {};
 }
 
+SurfaceCells cells_of(const Part& part, const StepRule& rule, const ToolpathOptions& options) {
+  const double radius = part.cutter().radius;
+  const double spacing = std::min(kCellOfRadius * radius, kCellOfStep * rule.level());
+  return {part, spacing, radius, options.threads};
+}
+
 Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
   Toolpath out;
   out.name = model.name;
   out.units = model.units.name;
   out.cutter = options.cutter;
   out.tolerance = options.tolerance;
+  out.spindle = options.spindle;
   out.print_within = print_within(options);
   const ToolpathFeeds usual = default_feeds(model.units.name);
   out.feeds = {options.feed.value_or(usual.pass), options.plunge_feed.value_or(usual.plunge),
@@ -163,25 +208,33 @@ Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
 
 Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& options,
                          const CutterShape& cutter, const RunContext& run) {
-  const auto part = Part::make(model, cutter, options.tolerance, run);
+  const auto part = Part::make(model, cutter, options.tolerance, options.allowance, run);
   OBVID_TRY(part);
   Toolpath out = begun(model, options);
-  const double top = part->field().high().z;
+  const bool rough = options.strategy == ToolpathStrategy::kRough;
+  double top = part->field().high().z + options.allowance;
+  if (rough) top = std::max(top, stock_of(*part, options)[1].z);
   out.report.safe_z = options.safe_z.value_or(top + kDefaultSafe * options.cutter.diameter);
   if (out.report.safe_z < top + options.tolerance) {
-    return error(ErrorCode::kBadOption, "the safe height is not above the part")
+    return error(ErrorCode::kBadOption, "the safe height is not above the part and its stock")
         .hint(fmt::format("choose more than {:g}", top))
         .value(out.report.safe_z);
   }
   const StepRule rule(cutter, options);
+  if (rough) {
+    const SurfaceCells cells = cells_of(*part, rule, options);
+    std::vector<Nearest> reach(cells.cells().size());
+    OBVID_TRY(lay_rough(*part, options, run, out));
+    OBVID_TRY(finish(*part, cells, reach, options, run, out));
+    judge(out, options);
+    return out;
+  }
   const bool straight = options.strategy == ToolpathStrategy::kZigzag;
   const PassFrame frame = pass_frame(*part, options.angle_deg);
   Walker walker(*part, rule.level(), straight ? std::optional(frame.along) : std::nullopt, options);
   auto family = family_of(*part, options, rule, walker, run);
   OBVID_TRY(family);
-  const SurfaceCells cells(*part,
-                           std::min(kCellOfRadius * cutter.radius, kCellOfStep * rule.level()),
-                           cutter.radius, options.threads);
+  const SurfaceCells cells = cells_of(*part, rule, options);
   std::vector<Nearest> reach(cells.cells().size());
   ScallopSurvey survey(*part, options, rule, cells, reach, walker);
   const ToolpathReport fresh = out.report;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "obvid/exchange/internal/gcode/nc_program.h"
+#include "roughing.h"
 #include "steps.h"
 
 namespace obvid::toolpath {
@@ -41,6 +42,9 @@ Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cel
   OBVID_TRY(tell(run, "checking", 0.0));
   Simulation simulation(part, cells, reach, options.threads, chord);
   OBVID_TRY(simulation.cut(sweeps_of(*program, scale, part.field().high().z), run));
+  if (options.strategy == ToolpathStrategy::kRough) {
+    return simulation.rough_report(options.tolerance, stock_of(part, options), run);
+  }
   return simulation.report(options.tolerance, within, run);
 }
 

@@ -71,11 +71,15 @@ class Search {
 
 }  // namespace
 
-Nearest nearest_to(const Part& part, Vec3 point, Vec3 normal, std::optional<Vec2> first) {
+bool hidden(const Part& part, Vec3 point, Vec3 normal) {
   const double tolerance = part.tolerance();
   const Vec3 beside = point + tolerance * normal;  // walls do not hide themselves
   const auto over = part.surface_over({beside.x, beside.y});
-  if (over && over->contact.z > beside.z + tolerance) return {Reach::kHidden, 0.0, {}};
+  return over && over->contact.z > beside.z + tolerance;
+}
+
+Nearest nearest_to(const Part& part, Vec3 point, Vec3 normal, std::optional<Vec2> first) {
+  if (hidden(part, point, normal)) return {Reach::kHidden, 0.0, {}};
   return Search(part, point, normal).run(first);
 }
 

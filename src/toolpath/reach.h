@@ -21,6 +21,9 @@ struct Nearest {
   Vec2 axis;            ///< of that place of the cutter
 };
 
+/// Something of the part stands over it.
+[[nodiscard]] bool hidden(const Part& part, Vec3 point, Vec3 normal);
+
 /// The place of the cutter that would touch it; where that is held up, places around the best, by
 /// steps of half the radius down to a fiftieth of it. `first`: what is best nearby, looked at
 /// first.

@@ -76,13 +76,16 @@ double Simulation::highest_entry(const Cell& cell, const Sweep& sweep, const Swe
                                .height);
 }
 
-void Simulation::look(Looking what, const Cell& cell, const Sweep& sweep, CellBounds& b) const {
+void Simulation::look(const Looking& what, const Cell& cell, const Sweep& sweep,
+                      CellBounds& b) const {
   const CutterShape& cutter = part_.cutter();
   const SweepDistance d = distance_from(cutter, sweep, cell.point);
-  b.depth = std::max(b.depth, -d.value);
-  b.depth_most = std::max(
-      b.depth_most, std::min(deepest_by_gradient(cell, d), deepest_by_plane(cutter, cell, sweep)));
-  if (what == Looking::kForDepth || d.value >= b.left_most) return;
+  if (what.for_depth) {
+    b.depth = std::max(b.depth, -d.value);
+    b.depth_most = std::max(b.depth_most, std::min(deepest_by_gradient(cell, d),
+                                                   deepest_by_plane(cutter, cell, sweep)));
+  }
+  if (!what.for_left || d.value >= b.left_most) return;
   const double most = std::min(b.left_most, kFarthest * cutter.radius);
   const SweepEntry entry = d.value <= 0.0
                                ? SweepEntry{0.0, d.gradient}
@@ -92,14 +95,15 @@ void Simulation::look(Looking what, const Cell& cell, const Sweep& sweep, CellBo
   b.left_most = std::min(b.left_most, highest_entry(cell, sweep, entry, most));
 }
 
-double Simulation::radius_of(Looking what, const Cell& cell, const CellBounds& bounds) const {
+double Simulation::radius_of(const Looking& what, const Cell& cell,
+                             const CellBounds& bounds) const {
   const double wide = cell.reach + cell.rise + 2.0 * sway_;
-  if (what == Looking::kForDepth) return wide;
+  if (!what.for_left) return wide;
   const double most = kFarthest * part_.cutter().radius;
   return std::clamp(bounds.left_most, 0.0, most) + wide;
 }
 
-void Simulation::look(Looking what, const Cell& cell, std::span<const std::uint32_t> sweeps,
+void Simulation::look(const Looking& what, const Cell& cell, std::span<const std::uint32_t> sweeps,
                       double enough, CellBounds& b, std::vector<Candidate>& candidates) const {
   candidates.clear();
   for (const std::uint32_t s : sweeps) {
@@ -112,16 +116,17 @@ void Simulation::look(Looking what, const Cell& cell, std::span<const std::uint3
                        [](const Candidate& x, const Candidate& y) { return x.least < y.least; });
   std::swap(*nearest, candidates.front());
   for (const Candidate& c : candidates) {
-    if (c.least >
-        std::max(what == Looking::kForDepth ? 0.0 : b.left_most, cell.reach + cell.rise)) {
-      continue;
-    }
+    const double left_matters = what.for_left ? b.left_most : 0.0;
+    const double depth_matters = what.for_depth ? cell.reach + cell.rise : 0.0;
+    if (c.least > std::max(left_matters, depth_matters)) continue;
     look(what, cell, sweeps_[c.sweep], b);
+    if (what.settled(b)) return;
   }
 }
 
-CellBounds Simulation::bounds(Looking what, const Cell& cell, std::span<const std::uint32_t> sweeps,
-                              double about, double most, Numbers& near) const {
+CellBounds Simulation::bounds(const Looking& what, const Cell& cell,
+                              std::span<const std::uint32_t> sweeps, double about, double most,
+                              Numbers& near) const {
   std::vector<Candidate> candidates;
   Cell wide = cell;  // that the cutter sways is as if the cell's points did
   wide.reach += sway_;
@@ -162,10 +167,9 @@ Result<void> Simulation::cut(const std::vector<Sweep>& sweeps, const RunContext&
     double about = kAbout * part_.cutter().radius;
     for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
       const Cell& cell = cells_.cells()[i];
-      const double most = radius_of(Looking::kForBoth, cell, nodes_[i]);
-      const CellBounds b =
-          bounds(Looking::kForBoth, cell, fresh, std::min(about, most), most, near);
-      about = kAbout * radius_of(Looking::kForBoth, cell, b);  // the next one is much alike
+      const double most = radius_of(kForBoth, cell, nodes_[i]);
+      const CellBounds b = bounds(kForBoth, cell, fresh, std::min(about, most), most, near);
+      about = kAbout * radius_of(kForBoth, cell, b);  // the next one is much alike
       nodes_[i] = {std::min(nodes_[i].left, b.left), std::min(nodes_[i].left_most, b.left_most),
                    std::max(nodes_[i].depth, b.depth),
                    std::max(nodes_[i].depth_most, b.depth_most)};
@@ -225,7 +229,7 @@ bool Simulation::find_above(std::size_t node, double limit, double within, HighS
 bool Simulation::find_inside(std::size_t node, double limit, double within, HighSpot& spot) {
   double most = 0.0;
   spot.height = 0.0;
-  quarter(Looking::kForBoth, node, [&](const Piece& part, int levels) {
+  quarter(for_left(limit, within), node, [&](const Piece& part, int levels) {
     const double left = part.bounds.left;
     bool held = false;
     if (left > std::max(limit, spot.height)) {
@@ -234,7 +238,8 @@ bool Simulation::find_inside(std::size_t node, double limit, double within, High
       if (!held) spot = {left, part.place, part.cell.point, near.axis};
     }
     const int least = held ? kMostLevels - kEdgeLevels : 0;
-    const bool deeper = part.bounds.left_most > limit + within && (held || left <= limit);
+    if (spot.height > 0.0) return false;  // one is enough
+    const bool deeper = part.bounds.left_most > limit + within;
     if ((!deeper || levels <= least) && !held) most = std::max(most, part.bounds.left_most);
     return deeper && levels > least;
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -39,6 +40,22 @@ struct SimulationReport {
   double hidden_area = 0.0, held_area = 0.0, area = 0.0;
 };
 
+/// What bounds of a cell are for. Nothing has to be looked into any closer once no more than `left`
+/// stays over its middle and no more than `left_most` anywhere in it.
+struct Looking {
+  bool for_left = true, for_depth = true;
+  double left = -1.0, left_most = -1.0;
+  [[nodiscard]] bool settled(const CellBounds& b) const {
+    return !for_depth && b.left <= left && b.left_most <= left_most;
+  }
+};
+inline constexpr Looking kForBoth{};
+inline constexpr Looking kForDepth{false, true, -1.0, -1.0};
+/// What stays, as far as it is more than a limit.
+[[nodiscard]] inline Looking for_left(double limit, double within) {
+  return {true, false, limit, limit + within};
+}
+
 /// Takes a cutter's body along straight ways out of the stock over a part's surface. Places of the
 /// surface are looked at as exact points of the patches with their normals, walls as well as level
 /// places; where the bounds of a cell do not decide, the cell is quartered.
@@ -58,6 +75,11 @@ class Simulation {
   /// what was found, where quartering has not to go too far for it.
   [[nodiscard]] Result<SimulationReport> report(double allowed, double within,
                                                 const RunContext& run);
+  /// Depth of gouges as above; of what stays of a box of stock the most over the middles of cells,
+  /// with no bound beside.
+  [[nodiscard]] Result<SimulationReport> rough_report(double allowed,
+                                                      const std::array<Vec3, 2>& stock,
+                                                      const RunContext& run);
 
  private:
   static constexpr int kMostLevels = 9;  ///< of quarters
@@ -69,31 +91,31 @@ class Simulation {
     CellBounds bounds;
   };
 
-  enum class Looking { kForBoth, kForDepth };
   struct Candidate {
     double least = 0.0;  ///< distance from the cell's middle at least
     std::uint32_t sweep = 0;
   };
-  void look(Looking what, const Cell& cell, const Sweep& sweep, CellBounds& bounds) const;
+  void look(const Looking& what, const Cell& cell, const Sweep& sweep, CellBounds& bounds) const;
   /// Takes sweeps in, the nearest first; `candidates`: those of them that are no farther from the
   /// cell's middle than `enough`.
-  void look(Looking what, const Cell& cell, std::span<const std::uint32_t> sweeps, double enough,
-            CellBounds& bounds, std::vector<Candidate>& candidates) const;
+  void look(const Looking& what, const Cell& cell, std::span<const std::uint32_t> sweeps,
+            double enough, CellBounds& bounds, std::vector<Candidate>& candidates) const;
   /// What matters to a cell by its bounds, from its middle.
-  [[nodiscard]] double radius_of(Looking what, const Cell& cell, const CellBounds& bounds) const;
+  [[nodiscard]] double radius_of(const Looking& what, const Cell& cell,
+                                 const CellBounds& bounds) const;
   [[nodiscard]] double highest_entry(const Cell& cell, const Sweep& sweep, const SweepEntry& entry,
                                      double most) const;
   /// Bounds of a cell by these sweeps; `near` gets those that matter to any part of it. They lie
   /// within `about` of the middle most likely, within `most` in any case.
-  [[nodiscard]] CellBounds bounds(Looking what, const Cell& cell,
+  [[nodiscard]] CellBounds bounds(const Looking& what, const Cell& cell,
                                   std::span<const std::uint32_t> sweeps, double about, double most,
                                   Numbers& near) const;
   /// Quarters a cell; look(piece, levels left) says of each quarter whether to go on.
   template <class Look>
-  void quarter(Looking what, const Piece& whole, std::span<const std::uint32_t> sweeps, int levels,
-               const Look& look) const;
+  void quarter(const Looking& what, const Piece& whole, std::span<const std::uint32_t> sweeps,
+               int levels, const Look& look) const;
   template <class Look>
-  void quarter(Looking what, std::size_t node, const Look& look) const;
+  void quarter(const Looking& what, std::size_t node, const Look& look) const;
   [[nodiscard]] const Nearest& nearest(std::size_t node);
   [[nodiscard]] Nearest nearest(std::size_t node, const Piece& piece);  ///< of a piece of a node
   /// The cutter does not reach the middle of the node, but that of one beside it, where more than
@@ -120,25 +142,31 @@ class Simulation {
 };
 
 template <class Look>
-void Simulation::quarter(Looking what, const Piece& whole, std::span<const std::uint32_t> sweeps,
-                         int levels, const Look& look) const {
-  Numbers near;
+void Simulation::quarter(const Looking& what, const Piece& whole,
+                         std::span<const std::uint32_t> sweeps, int levels,
+                         const Look& look) const {
+  struct Deeper {
+    Piece part;
+    Numbers near;
+  };
+  std::vector<Deeper> deeper;  // after all four were looked at: they may show that it is not needed
   const double du = 0.5 * whole.place.du, dv = 0.5 * whole.place.dv;
   for (const double v : {whole.place.v - dv, whole.place.v + dv}) {
     for (const double u : {whole.place.u - du, whole.place.u + du}) {
-      Piece part;
-      part.place = {whole.place.patch, u, v, du, dv};
-      part.cell = cell_at(part_.model(), part.place, whole.cell.normal);
-      if (part.cell.normal == Vec3{}) continue;
-      const double most = radius_of(what, part.cell, whole.bounds);
-      part.bounds = bounds(what, part.cell, sweeps, most, most, near);
-      if (look(part, levels - 1) && levels > 1) quarter(what, part, near, levels - 1, look);
+      Deeper one;
+      one.part.place = {whole.place.patch, u, v, du, dv};
+      one.part.cell = cell_at(part_.model(), one.part.place, whole.cell.normal, part_.allowance());
+      if (one.part.cell.normal == Vec3{}) continue;
+      const double most = radius_of(what, one.part.cell, whole.bounds);
+      one.part.bounds = bounds(what, one.part.cell, sweeps, most, most, one.near);
+      if (look(one.part, levels - 1) && levels > 1) deeper.push_back(std::move(one));
     }
   }
+  for (const Deeper& one : deeper) quarter(what, one.part, one.near, levels - 1, look);
 }
 
 template <class Look>
-void Simulation::quarter(Looking what, std::size_t node, const Look& look) const {
+void Simulation::quarter(const Looking& what, std::size_t node, const Look& look) const {
   Numbers near;
   const Cell& cell = cells_.cells()[node];
   const double about = radius_of(what, cell, nodes_[node]);

@@ -18,6 +18,18 @@ void raise_extreme(Extreme& extreme, double found, Vec3 place) {
   extreme.place = place;
 }
 
+/// Way along a cell's normal out of a box; not above 0: it begins outside.
+double out_of_box(const std::array<Vec3, 2>& box, const Cell& cell) {
+  double way = std::numeric_limits<double>::infinity();
+  const auto leave = [&](double at, double along, double low, double high) {
+    if (along != 0.0) way = std::min(way, ((along > 0.0 ? high : low) - at) / along);
+  };
+  leave(cell.point.x, cell.normal.x, box[0].x, box[1].x);
+  leave(cell.point.y, cell.normal.y, box[0].y, box[1].y);
+  leave(cell.point.z, cell.normal.z, box[0].z, box[1].z);
+  return way;
+}
+
 }  // namespace
 
 Result<void> Simulation::report_depth(double allowed, SimulationReport& out,
@@ -36,7 +48,7 @@ Result<void> Simulation::report_depth(double allowed, SimulationReport& out,
   }
   std::vector<Extreme> found(deep.size());
   const auto looked = in_parallel(deep.size(), threads_, run, [&](std::size_t k) {
-    quarter(Looking::kForDepth, deep[k], [&](const Piece& part, int levels) {
+    quarter(kForDepth, deep[k], [&](const Piece& part, int levels) {
       raise_extreme(found[k], part.bounds.depth, part.cell.point);
       const bool deeper = part.bounds.depth_most > std::max(limit, found[k].found);
       if (!deeper || levels == 0) found[k].most = std::max(found[k].most, part.bounds.depth_most);
@@ -95,7 +107,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
     std::vector<Extreme> found(count, {limit, 0.0, {}});
     const auto looked = in_parallel(count, threads_, run, [&](std::size_t k) {
       const std::size_t node = high[begin + k];
-      quarter(Looking::kForBoth, node, [&](const Piece& part, int levels) {
+      quarter(for_left(limit, within), node, [&](const Piece& part, int levels) {
         const bool deeper = part.bounds.left_most > found[k].found + within;
         if (part.bounds.left > found[k].found) {
           const bool held = nearest(node, part).reach != Reach::kReached;
@@ -125,6 +137,23 @@ Result<SimulationReport> Simulation::report(double allowed, double within, const
   OBVID_TRY(report_reach(out, run));
   OBVID_TRY(may_go_on(run));
   OBVID_TRY(report_left(within, out, run));
+  return out;
+}
+
+Result<SimulationReport> Simulation::rough_report(double allowed, const std::array<Vec3, 2>& stock,
+                                                  const RunContext& run) {
+  SimulationReport out;
+  OBVID_TRY(report_depth(allowed, out, run));
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Cell& cell = cells_.cells()[i];
+    out.area += cell.area;
+    if (cell.normal == Vec3{}) continue;
+    const double left = std::min(nodes_[i].left, out_of_box(stock, cell));
+    if (left > out.left.found && !hidden(part_, cell.point, cell.normal)) {
+      raise_extreme(out.left, left, cell.point);
+    }
+  }
+  out.left.most = std::numeric_limits<double>::infinity();
   return out;
 }
 

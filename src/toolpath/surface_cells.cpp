@@ -90,7 +90,7 @@ Vec3 open_side(const Part& part, const Cell& cell) {
 
 }  // namespace
 
-Cell cell_at(const SurfaceModel& model, const CellPlace& at, Vec3 side) {
+Cell cell_at(const SurfaceModel& model, const CellPlace& at, Vec3 side, double allowance) {
   const SurfaceJet jet = evaluate(model.patches[at.patch].surface, at.u, at.v);
   Cell cell;
   cell.point = jet.point;
@@ -112,6 +112,9 @@ Cell cell_at(const SurfaceModel& model, const CellPlace& at, Vec3 side) {
   cell.turn = kCellMargin *
               (turned(cross(uu, v) + cross(u, uv)) + turned(cross(uv, v) + cross(u, vv))) /
               cell_size;
+  cell.point = cell.point + allowance * cell.normal;
+  cell.reach += allowance * cell.turn;
+  cell.rise += 0.5 * allowance * cell.turn * cell.turn;
   return cell;
 }
 
@@ -168,7 +171,7 @@ void SurfaceCells::fill(const Part& part, std::size_t threads) {
     for (std::uint32_t i = 0; i + 1 < grids_[row.patch].us.size(); ++i) {
       const Origin origin{row.patch, i, row.j};
       Cell& cell = cells_[row.first + i];
-      cell = cell_at(part.model(), place(origin), {0.0, 0.0, 1.0});
+      cell = cell_at(part.model(), place(origin), {0.0, 0.0, 1.0}, part.allowance());
       cell.normal = open_side(part, cell);
       origins_[row.first + i] = origin;
     }

@@ -25,7 +25,9 @@ struct Cell {
 };
 
 /// Takes the normal on the side of `side`.
-[[nodiscard]] Cell cell_at(const SurfaceModel& model, const CellPlace& place, Vec3 side);
+/// `allowance`: of the surface that far out along its normals.
+[[nodiscard]] Cell cell_at(const SurfaceModel& model, const CellPlace& place, Vec3 side,
+                           double allowance);
 
 /// The cells of a whole model, about `spacing` wide (more, where that would be more than
 /// `most_cells`), put together in tiles as seen from above.

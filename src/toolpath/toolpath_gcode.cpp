@@ -90,7 +90,9 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
   ToolpathGcode out;
   out.blocks = program.blocks();
   out.arc_blocks = program.arcs();
-  out.text = head(path, options, scale) + program.text() + exchange::gcode_end(options.controller);
+  const std::string on = path.spindle ? fmt::format("M3 S{:.0f}\n", *path.spindle) : "";
+  out.text = head(path, options, scale) + on + program.text() + (path.spindle ? "M5\n" : "") +
+             exchange::gcode_end(options.controller);
   return out;
 }
 

@@ -891,18 +891,21 @@ class Surfaces(unittest.TestCase):
             self.assertEqual(json.loads(cut), json.loads(told))
             again, _, _ = surface("convert", [read(stored)])
             self.assertEqual(surface_file(again, "json"), surface_file(handle, "json"))
-            nc, plan = os.path.join(folder, "s.nc"), {"diameter": 6, "scallop": 0.1, "tolerance": 0.02}
-            told, _ = program("toolpath", stored, "-o", nc, "--json", "--diameter", "6", "--scallop", "0.1",
-                              "--tolerance", "0.02")
-            files, report, size = C.c_void_p(), C.c_void_p(), C.c_size_t()
-            milled = call(lib.obvid_surface_toolpath, handle, json.dumps(plan).encode(), None, C.byref(files),
-                          C.byref(report), report=report)
-            with open(nc, "rb") as file:
-                self.assertEqual(C.string_at(lib.obvid_files_data(files, C.c_size_t(0), C.byref(size)), size.value), file.read())
-            ours, theirs = json.loads(milled), json.loads(told)
-            for one in (ours, theirs):
-                one.pop("written", None)
-            self.assertEqual(ours, theirs)
+            nc = os.path.join(folder, "s.nc")
+            for plan in ({"diameter": 6, "scallop": 0.1, "tolerance": 0.02},
+                         {"strategy": "rough", "cutter": "flat", "allowance": 0.2, "step-down": 2, "ramp": 8,
+                          "spindle": 9000, "rapid-feed": 4000, "stock": "-1,-1,-5,70,60,9"}):
+                typed = [f"--{name}={value}" for name, value in plan.items()]
+                told, _ = program("toolpath", stored, "-o", nc, "--json", *typed)
+                files, report, size = C.c_void_p(), C.c_void_p(), C.c_size_t()
+                milled = call(lib.obvid_surface_toolpath, handle, json.dumps(plan).encode(), None, C.byref(files),
+                              C.byref(report), report=report)
+                with open(nc, "rb") as file:
+                    self.assertEqual(C.string_at(lib.obvid_files_data(files, C.c_size_t(0), C.byref(size)), size.value), file.read())
+                ours, theirs = json.loads(milled), json.loads(told)
+                for one in (ours, theirs):
+                    one.pop("written", None)
+                self.assertEqual(ours, theirs)
 
     def test_cylinder_of_arrays(self):
         """A straight profile about the z axis: all figures are known."""

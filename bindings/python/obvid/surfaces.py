@@ -162,7 +162,8 @@ class Surface:
 
     def toolpath(self, **options: Any) -> Toolpath:
         """A program for a three-axis mill. Options as of `obvid toolpath`: cutter, diameter, strategy,
-        scallop, step_over, angle, tolerance, feed, controller, motion, ..."""
+        scallop, step_over, angle, tolerance, allowance, step_down, stock, ramp, spindle, feed, controller,
+        motion, ..."""
         made, report, remarks, failed = self._made(lib.obvid_surface_toolpath, options)
         return Toolpath(made[0][1].decode(), report, remarks, failed)
 

@@ -16,7 +16,8 @@ namespace obvid {
 /// millimetres of it.
 struct ToolpathJob {
   ToolpathOptions plan;                 ///< but for what follows; a scallop of 0.01 diameters when
-                                        ///< neither scallop nor step-over is given
+                                        ///< neither scallop nor step-over is given; roughing: a
+                                        ///< step-over of 0.4 diameters
   std::optional<double> diameter;       ///< [6 mm]
   std::optional<double> corner_radius;  ///< of bull noses [a quarter of the diameter]
   std::optional<double> tolerance;      ///< [0.01 mm]

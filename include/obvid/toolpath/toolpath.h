@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ enum class ToolpathStrategy {
   kZigzag,           ///< passes in parallel planes upright on XY
   kIsoparametric,    ///< passes touch along lines of the patches' parameters
   kConstantScallop,  ///< each pass lies as far from the last as the scallop allows, place by place
+  kRough,  ///< a box of stock is taken off level by level, down to the part and its allowance
 };
 
 /// Feeds, unless others are given: mm/min, and in/min for models in inches.
@@ -41,13 +43,20 @@ struct ToolpathFeeds {
 struct ToolpathOptions {
   Cutter cutter;
   ToolpathStrategy strategy = ToolpathStrategy::kZigzag;
-  std::optional<double> scallop;    ///< greatest height of what stays between passes
-  std::optional<double> step_over;  ///< greatest distance of passes seen from above (zigzag,
-                                    ///< constant scallop) or along the surface (isoparametric)
-  double angle_deg = 0.0;           ///< of the passes against X; not for isoparametric ones
-  bool along_v = false;             ///< isoparametric: passes run along v, else along u
-  bool one_way = false;             ///< all passes in the same direction
-  double tolerance = 0.01;          ///< of the printed program: gouges
+  std::optional<double> scallop;      ///< greatest height of what stays between passes
+  std::optional<double> step_over;    ///< greatest distance of passes seen from above (zigzag,
+                                      ///< constant scallop) or along the surface (isoparametric)
+  double angle_deg = 0.0;             ///< of the passes against X; not for isoparametric ones
+  bool along_v = false;               ///< isoparametric: passes run along v, else along u
+  bool one_way = false;               ///< all passes in the same direction
+  double allowance = 0.0;             ///< along normals, what stays everywhere for later passes
+  std::optional<double> step_down{};  ///< roughing: most of a level [half the diameter]
+  /// Roughing: low and high corner of the stock [the box of the part, wider by the allowance on its
+  /// sides and on top].
+  std::optional<std::array<Vec3, 2>> stock{};
+  std::optional<double> ramp_deg{};  ///< roughing: steepest way down into the stock [5]
+  std::optional<double> spindle{};   ///< revolutions a minute [no M3]
+  double tolerance = 0.01;           ///< of the printed program: gouges
   std::optional<double> feed{}, plunge_feed{}, rapid_feed{};  ///< [default_feeds]
   std::optional<double> safe_z{};  ///< [half a diameter above the highest point]
   std::size_t most_points = 20'000'000;
@@ -57,7 +66,7 @@ struct ToolpathOptions {
 
 enum class ToolMove {
   kRapid,   ///< at or up to the safe height
-  kPlunge,  ///< straight down from it
+  kPlunge,  ///< down from it, straight or on ramps
   kLink,    ///< from pass to pass, on the surface
   kPass,
 };
@@ -85,9 +94,11 @@ struct ToolpathReport {
     double found = 0.0, most = 0.0;  ///< units; `most` is infinite where no bound is known
     Vec3 place;                      ///< where it was found
   };
-  Measured gouge;    ///< depth of a point of the surface in the cutter's body
-  Measured scallop;  ///< what stays, along the normal, where the cutter can reach the surface at
-                     ///< all (within the tolerance)
+  Measured gouge;  ///< depth of a point of the surface in the cutter's body
+  /// What stays, along the normal, where the cutter can reach the surface at all (within the
+  /// tolerance). Roughing: stock over the allowance, at the middles of places `spacing` apart; no
+  /// bound is known.
+  Measured scallop;
   double spacing = 0.0;  ///< of the places looked at first; closer ones where they do not decide
   std::size_t added_passes = 0;  ///< between others that left too much
   /// Points of passes where the cutter rests on two places (all strategies) or is held up by
@@ -95,12 +106,15 @@ struct ToolpathReport {
   std::size_t lifted_points = 0;
   double surface_area = 0.0;  ///< of the model
   double hidden_area = 0.0;   ///< not seen from above: not cut
+  /// Not of roughing.
   /// Seen, but no place of the cutter comes within the tolerance without cutting elsewhere. Told by
   /// the middles of places `spacing` apart, as is the hidden area.
   double unreached_area = 0.0;
   double unreached_depth = 0.0;  ///< how far from the surface the cutter stays there at most, units
   Vec3 unreached_place;
   double safe_z = 0.0;
+  std::size_t levels = 0;            ///< of roughing
+  std::size_t narrow_stretches = 0;  ///< too short for the ramp: left out
 };
 
 struct Toolpath {
@@ -110,6 +124,7 @@ struct Toolpath {
   double tolerance = 0.0;
   double print_within = 0.0;  ///< units: of printed blocks from the points of the moves
   ToolpathFeeds feeds;
+  std::optional<double> spindle{};  ///< revolutions a minute
   std::vector<ToolpathMove> moves;
   ToolpathGcode program;  ///< what the report is about
   ToolpathReport report;
@@ -126,6 +141,10 @@ struct Toolpath {
 /// read back and simulated against the surface: the report's figures for gouges, scallops and what
 /// is not reached come from that alone, and `not_kept` says what does not hold
 /// (docs/methods/toolpath.md).
+/// Roughing takes straight stretches on levels, from the top of the stock to its bottom, where the
+/// cutter stays clear of part and allowance; it goes down outside the stock or along ramps, and
+/// rapid moves stay at the safe height. With an allowance, gouges are cuts into part and allowance,
+/// and heights of what stays count from the allowance.
 /// Errors: E203 sizes, feeds, heights or options that do not go together; E311 no patches; E310 a
 /// unit that machines do not know; E502 more triangles or points than allowed, or decimals too few
 /// for the tolerance; those of `tessellate`.

@@ -199,6 +199,7 @@ std::string toolpath_report_json(const MadeToolpath& made, const Written& writte
   json.pair("lifted_points", r.lifted_points).pair("surface_area", r.surface_area);
   json.pair("hidden_area", r.hidden_area).pair("unreached_area", r.unreached_area);
   json.pair("unreached_depth", r.unreached_depth).pair("safe_z", r.safe_z);
+  json.pair("levels", r.levels).pair("narrow_stretches", r.narrow_stretches);
   json.pair("blocks", made.path.program.blocks).pair("arc_blocks", made.path.program.arc_blocks);
   json.key("not_kept").begin_array();
   for (const Error& error : made.path.not_kept) json.value(error.what);

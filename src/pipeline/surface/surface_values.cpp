@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/internal/surface_values.h"
-#include "obvid/exchange/internal/gcode/dialect.h"
 
 #include <cmath>
 #include <map>
 
 #include "obvid/core/internal/near_name.h"
 #include "obvid/core/internal/typed_numbers.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/job_values.h"
 
@@ -27,6 +27,17 @@ Result<Vec3> vector_of(const std::string& typed, const char* option) {
   const auto value = typed_numbers(typed);
   if (value && value->size() == 3) return Vec3{(*value)[0], (*value)[1], (*value)[2]};
   return fail(bad_option("'" + typed + "' is no vector", option, "give X,Y,Z, for example 0,0,1"));
+}
+
+Result<void> set_stock(const std::string& typed, ToolpathOptions& plan) {
+  if (typed.empty()) return {};
+  const auto v = typed_numbers(typed);
+  if (!v || v->size() != 6) {
+    return fail(bad_option("'" + typed + "' is no box", "--stock",
+                           "give X0,Y0,Z0,X1,Y1,Z1: its lowest and its highest corner"));
+  }
+  plan.stock = {Vec3{(*v)[0], (*v)[1], (*v)[2]}, Vec3{(*v)[3], (*v)[4], (*v)[5]}};
+  return {};
 }
 
 Result<void> positive(const std::optional<double>& value, const char* option) {
@@ -228,7 +239,8 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
       .and_then([&] {
         return pick<ToolpathStrategy>({{"zigzag", ToolpathStrategy::kZigzag},
                                        {"isoparametric", ToolpathStrategy::kIsoparametric},
-                                       {"scallop", ToolpathStrategy::kConstantScallop}},
+                                       {"scallop", ToolpathStrategy::kConstantScallop},
+                                       {"rough", ToolpathStrategy::kRough}},
                                       typed.strategy, "--strategy", plan.strategy);
       })
       .and_then([&] {
@@ -239,7 +251,8 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
       .and_then([&] {
         return pick<bool>({{"arcs", true}, {"lines", false}}, typed.motion, "--motion",
                           plan.gcode.arcs);
-      });
+      })
+      .and_then([&] { return set_stock(typed.stock, plan); });
 }
 
 Result<std::size_t> checked_samples(long samples) {

@@ -11,9 +11,12 @@
 namespace obvid {
 namespace {
 
+constexpr double kRoughStep = 0.4;  // diameters
+
 /// Distance of passes on a level place.
 double level_step(const ToolpathOptions& plan) {
   if (plan.step_over) return *plan.step_over;
+  if (plan.strategy == ToolpathStrategy::kRough) return kRoughStep * plan.cutter.diameter;
   if (plan.cutter.kind == CutterKind::kFlat) return plan.cutter.diameter / 2.0;
   const bool ball = plan.cutter.kind == CutterKind::kBall;
   const double r = ball ? plan.cutter.diameter / 2.0 : plan.cutter.corner_radius;
@@ -29,7 +32,11 @@ ToolpathOptions options_for(const ToolpathJob& job, const std::string& units) {
   const double unit = mm > 0.0 ? mm : 1.0;  // units that machines do not know are refused
   plan.cutter.diameter = job.diameter.value_or(kDiameter / unit);
   plan.tolerance = job.tolerance.value_or(kTolerance / unit);
-  if (!plan.scallop && !plan.step_over) plan.scallop = kScallop * plan.cutter.diameter;
+  if (plan.strategy == ToolpathStrategy::kRough) {
+    plan.step_over = level_step(plan);
+  } else if (!plan.scallop && !plan.step_over) {
+    plan.scallop = kScallop * plan.cutter.diameter;
+  }
   if (plan.cutter.kind == CutterKind::kBullNose) {
     plan.cutter.corner_radius = job.corner_radius.value_or(kCorner * plan.cutter.diameter);
   }

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "move_list.h"
+
+#include <utility>
+
+#include "machine_units.h"
+
+namespace obvid::toolpath {
+
+double length_of(const std::vector<Vec3>& points) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += norm(points[i] - points[i - 1]);
+  return sum;
+}
+
+void MoveList::add(ToolMove kind, std::vector<Vec3> points, PassPlane plane) {
+  at_ = points.back();
+  begun_ = true;
+  ToolpathReport& report = out_.report;
+  if (kind == ToolMove::kPass) ++report.passes;
+  (kind == ToolMove::kRapid    ? report.rapid_length
+   : kind == ToolMove::kPlunge ? report.plunge_length
+                               : report.cutting_length) += length_of(points);
+  out_.moves.push_back({kind, plane, std::move(points)});
+}
+
+void MoveList::enter(Vec3 start) {
+  const Vec3 above{start.x, start.y, out_.report.safe_z};
+  add(ToolMove::kRapid, begun_ ? std::vector<Vec3>{at_, above} : std::vector<Vec3>{above});
+  add(ToolMove::kPlunge, {above, start});
+}
+
+void MoveList::leave() {
+  if (begun_) add(ToolMove::kRapid, {at_, {at_.x, at_.y, out_.report.safe_z}});
+}
+
+void list_minutes(Toolpath& out) {
+  ToolpathReport& report = out.report;
+  report.minutes = machine_scale(out.units) * (report.cutting_length / out.feeds.pass +
+                                               report.plunge_length / out.feeds.plunge +
+                                               report.rapid_length / out.feeds.rapid);
+}
+
+}  // namespace obvid::toolpath
