@@ -18,7 +18,7 @@ struct SurfaceRequest {
   SurfaceExportOptions formats;
   ToolpathJob toolpath;
   SurfaceCutJob cut;
-  std::size_t samples = 65;  ///< lines of each family of a check
+  SurfaceCheckJob check;  ///< its `against` also of files
 };
 
 /// Which options a call knows.

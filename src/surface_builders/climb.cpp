@@ -21,7 +21,8 @@ std::vector<Node> nodes_of(const std::vector<double>& knots, const Range& domain
     if (!(span.length() > 0.0)) continue;
     const double share = span.length() / domain.length() * (1.0 - kCellRounding);
     const double cells = std::ceil(0.5 * static_cast<double>(n) * share);
-    const double cell = span.length() / cells, end = span.at(1.0 - kBefore);
+    const double cell = span.length() / cells;
+    const double end = span.to < domain.to ? span.at(1.0 - kBefore) : span.to;
     for (double k = 0.0; k < cells; k += 1.0) {
       for (const double side : {-apart, apart}) {
         const double at = span.at((k + 0.5 + side) / cells);
