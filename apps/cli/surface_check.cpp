@@ -85,7 +85,7 @@ Table line_table(const SurfaceCheck& check) {
   return table;
 }
 
-std::string place_text(Vec3 p) {
+std::string coordinates_text(Vec3 p) {
   p = p + Vec3{};  // -0 becomes 0
   return fmt::format("{}, {}, {}", significant(p.x, 5), significant(p.y, 5), significant(p.z, 5));
 }
@@ -109,9 +109,10 @@ Table extreme_table(const SurfaceCheck& check) {
                                });
     };
     const PatchReport low = end(true), high = end(false);
-    table.row({name, end_text((low.*quantity).least), place_text((low.*quantity).least_at.point),
-               low.name, end_text((high.*quantity).most),
-               place_text((high.*quantity).most_at.point), high.name});
+    table.row({name, end_text((low.*quantity).least),
+               coordinates_text((low.*quantity).least_at.point), low.name,
+               end_text((high.*quantity).most), coordinates_text((high.*quantity).most_at.point),
+               high.name});
   };
   row("Gaussian", &PatchReport::gaussian);
   row("mean", &PatchReport::mean);
@@ -122,7 +123,8 @@ Table extreme_table(const SurfaceCheck& check) {
 
 /// "0.31 at (1, 2, 3) (point 12)".
 std::string measured_text(const MeasuredPlace& place, bool points) {
-  std::string text = fmt::format("{} at ({})", significant(place.off, 4), place_text(place.point));
+  std::string text =
+      fmt::format("{} at ({})", significant(place.off, 4), coordinates_text(place.point));
   if (points) text += fmt::format(" (point {})", place.number + 1);
   return text;
 }
@@ -163,7 +165,7 @@ Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
     table.row({side(0), side(1), significant(j.gap, 3),
                significant(j.angle * 180.0 / std::numbers::pi, 3),
                significant(100.0 * j.curvature, 3) + " %", fmt::format("G{}", j.order),
-               place_text(j.angle_at)});
+               coordinates_text(j.angle_at)});
   }
   return table;
 }

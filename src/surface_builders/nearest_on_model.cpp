@@ -106,8 +106,8 @@ static std::array<double, 2> step_of(const SurfaceJet& jet, Vec3 r, const Cell& 
   double a = huu, b = huv, c = hvv;
   if (!(a > 0.0 && a * c - b * b > 0.0)) a = uu, b = uv, c = vv;  // downhill all the same
   const double det = a * c - b * b;
-  constexpr double kFlat = 1e-14;  // of a c: the two directions are one
-  if (!(det > kFlat * a * c)) return {alone(gu, a, uu), alone(gv, c, vv)};
+  constexpr double kOneDirection = 1e-14;  // of a c: the two directions are one
+  if (!(det > kOneDirection * a * c)) return {alone(gu, a, uu), alone(gv, c, vv)};
   return {-(c * gu - b * gv) / det, -(a * gv - b * gu) / det};
 }
 
