@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "obvid/core/result.h"
+#include "obvid/pipeline/surface_check_job.h"
 #include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"

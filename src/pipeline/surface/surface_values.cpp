@@ -256,10 +256,12 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
 
 Result<void> set_surface_check(const SurfaceCheckValues& typed, SurfaceCheckJob& job) {
   constexpr long kLeast = 3, kMost = 2000;
-  if (typed.samples < kLeast || typed.samples > kMost) {
-    return fail(bad_option("the number of samples must lie in 3 to 2000", "--samples", ""));
+  if (typed.samples) {
+    if (*typed.samples < kLeast || *typed.samples > kMost) {
+      return fail(bad_option("the number of samples must lie in 3 to 2000", "--samples", ""));
+    }
+    job.check.samples = static_cast<std::size_t>(*typed.samples);
   }
-  job.check.samples = static_cast<std::size_t>(typed.samples);
   if (typed.against) {
     if (typed.against->empty()) return fail(bad_option("no file is named", "--against", ""));
     job.against = SurfaceInput(*typed.against);

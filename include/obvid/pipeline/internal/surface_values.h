@@ -52,7 +52,7 @@ struct ToolpathValues {
 [[nodiscard]] Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job);
 
 struct SurfaceCheckValues {
-  long samples = 65;                   ///< lines of each family, and points on them: 3 to 2000
+  std::optional<long> samples;         ///< lines of each family, and points on them: 3 to 2000 [65]
   std::optional<std::string> against;  ///< path of a file
   std::optional<double> meeting;       ///< units
 };
