@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -84,6 +85,64 @@ Table line_table(const SurfaceCheck& check) {
   return table;
 }
 
+std::string coordinates_text(Vec3 p) {
+  p = p + Vec3{};  // -0 becomes 0
+  return fmt::format("{}, {}, {}", significant(p.x, 5), significant(p.y, 5), significant(p.z, 5));
+}
+
+/// Extremes of curvature over all patches, and where they are.
+Table extreme_table(const SurfaceCheck& check) {
+  Table table;
+  table.column("curvature", Table::Align::kLeft);
+  table.column("least");
+  table.column("at x, y, z", Table::Align::kLeft);
+  table.column("on", Table::Align::kLeft);
+  table.column("greatest");
+  table.column("at x, y, z", Table::Align::kLeft);
+  table.column("on", Table::Align::kLeft);
+  const auto row = [&](const char* name, Extent PatchReport::*quantity) {
+    const auto end = [&](bool least) {
+      return *std::max_element(check.patches.begin(), check.patches.end(),
+                               [&](const PatchReport& a, const PatchReport& b) {
+                                 return least ? (a.*quantity).least > (b.*quantity).least
+                                              : (a.*quantity).most < (b.*quantity).most;
+                               });
+    };
+    const PatchReport low = end(true), high = end(false);
+    table.row({name, end_text((low.*quantity).least),
+               coordinates_text((low.*quantity).least_at.point), low.name,
+               end_text((high.*quantity).most), coordinates_text((high.*quantity).most_at.point),
+               high.name});
+  };
+  row("Gaussian", &PatchReport::gaussian);
+  row("mean", &PatchReport::mean);
+  row("k1", &PatchReport::k1);
+  row("k2", &PatchReport::k2);
+  return table;
+}
+
+/// "0.31 at (1, 2, 3) (point 12)".
+std::string measured_text(const MeasuredPlace& place, bool points) {
+  std::string text =
+      fmt::format("{} at ({})", significant(place.off, 4), coordinates_text(place.point));
+  if (points) text += fmt::format(" (point {})", place.number + 1);
+  return text;
+}
+
+void add_deviation(Facts& facts, const std::string& name, const Deviation& found, bool points,
+                   const std::string& units) {
+  facts.add(name, fmt::format("{} to {}", measured_text(found.least, points),
+                              measured_text(found.most, points)));
+  std::string rest =
+      fmt::format("root mean square {} {}, mean {}", significant(found.root_mean_square, 4), units,
+                  significant(found.mean, 4));
+  if (found.beside > 0.0) {
+    rest += fmt::format("; {} % of the {} beside, nearest to a border",
+                        significant(100.0 * found.beside, 3), points ? "points lie" : "area lies");
+  }
+  facts.add("", rest);
+}
+
 Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
   Table table;
   table.column("border", Table::Align::kLeft);
@@ -92,6 +151,7 @@ Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
   table.column("angle\ndegrees");
   table.column("curvature\nstep");
   table.column("order");
+  table.column("angle largest\nat x, y, z", Table::Align::kLeft);
   std::vector<double> worst;
   for (const JointReport& j : check.joints) worst.push_back(j.angle);
   std::size_t before = 0;
@@ -104,13 +164,16 @@ Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
     };
     table.row({side(0), side(1), significant(j.gap, 3),
                significant(j.angle * 180.0 / std::numbers::pi, 3),
-               significant(100.0 * j.curvature, 3) + " %", fmt::format("G{}", j.order)});
+               significant(100.0 * j.curvature, 3) + " %", fmt::format("G{}", j.order),
+               coordinates_text(j.angle_at)});
   }
   return table;
 }
 
 Result<std::vector<SurfaceOutput>> pictures_of(const SurfaceCheckOptions& options) {
-  auto outputs = surface_outputs_of(options.outputs, {options.input});
+  std::vector<std::string> inputs{options.input};
+  if (options.job.against) inputs.push_back(options.job.against->name);
+  auto outputs = surface_outputs_of(options.outputs, inputs);
   if (!outputs) return outputs;
   for (const SurfaceOutput& output : *outputs) {
     const bool picture =
@@ -136,13 +199,23 @@ std::string borders_text(const SurfaceCheck& check) {
 
 }  // namespace
 
-std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& check,
+std::string surface_check_text(const SurfaceModel& model, const CheckedSurface& checked,
                                const Written& written) {
-  std::string text = patch_table(check).text() + "\n" + line_table(check).text() + "\n";
+  const SurfaceCheck& check = checked.check;
+  std::string text = patch_table(check).text() + "\n" + extreme_table(check).text() + "\n" +
+                     line_table(check).text() + "\n";
   if (!check.joints.empty()) text += joint_table(model, check).text() + "\n";
   Facts facts;
   facts.add("size", significant(check.size) + " " + model.units.text());
   facts.add("borders", borders_text(check));
+  if (const auto& deviation = checked.deviation) {
+    const std::string units = model.units.text();
+    facts.add("against", fmt::format("{}: {} {}", deviation->against, deviation->found.places,
+                                     deviation->points ? "points" : "places of this surface"));
+    add_deviation(facts, deviation->points ? "points off" : "this off", deviation->found,
+                  deviation->points, units);
+    if (deviation->back) add_deviation(facts, "it off this", *deviation->back, false, units);
+  }
   for (const std::string& remark : written.remarks) facts.add("note", remark);
   if (!written.files.empty()) facts.add("written", listed(written.files));
   return text + facts.text();
@@ -159,24 +232,23 @@ int run(const SurfaceCheckOptions& options) {
     bar.clear();
     return report(model.error());
   }
-  CheckOptions how;
-  how.samples = options.samples;
-  const auto checked = check_surface(*model, how, bar.progress());
+  const auto checked = check_surface(*model, options.job, bar.progress());
   if (!checked) {
     bar.clear();
     return report(checked.error());
   }
-  const SurfaceCheck& check = *checked;
-  SurfaceExportOptions formats;
-  formats.colouring = SurfaceColouring::kGaussian;
+  const SurfaceCheck& check = checked->check;
+  warnings.insert(warnings.end(), checked->warnings.begin(), checked->warnings.end());
+  SurfaceExportOptions formats = options.formats;
+  if (checked->deviation) formats.deviation = checked->deviation->shown;
   if (!check.patches.empty()) formats.extremes = extremes_of(check);
   const auto written = write_surface(*model, *outputs, formats, bar.progress(), warnings);
   bar.clear();
   if (!written) return report(written.error());
   warn(warnings);
   if (options.quiet && !options.json) return 0;
-  const std::string text = options.json ? surface_check_json(*model, check, *written)
-                                        : surface_check_text(*model, check, *written);
+  const std::string text = options.json ? surface_check_json(*model, *checked, *written)
+                                        : surface_check_text(*model, *checked, *written);
   if (auto done = put(text); !done) return report(done.error());
   return 0;
 }

@@ -28,7 +28,8 @@ struct RawSurface {
   SurfaceFormatValues formats;
   bool no_progress = false;
   std::string format;  ///< of what -o sends to standard output
-  long samples = 65;
+  SurfaceCheckValues check_values;
+  std::optional<std::string> colour;  ///< of a check
   std::optional<std::string> units;
 };
 
@@ -107,8 +108,9 @@ void add_pictures(CLI::App& app, RawSurface& raw) {
                  "Largest angle between normals along an edge of a triangle, degrees [15]")
       ->type_name("DEG")
       ->group(group);
-  app.add_option("--colour", raw.formats.colour,
-                 "shaded, isolines, gaussian, mean, k1, k2 or zebra [shaded]")
+  app.add_option(
+         "--colour", raw.formats.colour,
+         "shaded, isolines, gaussian, mean, k1, k2, zebra, isophotes or reflection [shaded]")
       ->type_name("NAME")
       ->group(group);
   app.add_option("--view", raw.formats.view, "iso, front, top, side, back or bottom [iso]")
@@ -277,10 +279,27 @@ CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
 void add_check(CLI::App& app, RawSurface& raw) {
   CLI::App& check = *app.add_subcommand("check", "Curvature, joints of patches, monotone sections");
   check.add_option("INPUT", raw.check.input, "Surface (.json, STEP, IGES, BREP, control points)");
-  add_output(check, raw.check.outputs, raw.format,
-             "File to write: .html (page), .svg (picture), coloured by curvature", "svg");
-  check.add_option("--samples", raw.samples, "Lines of each family, and points on them [65]")
+  add_output(check, raw.check.outputs, raw.format, "File to write: .html (page), .svg (picture)",
+             "svg");
+  check
+      .add_option("--samples", raw.check_values.samples,
+                  "Lines of each family, and points on them [65]")
       ->type_name("N");
+  check
+      .add_option("--against", raw.check_values.against,
+                  "Points (x y z rows, STL, PLY, OBJ) or another surface: how far they are off")
+      ->type_name("FILE");
+  check
+      .add_option("--meeting", raw.check_values.meeting,
+                  "Borders of patches nearer than this meet, input units [1e-5 of the size]")
+      ->type_name("T");
+  check
+      .add_option("--colour", raw.colour,
+                  "Of pictures and pages: deviation, gaussian, mean, k1, k2, zebra, isophotes, "
+                  "reflection, shaded or isolines [deviation with --against, else gaussian]")
+      ->type_name("NAME");
+  check.add_option("--view", raw.formats.view, "iso, front, top, side, back or bottom [iso]")
+      ->type_name("NAME");
   check.add_flag("--json", raw.check.json, "JSON on standard output instead of the tables");
   check.add_flag("-q,--quiet", raw.check.quiet, "No tables and no progress bar");
   check.add_flag("--no-progress", raw.no_progress, "No progress bar");
@@ -379,9 +398,9 @@ Result<Command> checked_check(RawSurface& raw) {
   if (raw.check.input.empty()) {
     return fail(usage("surface check needs a surface", "see obvid surface check --help"));
   }
-  const auto samples = checked_samples(raw.samples);
-  OBVID_TRY(samples);
-  raw.check.samples = *samples;
+  OBVID_TRY(set_surface_check(raw.check_values, raw.check.job));
+  raw.formats.colour = raw.colour.value_or(raw.check.job.against ? "deviation" : "gaussian");
+  OBVID_TRY(set_surface_formats(raw.formats, raw.check.formats));
   OBVID_TRY(settle_streams(raw.check, raw.format, false, "svg"));
   raw.check.progress = !raw.no_progress && !raw.check.json && !raw.check.quiet;
   return Command{raw.check};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/pipeline/surface_check_job.h"
 #include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
@@ -25,8 +26,9 @@ struct SurfaceOptions {
 /// `obvid surface check`
 struct SurfaceCheckOptions {
   std::string input;
-  std::vector<std::string> outputs;  ///< pictures and pages of the curvature
-  std::size_t samples = 65;
+  std::vector<std::string> outputs;  ///< pictures and pages of curvature or deviation
+  SurfaceCheckJob job;
+  SurfaceExportOptions formats;
   bool json = false;
   bool quiet = false;
   bool progress = true;

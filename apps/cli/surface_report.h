@@ -12,7 +12,7 @@ namespace obvid {
 [[nodiscard]] std::string surface_report_text(const MadeSurface& made, const Written& written);
 
 /// What was measured.
-[[nodiscard]] std::string surface_check_text(const SurfaceModel& model, const SurfaceCheck& check,
-                                             const Written& written);
+[[nodiscard]] std::string surface_check_text(const SurfaceModel& model,
+                                             const CheckedSurface& checked, const Written& written);
 
 }  // namespace obvid

@@ -18,7 +18,7 @@ struct SurfaceWritten {
   SurfaceFormatValues formats;
   ToolpathValues toolpath;
   SurfaceCutValues cut;
-  std::optional<long> samples;
+  SurfaceCheckValues check;
   std::optional<std::string> units;
 };
 
@@ -67,7 +67,10 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"view", text(f.view)},
                 {"step", text(f.step)}});
   }
-  if (known.check) all.insert({{"samples", count(w.samples)}});
+  if (known.check || known.formats) all.insert({{"against", text(w.check.against)}});
+  if (known.check) {
+    all.insert({{"samples", count(w.check.samples)}, {"meeting", number(w.check.meeting)}});
+  }
   if (known.cut) {
     SurfaceCutValues& c = w.cut;
     all.insert({{"plane", texts(c.planes)},
@@ -119,11 +122,7 @@ Result<void> check_written(SurfaceWritten& w, const SurfaceKnown& known, Surface
     OBVID_TRY(set_values(w.typed, out.make.curves.sections));
   }
   OBVID_TRY(set_surface_formats(w.formats, out.formats));
-  if (w.samples) {
-    const auto samples = checked_samples(*w.samples);
-    OBVID_TRY(samples);
-    out.samples = *samples;
-  }
+  OBVID_TRY(set_surface_check(w.check, out.check));
   if (known.cut) OBVID_TRY(set_surface_cut(w.cut, out.cut));
   return set_toolpath(w.toolpath, out.toolpath);
 }

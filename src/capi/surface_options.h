@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "obvid/core/result.h"
+#include "obvid/pipeline/surface_check_job.h"
 #include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
@@ -18,7 +19,7 @@ struct SurfaceRequest {
   SurfaceExportOptions formats;
   ToolpathJob toolpath;
   SurfaceCutJob cut;
-  std::size_t samples = 65;  ///< lines of each family of a check
+  SurfaceCheckJob check;  ///< its `against` also of files
 };
 
 /// Which options a call knows.

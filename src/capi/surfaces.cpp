@@ -9,6 +9,7 @@
 #include "handles.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
 #include "obvid/pipeline/internal/surface_values.h"
+#include "obvid/pipeline/surface_check_job.h"
 #include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
@@ -94,9 +95,7 @@ int obvid_surface_check(const obvid_surface* surface, const char* options, const
   return guarded(error, [&]() -> Result<void> {
     const auto request = surface_request_of(options, kChecking);
     OBVID_TRY(request);
-    CheckOptions how;
-    how.samples = request->samples;
-    const auto check = check_surface(surface->model, how, context_of(run));
+    const auto check = check_surface(surface->model, request->check, context_of(run));
     OBVID_TRY(check);
     if (report != nullptr) *report = text_of(surface_check_json(surface->model, *check, {}));
     return {};
@@ -117,8 +116,14 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
     request->formats.lines = surface->lines;
     const RunContext context = context_of(run);
     OBVID_TRY(may_go_on(context));
-    SurfaceExporter exporter(surface->model, request->formats, context);
     auto out = std::make_unique<obvid_files>();
+    if (request->check.against) {
+      auto measured = measured_against(surface->model, *request->check.against,
+                                       request->check.check.samples, out->remarks, context);
+      OBVID_TRY(measured);
+      request->formats.deviation = std::move(measured->shown);
+    }
+    SurfaceExporter exporter(surface->model, request->formats, context);
     auto text = exporter.text(*format, out->remarks);
     OBVID_TRY(text);
     OBVID_TRY(may_go_on(context));

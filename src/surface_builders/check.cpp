@@ -5,18 +5,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <optional>
-#include <tuple>
 
+#include "check_joints.h"
 #include "check_lines.h"
+#include "climb.h"
 #include "obvid/surface/internal/topology.h"
 
 namespace obvid {
 namespace {
-
-/// A number of cells is not rounded up for the rounding of a quotient.
-constexpr double kCellRounding = 1e-9;
 
 /// Order of continuity that the multiplicities of inner knots leave.
 int order_of(const std::vector<double>& knots, int degree) {
@@ -30,83 +26,25 @@ int order_of(const std::vector<double>& knots, int degree) {
   return order;
 }
 
-/// A parameter, the part of the domain that it stands for, and where its neighbours may lie: the
-/// cells beside it in the same span.
-struct Node {
-  double at = 0.0;
-  double weight = 0.0;
-  Range reach;
-};
-
-/// About `n` nodes of Gauss's rule, two in each cell, no cell over a knot: a short span has a
-/// curvature of its own, and areas are exact to the third degree.
-std::vector<Node> nodes_of(const std::vector<double>& knots, const Range& domain, std::size_t n) {
-  constexpr double kBefore = 1e-9;  // part of the span: behind the knot curvature may be another
-  const double apart = 0.5 / std::numbers::sqrt3;  // of a cell, from its middle
-  std::vector<Node> nodes;
-  double from = domain.from;
-  for (const double knot : knots) {
-    const Range span{from, std::min(knot, domain.to)};
-    if (!(span.length() > 0.0)) continue;
-    const double share = span.length() / domain.length() * (1.0 - kCellRounding);
-    const double cells = std::ceil(0.5 * static_cast<double>(n) * share);
-    const double cell = span.length() / cells, end = span.at(1.0 - kBefore);
-    for (double k = 0.0; k < cells; k += 1.0) {
-      for (const double side : {-apart, apart}) {
-        const double at = span.at((k + 0.5 + side) / cells);
-        nodes.push_back(
-            {at, 0.5 * cell, {std::max(span.from, at - cell), std::min(end, at + cell)}});
-      }
-    }
-    from = span.to;
-  }
-  return nodes;
-}
-
-/// The place of a raster where a quantity is greatest (`sign` 1) or least (-1).
+/// What is looked for: the place where a quantity is greatest (`sign` 1) or least (-1).
 struct Extreme {
   double SurfaceCurvature::*quantity;
   double sign;
-  double value = -std::numeric_limits<double>::infinity();  ///< times the sign
-  Node u{}, v{};
-
-  void look_at(const SurfaceCurvature& k, const Node& at_u, const Node& at_v) {
-    if (!(sign * k.*quantity > value)) return;
-    value = sign * k.*quantity;
-    u = at_u;
-    v = at_v;
-  }
 };
 
-/// The extreme near that place: compass steps through the cells around it, halved until they are
-/// far below the raster. Not to where du x dv shrinks to less than half: the surface ends in a
-/// point there, its curvature may have no bound, and nothing but the steps would decide it.
-double climbed(const NurbsSurface& s, Extreme from) {
-  constexpr int kHalvings = 20;  // a millionth of the raster's step: 1e-12 of the curvature's rise
-  constexpr int kMostSteps = 200;
+/// The extreme near that place. Not to where du x dv shrinks to less than half: the surface ends in
+/// a point there, its curvature may have no bound, and nothing but the steps would decide it.
+Peak climbed_on(const NurbsSurface& s, const Extreme& one, const Peak& from) {
   constexpr double kLeastArea = 0.5;
   const auto area_of = [](const SurfaceJet& jet) { return norm(cross(jet.du, jet.dv)); };
   const double least = kLeastArea * area_of(evaluate(s, from.u.at, from.v.at));
-  double step_u = from.u.weight, step_v = from.v.weight;
-  int halvings = 0;
-  for (int step = 0; step < kMostSteps && halvings < kHalvings; ++step) {
-    Extreme best = from;
-    for (int place = 0; place < 9; ++place) {
-      Node u = from.u, v = from.v;
-      u.at = std::clamp(u.at + (place % 3 - 1) * step_u, u.reach.from, u.reach.to);
-      v.at = std::clamp(v.at + (place / 3 - 1) * step_v, v.reach.from, v.reach.to);
-      const SurfaceJet jet = evaluate(s, u.at, v.at);
-      if (area_of(jet) >= least) best.look_at(curvature(jet), u, v);
-    }
-    if (best.value > from.value) {
-      from = best;
-    } else {
-      ++halvings;
-      step_u /= 2.0;
-      step_v /= 2.0;
-    }
-  }
-  return from.value;
+  return climbed(
+      [&](double u, double v) {
+        const SurfaceJet jet = evaluate(s, u, v);
+        if (!(area_of(jet) >= least)) return std::nan("");
+        return one.sign * curvature(jet).*(one.quantity);
+      },
+      from);
 }
 
 /// From a place beside a border towards it, each step half as far away as the one before.
@@ -189,6 +127,10 @@ struct Measured {
   CurvatureExtents curvature;
 };
 
+SurfacePlace place_of(const NurbsSurface& s, double u, double v) {
+  return {u, v, evaluate(s, u, v).point};
+}
+
 Result<Measured> measured(const NurbsSurface& s, std::size_t n, const RunContext& run) {
   constexpr std::array kQuantities{&SurfaceCurvature::gaussian, &SurfaceCurvature::mean,
                                    &SurfaceCurvature::k1, &SurfaceCurvature::k2};
@@ -200,9 +142,13 @@ Result<Measured> measured(const NurbsSurface& s, std::size_t n, const RunContext
   Measured out;
   const std::vector<Node> along_u = nodes_of(s.knots_u, domain_u(s), n);
   const std::vector<Node> along_v = nodes_of(s.knots_v, domain_v(s), n);
-  for (const Node& v : along_v) {
+  std::vector<Peaks> peaks(extremes.size(), Peaks(along_u.size(), along_v.size()));
+  bool any = false;
+  for (std::size_t j = 0; j < along_v.size(); ++j) {
     OBVID_TRY(may_go_on(run));
-    for (const Node& u : along_u) {
+    const Node& v = along_v[j];
+    for (std::size_t i = 0; i < along_u.size(); ++i) {
+      const Node& u = along_u[i];
       const SurfaceJet jet = evaluate(s, u.at, v.at);
       out.area += norm(cross(jet.du, jet.dv)) * u.weight * v.weight;
       const SurfaceCurvature k = curvature(jet);
@@ -210,14 +156,23 @@ Result<Measured> measured(const NurbsSurface& s, std::size_t n, const RunContext
         ++out.curvature.without_normal;
         continue;
       }
-      for (Extreme& one : extremes) one.look_at(k, u, v);
+      any = true;
+      for (std::size_t q = 0; q < extremes.size(); ++q) {
+        peaks[q].look_at(extremes[q].sign * k.*(extremes[q].quantity), i, j, u, v);
+      }
     }
   }
-  if (!std::isfinite(extremes.front().value)) return out;  // no tangent plane anywhere
-  std::vector<double> most;
-  for (const Extreme& one : extremes) {
-    OBVID_TRY(may_go_on(run));
-    most.push_back(climbed(s, one));
+  if (!any) return out;  // no tangent plane anywhere
+  std::vector<double> most(extremes.size(), -std::numeric_limits<double>::infinity());
+  std::vector<SurfacePlace> at(extremes.size());
+  for (std::size_t q = 0; q < extremes.size(); ++q) {
+    for (const Peak& start : peaks[q].highest()) {
+      OBVID_TRY(may_go_on(run));
+      const Peak top = climbed_on(s, extremes[q], start);
+      if (!(top.value > most[q])) continue;
+      most[q] = top.value;
+      at[q] = place_of(s, top.u.at, top.v.at);
+    }
   }
   std::size_t ways = 0;
   for (const Way& way : ways_out(s, along_u, along_v)) {
@@ -232,10 +187,15 @@ Result<Measured> measured(const NurbsSurface& s, std::size_t n, const RunContext
     }
     const double rounding = rounding_on(s, way);
     for (std::size_t q = 0; tangent && q < most.size(); ++q) {
-      most[q] = std::max(most[q], led_to(along, extremes[q], rounding));
+      const double end = led_to(along, extremes[q], rounding);
+      if (!(end > most[q])) continue;
+      most[q] = end;
+      at[q] = place_of(s, way.u, way.v);
     }
   }
-  const auto extent = [&](std::size_t q) { return Extent{-most[2 * q], most[2 * q + 1]}; };
+  const auto extent = [&](std::size_t q) {
+    return Extent{-most[2 * q], most[2 * q + 1], at[2 * q], at[2 * q + 1]};
+  };
   out.curvature.gaussian = extent(0);
   out.curvature.mean = extent(1);
   out.curvature.k1 = extent(2);
@@ -273,103 +233,6 @@ Result<PatchReport> report_of(const SurfacePatch& patch, std::size_t samples,
   return report;
 }
 
-/// A place on a side of a patch.
-struct SidePlace {
-  double u = 0.0, v = 0.0;
-};
-
-SidePlace place_on(const NurbsSurface& s, PatchSide side, double t) {
-  const Range u = domain_u(s), v = domain_v(s);
-  if (runs_along_u(side)) return {t, is_far_end(side) ? v.to : v.from};
-  return {is_far_end(side) ? u.to : u.from, t};
-}
-
-/// Two sides of an edge, place by place.
-class EdgePair {
- public:
-  EdgePair(const SurfaceModel& model, const EdgeUse& a, const EdgeUse& b)
-      : first_(model.patches[a.patch].surface),
-        second_(model.patches[b.patch].surface),
-        sides_{a.side, b.side},
-        borders_{border_of(first_, a.side), border_of(second_, b.side)},
-        along_(a.along == b.along),
-        own_pace_(a.own_pace || b.own_pace) {}
-
-  /// Of both patches, at a part of the first one's border.
-  [[nodiscard]] std::array<SurfaceJet, 2> at(double part) const {
-    const double t = domain(borders_[0]).at(part);
-    const double other = own_pace_ && part > 0.0 && part < 1.0
-                             ? nearest_parameter(borders_[1], evaluate(borders_[0], t).point)
-                             : domain(borders_[1]).at(along_ ? part : 1.0 - part);
-    const SidePlace a = place_on(first_, sides_[0], t), b = place_on(second_, sides_[1], other);
-    return {evaluate(first_, a.u, a.v), evaluate(second_, b.u, b.v)};
-  }
-
- private:
-  const NurbsSurface& first_;
-  const NurbsSurface& second_;
-  std::array<PatchSide, 2> sides_;
-  std::array<SpaceCurve, 2> borders_;
-  bool along_, own_pace_;
-};
-
-/// Normal curvature in a tangential direction; its sign with the normal.
-double normal_curvature(const SurfaceCurvature& k, Vec3 direction) {
-  const double c = dot(direction, k.direction1), s = dot(direction, cross(k.normal, k.direction1));
-  return k.k1 * c * c + k.k2 * s * s;
-}
-
-JointReport joint_of(const SurfaceModel& model, const EdgeUse& one, const EdgeUse& two) {
-  constexpr int kPlaces = 33;
-  JointReport joint;
-  joint.patch = {one.patch, two.patch};
-  joint.side = {one.side, two.side};
-  const EdgePair pair(model, one, two);
-  double step = 0.0, largest = 0.0;
-  for (int i = 0; i < kPlaces; ++i) {
-    const auto [a, b] = pair.at(static_cast<double>(i) / (kPlaces - 1));
-    joint.gap = std::max(joint.gap, norm(a.point - b.point));
-    const SurfaceCurvature ka = curvature(a), kb = curvature(b);
-    if (ka.normal == Vec3{} || kb.normal == Vec3{}) continue;
-    const double sign = dot(ka.normal, kb.normal) < 0.0 ? -1.0 : 1.0;
-    joint.angle = std::max(joint.angle, std::atan2(norm(cross(ka.normal, kb.normal)),
-                                                   std::abs(dot(ka.normal, kb.normal))));
-    // across the border: perpendicular to it in the tangent plane
-    const Vec3 along = runs_along_u(one.side) ? a.du : a.dv;
-    const Vec3 across = unit(cross(ka.normal, along));
-    const double first = normal_curvature(ka, across), second = sign * normal_curvature(kb, across);
-    step = std::max(step, std::abs(first - second));
-    for (const double k : {ka.k1, ka.k2, kb.k1, kb.k2}) largest = std::max(largest, std::abs(k));
-  }
-  joint.curvature = largest > 0.0 ? step / largest : 0.0;
-  joint.order = joint.angle > kSmoothAngle ? 0 : joint.curvature > kSmoothCurvature ? 1 : 2;
-  return joint;
-}
-
-/// All pairs of sides at the edges, in the order of the patches.
-Result<std::vector<JointReport>> joints_of(const SurfaceModel& model, const Topology& same,
-                                           double nearness, const RunContext& run) {
-  std::vector<JointReport> joints;
-  const Topology near = topology_of(surfaces_of(model), nearness);
-  for (const TopologyEdge& edge : near.edges) {
-    for (std::size_t a = 0; a < edge.uses.size(); ++a) {
-      for (std::size_t b = a + 1; b < edge.uses.size(); ++b) {
-        OBVID_TRY(may_go_on(run));
-        const EdgeUse &one = edge.uses[a], &two = edge.uses[b];
-        joints.push_back(joint_of(model, one, two));
-        joints.back().shared =
-            same.edge_of[one.patch][one.side] == same.edge_of[two.patch][two.side];
-      }
-    }
-  }
-  const auto place = [](const JointReport& joint) {
-    return std::tuple(joint.patch[0], joint.side[0], joint.patch[1], joint.side[1]);
-  };
-  std::sort(joints.begin(), joints.end(),
-            [&](const JointReport& x, const JointReport& y) { return place(x) < place(y); });
-  return joints;
-}
-
 }  // namespace
 
 CurvatureExtents curvature_extents(const NurbsSurface& surface, std::size_t samples) {
@@ -389,7 +252,8 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
     result.patches.push_back(std::move(*report));
   }
   const Topology topology = topology_of(model);
-  auto joints = joints_of(model, topology, options.meeting * result.size, run);
+  const double meeting = options.meeting.value_or(kMeeting * result.size);
+  auto joints = joints_of(model, topology, meeting, run);
   OBVID_TRY(joints);
   result.joints = std::move(*joints);
   for (const TopologyEdge& edge : topology.edges) {

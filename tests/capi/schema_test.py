@@ -310,7 +310,7 @@ class Options(unittest.TestCase):
                     ("convert",): names_of("stored") | names_of("export"),
                     ("surface", "grid"): names_of("surface_make") | names_of("surface_export"),
                     ("surface", "skin"): names_of("surface_make") | names_of("surface_export"),
-                    ("surface", "check"): names_of("surface_check"), ("surface", "cut"): names_of("surface_cut"),
+                    ("surface", "check"): names_of("surface_check") | names_of("surface_export"), ("surface", "cut"): names_of("surface_cut"),
                     ("cut",): names_of("cut"), ("alignment",): names_of("alignment"),
                     ("toolpath",): names_of("surface_toolpath") | names_of("surface_export"),
                     ("region",): names_of("region"), ("compare",): names_of("compare_curves") | names_of("export"),

@@ -91,7 +91,7 @@ TEST(CheckSurface, MeasuresShortSpansToo) {
       {0, 0, 0}, {length / 2, 0, 0}, {length, 0, 0}, {length + 1, 0, 0}, {length + 1, 1, 0}};
   bend.weights = {1, 1, 1, w, 1};
   const NurbsSurface s = nurbs(cylinder_over(bend, {0, 0, 1}));
-  const SurfaceCheck found = checked({"s", "mm", {{"bend", s}}}, {5, 1e-5});
+  const SurfaceCheck found = checked({"s", "mm", {{"bend", s}}}, {5, {}});
   EXPECT_NEAR(std::max(std::abs(found.patches[0].mean.least), std::abs(found.patches[0].mean.most)),
               0.5, 1e-9);
   EXPECT_NEAR(found.patches[0].area, length + kPi / 2, 0.1 * kPi);
@@ -193,7 +193,7 @@ TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {
     at.push_back(k / 400.0);
   }
   const NurbsSurface wave = nurbs(cylinder_over(*interpolated(points, at), {0, 0, 1}));
-  const SurfaceCheck found = checked({"s", "mm", {{"wave", wave}}}, {5, 1e-5});
+  const SurfaceCheck found = checked({"s", "mm", {{"wave", wave}}}, {5, {}});
   const LineReport& lines = found.patches[0].along_u;
   EXPECT_EQ(lines.lines, 5u);
   EXPECT_EQ(lines.most_vertices, 3u);     // pi/2, 3 pi/2, 5 pi/2
@@ -208,9 +208,99 @@ TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {
 TEST(CheckSurface, SaysWhereThereIsNoTangentPlane) {
   const SpaceCurve circle = arc_about({1, 0, 0}, {0, 0, 0}, {0, 0, 1}, 2 * kPi);
   SurfaceModel model{"s", "mm", {{"point", nurbs(RuledSurface{circle, circle})}}};
-  const SurfaceCheck found = checked(model, {9, 1e-5});
+  const SurfaceCheck found = checked(model, {9, {}});
   EXPECT_GE(found.patches[0].without_normal, 81u);  // a surface of no width
   EXPECT_EQ(found.patches[0].area, 0.0);
+}
+
+/// Of degree 3 x 1 over [0, 1] x [from, to] of x and y, with heights `z` of the control points.
+NurbsSurface strip(double from, double to, const std::array<double, 8>& z) {
+  NurbsSurface s;
+  s.degree_u = 3;
+  s.degree_v = 1;
+  s.knots_u = {0, 0, 0, 0, 1, 1, 1, 1};
+  s.knots_v = {0, 0, 1, 1};
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    s.points.push_back({static_cast<double>(k % 4) / 3.0, k < 4 ? from : to, z[k]});
+  }
+  return s;
+}
+
+TEST(CheckSurface, ClimbsToGapAndAngleOfAJointAndSaysWhere) {
+  // a plane, and beside it z = g 3 x (1 - x)^2 along the border with the slope c 3 x^2 (1 - x):
+  // largest at x = 1/3 and 2/3, 4/9 of g and of c
+  constexpr double kG = 5e-6, kC = 0.3;
+  const NurbsSurface flat = strip(0, 1, {});
+  const NurbsSurface bent = strip(-1, 0, {0, kG, -kC, 0, 0, kG, 0, 0});
+  for (const bool turned : {false, true}) {
+    const SurfaceCheck found =
+        checked({"s", "mm", {{"flat", flat}, {"bent", turned ? reversed_u(bent) : bent}}});
+    ASSERT_EQ(found.joints.size(), 1u);
+    const JointReport& joint = found.joints[0];
+    EXPECT_NEAR(joint.gap, 4.0 / 9.0 * kG, 1e-12);
+    EXPECT_LT(norm(joint.gap_at - Vec3{1.0 / 3.0, 0, 0}), 1e-6);
+    EXPECT_NEAR(joint.angle, std::atan(4.0 / 9.0 * kC), 1e-10);
+    EXPECT_LT(norm(joint.angle_at - Vec3{2.0 / 3.0, 0, 0}), 1e-6);
+    EXPECT_EQ(joint.order, 0);
+    EXPECT_FALSE(joint.shared);  // 2e-6 of the size apart
+  }
+}
+
+TEST(CheckSurface, FindsWhatHappensInAShortSpanOfAJoint) {
+  // the slope stands out by c in one span of 1e-3 between the 33 places that were looked at once
+  NurbsSurface bent;
+  bent.degree_u = 2;
+  bent.degree_v = 1;
+  const double a = 0.5101, b = 0.5111;
+  bent.knots_u = {0, 0, 0, a, a, b, b, 1, 1, 1};
+  bent.knots_v = {0, 0, 1, 1};
+  const double x[] = {0, a / 2, a, (a + b) / 2, b, (1 + b) / 2, 1};
+  constexpr double kC = 0.2;
+  for (const double at : x) bent.points.push_back({at, -1, at == (a + b) / 2 ? -kC : 0.0});
+  for (const double at : x) bent.points.push_back({at, 0, 0});
+  const SurfaceCheck found = checked({"s", "mm", {{"flat", strip(0, 1, {})}, {"bent", bent}}});
+  ASSERT_EQ(found.joints.size(), 1u);
+  EXPECT_NEAR(found.joints[0].angle, std::atan(kC / 2), 1e-9);
+  EXPECT_LT(norm(found.joints[0].angle_at - Vec3{(a + b) / 2, 0, 0}), 1e-6);
+}
+
+TEST(CheckSurface, BordersMeetWithinWhatIsAskedFor) {
+  const NurbsSurface flat = strip(0, 1, {}), apart = strip(-1, -0.01, {});
+  const SurfaceModel model{"s", "mm", {{"flat", flat}, {"apart", apart}}};
+  EXPECT_TRUE(checked(model).joints.empty());
+  const SurfaceCheck found = checked(model, {65, 0.02});
+  ASSERT_EQ(found.joints.size(), 1u);
+  EXPECT_NEAR(found.joints[0].gap, 0.01, 1e-15);
+  EXPECT_FALSE(found.joints[0].shared);
+}
+
+TEST(CheckSurface, SaysWhereCurvatureIsLargest) {
+  const CurvatureExtents found = curvature_extents(paraboloid(-1.0, 0.7));
+  EXPECT_LT(norm(found.gaussian.most_at.point), 1e-4);  // the bottom
+  EXPECT_NEAR(norm(found.gaussian.least_at.point - Vec3{-1, -1, 1}), 0.0, 1e-6);
+  EXPECT_NEAR(found.gaussian.most_at.u, 1.0 / 1.7, 1e-4);
+}
+
+TEST(CheckSurface, ClimbsASecondHillWhoseTopLiesBetweenThePlaces) {
+  // two folds of a sheet over x, the narrower one sharper: wherever the raster falls, the sharper
+  // one is found
+  for (const double shift : {0.0, 0.01, 0.02, 0.03, 0.05}) {
+    NurbsSurface s;
+    s.degree_u = 2;
+    s.degree_v = 1;
+    s.knots_u = {0, 0, 0, 0.5, 0.5, 1, 1, 1};
+    s.knots_v = {0, 0, 1, 1};
+    // parabolas: curvature 2 h / w^2 at their tops, w half the width
+    const double w1 = 1.0, h1 = 1.0, w2 = 0.5 + shift, h2 = 0.45;
+    const double x[] = {0, w1, 2 * w1, 2 * w1 + w2, 2 * w1 + 2 * w2};
+    const double z[] = {0, 2 * h1, 0, 2 * h2, 0};
+    for (const double y : {0.0, 1.0}) {
+      for (std::size_t i = 0; i < 5; ++i) s.points.push_back({x[i], y, z[i]});
+    }
+    const CurvatureExtents found = curvature_extents(s, 5);
+    const double sharper = std::max(2 * h1 / (w1 * w1), 2 * h2 / (w2 * w2));
+    EXPECT_NEAR(std::max(found.mean.most, -found.mean.least), sharper / 2, 1e-8) << shift;
+  }
 }
 
 }  // namespace

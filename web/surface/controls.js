@@ -16,10 +16,10 @@ function roundTicks(low, high) {
 }
 
 function showLegend() {
-  const shown = state.mode === "curvature";
+  const shown = state.mode === "curvature" || state.mode === "deviation";
   byId("legend").hidden = !shown;
   if (!shown) return;
-  const scale = model.scales[state.quantity], stops = model.palettes[scale.diverging ? "diverging" : "sequential"];
+  const scale = model.scales[scaleName()], stops = model.palettes[scale.diverging ? "diverging" : "sequential"];
   const [title, bar, ticks, extremes] = ["legend h2", "bar", "ticks", "extremes"].map(id => document.querySelector("#" + id));
   title.textContent = scale.title + " ";
   title.append(Object.assign(document.createElement("small"), {textContent: "in " + scale.unit}));
@@ -45,7 +45,9 @@ function showState() {
     const v = views[button.dataset.view];
     button.setAttribute("aria-pressed", v[0] === state.azimuth && v[1] === state.elevation);
   }
-  for (const mode of ["isolines", "curvature", "zebra"]) byId(mode).hidden = mode !== state.mode;
+  const striped = ["zebra", "isophotes", "reflection"].includes(state.mode);
+  for (const mode of ["isolines", "curvature"]) byId(mode).hidden = mode !== state.mode;
+  byId("zebra").hidden = !striped;
   for (const id of ["u", "v", "stripes"]) {
     byId(id).value = state[id];
     byId(id).nextElementSibling.textContent = state[id];
@@ -156,6 +158,7 @@ function readOff(x, y) {
   const one = " 1/" + model.units, rows = [["x, y, z", point.map((t, i) => readable(model.centre[i] + t, 7)).join("  ") + " " + model.units],
     ["u, v", at.map(t => readable(t, 4)).join("  ")], ["k1", readable(k[0], 4) + one], ["k2", readable(k[1], 4) + one],
     ["smallest radius", readable(1 / Math.max(Math.abs(k[0]), Math.abs(k[1])), 4) + " " + model.units]];
+  if (found.patch.off) rows.push(["deviation", readable(between(found, found.patch.off, 1)[0], 4) + " " + model.units]);
   state.found = {point};
   const box = byId("point"), list = box.querySelector("dl");
   box.querySelector("h2").textContent = found.patch.name;
@@ -238,7 +241,8 @@ function listenToPointers() {
 
 const keys = {f: () => look(state.azimuth, state.elevation), "+": () => zoomMiddle(0.85), "=": () => zoomMiddle(0.85), "-": () => zoomMiddle(1 / 0.85),
   "0": () => setView("iso"), "1": () => setView("front"), "2": () => setView("top"), "3": () => setView("side"),
-  s: () => setMode("shaded"), i: () => setMode("isolines"), c: () => setMode("curvature"), z: () => setMode("zebra"),
+  s: () => setMode("shaded"), i: () => setMode("isolines"), c: () => setMode("curvature"), z: () => setMode("zebra"), o: () => setMode("isophotes"), r: () => setMode("reflection"),
+  d: () => { if (model.scales.deviation) setMode("deviation"); },
   b: () => toggle("borders"), w: () => toggle("wireframe"), p: () => toggle("perspective"), escape: () => { forget(); redraw(); }};
 function onKey(e) {
   if (e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT)$/.test(e.target.tagName)) return;
@@ -256,7 +260,7 @@ function onKey(e) {
 function readAddress() {
   const given = new URLSearchParams(location.hash.slice(1)), mode = given.get("mode") ?? model.start.mode;
   if (quantities.includes(mode)) [state.mode, state.quantity] = ["curvature", mode];
-  else if (Object.hasOwn(modes, mode)) state.mode = mode;
+  else if (Object.hasOwn(modes, mode) && (mode !== "deviation" || model.scales.deviation)) state.mode = mode;
   const chosen = given.get("quantity");
   if (quantities.includes(chosen)) state.quantity = chosen;
   for (const id of ["u", "v", "stripes"]) state[id] = whole(given.get(id) ?? "", Number(byId(id).min), Number(byId(id).max)) ?? state[id];
@@ -301,6 +305,7 @@ function start() {
   Object.assign(state, {u: model.start.u, v: model.start.v, stripes: model.start.stripes, perspective: !model.start.orthographic});
   const roles = [...new Set(model.lines.map(line => line.role))];
   byId("lines").hidden = roles.length === 0;
+  document.querySelector("#modes [data-mode=deviation]").hidden = !model.scales.deviation;
   byId("parts").hidden = model.patches.length < 2;
   listOf(byId("patches"), model.patches, (patch, i, shown) => { patch.shown = shown; forget(); redraw(); });
   listOf(byId("roles"), roles.map(role => ({name: role})), (item, i, shown) => {

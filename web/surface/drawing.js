@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-const modes = {shaded: 0, isolines: 1, curvature: 2, zebra: 3};
+const modes = {shaded: 0, isolines: 1, curvature: 2, zebra: 3, isophotes: 4, reflection: 5, deviation: 2};
+/** The scale that the colours follow. */
+const scaleName = () => state.mode === "deviation" ? "deviation" : state.quantity;
 const quantities = ["gaussian", "mean", "k1", "k2"];
 const views = {iso: [35, 28], front: [0, 0], top: [0, 90], side: [90, 0], back: [180, 0], bottom: [0, -90]};
 const state = {mode: "shaded", quantity: "gaussian", u: 10, v: 10, stripes: 10, borders: true, wireframe: false,
@@ -7,7 +9,7 @@ const state = {mode: "shaded", quantity: "gaussian", u: 10, v: 10, stripes: 10, 
 const canvas = byId("view");
 /** Half the angle of view; small, as through a long lens. */
 const tangent = Math.tan(13 * Math.PI / 180);
-let gl = null, surfaceProgram = null, lineProgram = null, paletteTextures = null, pending = false;
+let gl = null, surfaceProgram = null, lineProgram = null, dotProgram = null, dotArray = null, paletteTextures = null, pending = false;
 
 function program(vertex, fragment) {
   const made = gl.createProgram();
@@ -58,6 +60,7 @@ function paletteTexture(stops) {
 function upload() {
   surfaceProgram = program(surfaceVertex, surfaceFragment);
   lineProgram = program(lineVertex, lineFragment);
+  dotProgram = program(dotVertex, dotFragment);
   paletteTextures = {sequential: paletteTexture(model.palettes.sequential), diverging: paletteTexture(model.palettes.diverging)};
   for (const patch of model.patches) {
     patch.edges = null;
@@ -67,8 +70,13 @@ function upload() {
     attribute(1, patch.normal, 2, gl.SHORT, true);
     attribute(2, patch.uv, 2, gl.FLOAT, false);
     attribute(3, patch.k, 2, gl.FLOAT, false);
+    if (patch.off) attribute(4, patch.off, 1, gl.FLOAT, false);
     indices(patch.index);
   }
+  dotArray = gl.createVertexArray();
+  gl.bindVertexArray(dotArray);
+  attribute(0, model.dotPosition, 3, gl.FLOAT, false);
+  attribute(1, model.dotValue, 1, gl.FLOAT, false);
   for (const line of model.lines) {
     line.array = gl.createVertexArray();
     gl.bindVertexArray(line.array);
@@ -187,13 +195,16 @@ const roleInks = () => dark.matches
     : {section: [.78, .10, .12, 1], toolpath: [.80, .32, .02, .95], rapid: [.35, .42, .50, .6], other: [.04, .48, .46, 1]};
 
 function drawSurfaces(m) {
-  const scale = model.scales[state.quantity], {made, at} = surfaceProgram;
+  const scale = model.scales[scaleName()], {made, at} = surfaceProgram;
+  // points alone have colours: the surface under them stays plain
+  const plain = state.mode === "deviation" && !model.off;
   gl.useProgram(made);
   gl.uniformMatrix4fv(at.toView, false, m.toView);
   gl.uniformMatrix4fv(at.toClip, false, m.toClip);
   gl.uniformMatrix3fv(at.turn, false, m.turn);
-  gl.uniform1i(at.mode, modes[state.mode]);
-  gl.uniform1i(at.quantity, quantities.indexOf(state.quantity));
+  gl.uniform1i(at.mode, plain ? 0 : modes[state.mode]);
+  gl.uniform1i(at.quantity, state.mode === "deviation" ? 4 : quantities.indexOf(state.quantity));
+  gl.uniform3f(at.middle, m.toView[12], m.toView[13], m.toView[14]);
   gl.uniform1i(at.perspective, state.perspective);
   gl.uniform1i(at.borders, state.borders);
   gl.uniform1i(at.night, dark.matches);
@@ -241,6 +252,20 @@ function drawLines(m) {
   gl.disable(gl.BLEND);
 }
 
+function drawDots(m) {
+  if (state.mode !== "deviation" || !model.dots) return;
+  const {made, at} = dotProgram, scale = model.scales.deviation;
+  gl.useProgram(made);
+  gl.uniformMatrix4fv(at.toView, false, m.toView);
+  gl.uniformMatrix4fv(at.toClip, false, m.toClip);
+  gl.uniform1f(at.size, 4 * Math.min(devicePixelRatio || 1, 2));
+  gl.uniform1f(at.nearer, 2e-3);
+  gl.uniform2f(at.range, scale.low, scale.high);
+  gl.bindTexture(gl.TEXTURE_2D, paletteTextures[scale.diverging ? "diverging" : "sequential"]);
+  gl.bindVertexArray(dotArray);
+  gl.drawArrays(gl.POINTS, 0, model.dots);
+}
+
 /** The axes in the corner and the ring around the point that is read off. */
 function drawOver() {
   const {height, width} = size(), b = basis(), x = 58, y = height - (width > 720 ? 58 : covered().bottom + 48);
@@ -276,6 +301,7 @@ function draw() {
   const m = matrices();
   drawSurfaces(m);
   drawLines(m);
+  drawDots(m);
   gl.bindVertexArray(null);
   drawOver();
 }

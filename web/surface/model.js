@@ -38,6 +38,7 @@ function readPatches(buffer) {
     patch.normal = take(Int16Array, 2 * n);
     patch.uv = take(Float32Array, 2 * n);
     patch.k = take(Float32Array, 2 * n);
+    if (model.off) patch.off = take(Float32Array, n);
     patch.index = take(n > 65536 ? Uint32Array : Uint16Array, 3 * patch.triangles);
     patch.shown = true;
   }
@@ -45,6 +46,8 @@ function readPatches(buffer) {
     line.position = take(Float32Array, 3 * line.count);
     line.shown = true;
   }
+  model.dotPosition = take(Float32Array, 3 * model.dots);
+  model.dotValue = take(Float32Array, model.dots);
 }
 
 /** Each edge of the triangles once. */

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 const surfaceVertex = `#version 300 es
-layout(location=0) in vec3 position; layout(location=1) in vec2 packed; layout(location=2) in vec2 uv; layout(location=3) in vec2 k;
+layout(location=0) in vec3 position; layout(location=1) in vec2 packed; layout(location=2) in vec2 uv; layout(location=3) in vec2 k; layout(location=4) in float off;
 uniform mat4 toView, toClip; uniform mat3 turn;
-out vec3 normal, place; out vec2 at, curvatures;
+out vec3 normal, place; out vec2 at, curvatures; out float deviation;
 void main() {
   vec3 n = vec3(packed, 1. - abs(packed.x) - abs(packed.y));
   if (n.z < 0.) n.xy = (1. - abs(n.yx)) * vec2(n.x < 0. ? -1. : 1., n.y < 0. ? -1. : 1.);
   normal = turn * n;
   vec4 p = toView * vec4(position, 1.);
-  place = p.xyz; at = uv; curvatures = k;
+  place = p.xyz; at = uv; curvatures = k; deviation = off;
   gl_Position = toClip * p;
 }`;
 const surfaceFragment = `#version 300 es
 precision highp float;
-in vec3 normal, place; in vec2 at, curvatures;
-uniform int mode, quantity; uniform bool perspective, borders, night; uniform float stripes, lit;
+in vec3 normal, place; in vec2 at, curvatures; in float deviation;
+uniform int mode, quantity; uniform bool perspective, borders, night; uniform float stripes, lit; uniform vec3 middle;
 uniform vec2 cells, range; uniform vec4 real; uniform sampler2D palette;
 out vec4 colour;
 float line(float t, float width) {
@@ -44,13 +44,20 @@ void main() {
   vec3 c;
   if (mode == 2) {
     float k1 = curvatures.x, k2 = curvatures.y;
-    float value = quantity == 0 ? k1 * k2 : quantity == 1 ? .5 * (k1 + k2) : quantity == 2 ? k1 : k2;
+    float value = quantity == 0 ? k1 * k2 : quantity == 1 ? .5 * (k1 + k2) : quantity == 2 ? k1 : quantity == 3 ? k2 : deviation;
     float part = range.y > range.x ? (value - range.x) / (range.y - range.x) : .5;
     c = pow(texture(palette, vec2(clamp(part, .002, .998), .5)).rgb, vec3(2.2));
     c *= .80 + .20 * max(dot(n, normalize(vec3(-.2, .5, .85))), 0.);
-  } else if (mode == 3) {
+  } else if (mode >= 3 && mode <= 5) {
     vec3 r = reflect(-v, n);
-    float s = asin(clamp(r.y, -1., 1.)) * stripes / 3.14159265, w = max(fwidth(s), 1e-6);
+    float s = asin(clamp(r.y, -1., 1.)) * stripes / 3.14159265;
+    if (mode == 4) s = acos(clamp(dot(n, v), -1., 1.)) * 2. * stripes / 3.14159265;
+    if (mode == 5) {  // lamps along a ceiling two radii above the middle
+      vec3 p = place - middle;
+      float reach = r.y > 1e-6 ? (p.x + (2. - p.y) * r.x / r.y) / 2. : sign(r.x) * 1e6;
+      s = clamp(stripes * reach, -stripes - .5, stripes + .5);
+    }
+    float w = max(fwidth(s), 1e-6);
     float d = abs(fract(s) - .5) - .25;
     float white = mix(clamp(.5 + d / w, 0., 1.), .5, smoothstep(.5, 1., w));
     c = mix(vec3(.018, .028, .045), vec3(.86, .89, .92), white) * (.82 + .18 * n.z);
@@ -66,6 +73,21 @@ void main() {
   if (borders) c = mix(c, ink, .72 * border());
   c = mix(c, vec3(1., .62, .12), .45 * lit);
   colour = vec4(pow(max(c, 0.), vec3(1. / 2.2)), 1.);
+}`;
+const dotVertex = `#version 300 es
+layout(location=0) in vec3 position; layout(location=1) in float value;
+uniform mat4 toView, toClip; uniform float size, nearer; uniform vec2 range; out float part;
+void main() {
+  gl_Position = toClip * (toView * vec4(position, 1.));
+  gl_Position.z -= nearer * gl_Position.w;
+  gl_PointSize = size;
+  part = range.y > range.x ? (value - range.x) / (range.y - range.x) : .5;
+}`;
+const dotFragment = `#version 300 es
+precision highp float; in float part; uniform sampler2D palette; out vec4 colour;
+void main() {
+  if (length(gl_PointCoord - .5) > .5) discard;
+  colour = vec4(texture(palette, vec2(clamp(part, .002, .998), .5)).rgb, 1.);
 }`;
 const lineVertex = `#version 300 es
 layout(location=0) in vec3 position; uniform mat4 toView, toClip; uniform float nearer;

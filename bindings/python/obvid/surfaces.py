@@ -118,10 +118,23 @@ class Surface:
             raise raise_error(error)
         return SurfaceSamples(xyz, normal, kappa[:, 0], kappa[:, 1])
 
-    def check(self, *, samples: int = 65) -> Json:
-        """Curvatures, joints of patches, monotone parameter lines: as `obvid surface check --json`."""
+    def check(
+        self,
+        *,
+        samples: int = 65,
+        against: Optional[Union[str, "os.PathLike[str]"]] = None,
+        meeting: Optional[float] = None,
+    ) -> Json:
+        """Curvatures, joints of patches, monotone parameter lines: as `obvid surface check --json`.
+        `against` is the path of a file of points or of a surface: "deviation" of the report says how
+        far they are apart. Borders nearer than `meeting` (units) meet [1e-5 of the size]."""
         out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
-        options = options_text({"samples": samples})
+        given: Dict[str, Any] = {"samples": samples}
+        if against is not None:
+            given["against"] = os.fspath(against)
+        if meeting is not None:
+            given["meeting"] = meeting
+        options = options_text(given)
         with Run(None, None) as run:
             code = lib.obvid_surface_check(self._handle, options, run, C.byref(out), C.byref(error))
             said = taken_text(out)
@@ -132,7 +145,8 @@ class Surface:
 
     def data(self, ending: str, **options: Any) -> bytes:
         """A file of the surface: "json", "step", "iges", "brep", "stl", "obj", "glb", "ply", "html",
-        "svg". Options: chord_tolerance, mesh_angle (degrees), colour, view, step."""
+        "svg". Options: chord_tolerance, mesh_angle (degrees), colour, view, step; against (path of a
+        file of points or of a surface) with colour="deviation" of "html" and "svg"."""
         files, _ = self._files(ending.lstrip("."), options)
         return files[0][1]
 

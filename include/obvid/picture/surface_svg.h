@@ -2,6 +2,7 @@
 #pragma once  // reentrant: docs/threads.md
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,8 +13,21 @@
 
 namespace obvid {
 
-/// What the colours of a surface tell. Names: shaded, isolines, gaussian, mean, k1, k2, zebra.
-enum class SurfaceColouring { kShaded, kIsolines, kGaussian, kMean, kK1, kK2, kZebra };
+/// What the colours of a surface tell. Names: shaded, isolines, gaussian, mean, k1, k2, zebra
+/// (mirrored stripes far away), isophotes (equal angles between normal and view), reflection (lamps
+/// along the ceiling, one size of the surface above it), deviation (`ShownDeviation`).
+enum class SurfaceColouring {
+  kShaded,
+  kIsolines,
+  kGaussian,
+  kMean,
+  kK1,
+  kK2,
+  kZebra,
+  kIsophotes,
+  kReflection,
+  kDeviation
+};
 /// From where a surface is seen, z upwards. Names: iso, front (along y), top (against z), side
 /// (against x), back, bottom.
 enum class SurfaceView { kIso, kFront, kTop, kSide, kBack, kBottom };
@@ -35,6 +49,21 @@ struct ScenePolyline {
   std::string role;
 };
 
+/// A point that was measured, and how far it is off, units.
+struct SceneDot {
+  Vec3 point;
+  double value = 0.0;
+};
+
+/// How far a surface and what it was measured against are apart: colours of its own places, or
+/// coloured points.
+struct ShownDeviation {
+  std::string title;                     ///< of the legend
+  std::function<double(Vec3)> of_place;  ///< units, of a place of the surface; empty: points alone
+  std::vector<SceneDot> dots;
+  Range told;  ///< least and greatest deviation, as the report has them
+};
+
 struct SurfacePictureOptions {
   std::string title;  ///< empty: the name of the model
   SurfaceColouring colouring = SurfaceColouring::kShaded;
@@ -51,13 +80,15 @@ struct SurfacePictureOptions {
   std::size_t most_facets = 12'000;           ///< cells that the patches are divided into; fewer
                                               ///< where the file would exceed 1.5 MB
   std::vector<ScenePolyline> lines;           ///< drawn over the surface, hidden behind it
+  std::optional<ShownDeviation> deviation;    ///< needed by the colouring of that name
 };
 
 /// Static picture in parallel projection, one self-contained SVG file on white: shaded, isolines,
-/// curvature colours with a legend, or reflection lines; outlines, borders and isolines without
-/// their hidden parts, axes and a scale bar. The patches are divided where they bend, not by a
-/// mesh. Same input, same bytes. Errors: E203 options out of range, E303 a line or a surface that
-/// is not finite, E311 no patches, those of `check` for each patch.
+/// curvature or deviation in colours with a legend, zebra, isophotes or reflection lines; outlines,
+/// borders and isolines without their hidden parts, axes and a scale bar. The patches are divided
+/// where they bend, not by a mesh. Same input, same bytes. Of many points of a deviation 4,000 are
+/// drawn: the farthest and others evenly. Errors: E203 options out of range, E303 a line or a
+/// surface that is not finite, E311 no patches, those of `check` for each patch.
 [[nodiscard]] Result<std::string> surface_svg(const SurfaceModel& model,
                                               const SurfacePictureOptions& options = {});
 

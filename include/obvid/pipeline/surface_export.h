@@ -26,7 +26,8 @@ struct SurfaceExportOptions {
   double angle = 0.0;                     ///< rad, between normals along an edge [15 degrees]
   SurfaceColouring colouring = SurfaceColouring::kShaded;
   SurfaceView view = SurfaceView::kIso;
-  std::vector<ScenePolyline> lines;  ///< drawn on page and picture
+  std::vector<ScenePolyline> lines;         ///< drawn on page and picture
+  std::optional<ShownDeviation> deviation;  ///< likewise
   std::optional<CurvatureExtremes>
       extremes;  ///< told by page and picture [what `check_surface` finds]
 };

@@ -8,6 +8,7 @@
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "face_surface.h"
@@ -29,15 +30,15 @@ FaceSurface surface_or_reason(const TopoDS_Face& face) {
   }
 }
 
-/// Files may call all faces the same: the warnings say which one it is.
-void add_face(const TopoDS_Face& face, std::size_t number, const std::string& given,
+/// Files may call all faces the same: the warnings say which one it is. Whether it was taken.
+bool add_face(const TopoDS_Face& face, std::size_t number, const std::string& given,
               CadSurfaces& out) {
   FaceSurface made = surface_or_reason(face);
   const std::string plain = fmt::format("face {}", number);
   const std::string name = given.empty() ? plain : fmt::format("{} ({})", plain, given);
   if (!made.surface) {
     out.warnings.push_back(fmt::format("{} was left out: it {}", name, made.refused));
-    return;
+    return false;
   }
   if (made.trimmed) {
     out.warnings.push_back(name + " is trimmed: the whole box of its parameters was taken");
@@ -47,17 +48,30 @@ void add_face(const TopoDS_Face& face, std::size_t number, const std::string& gi
         fmt::format("{} is an offset, approximated within {:.2g} mm", name, made.deviation));
   }
   out.model.patches.push_back({given.empty() ? plain : given, *std::move(made.surface)});
+  return true;
+}
+
+/// Patches that share their name get the number of their face, so that reports can name each.
+void tell_apart(std::vector<SurfacePatch>& patches, const std::vector<std::size_t>& numbers) {
+  std::map<std::string, std::size_t> uses;
+  for (const SurfacePatch& patch : patches) ++uses[patch.name];
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    std::string& name = patches[i].name;
+    if (uses[name] > 1) name += fmt::format(", face {}", numbers[i]);
+  }
 }
 
 void collect(const Loaded& loaded, CadSurfaces& out) {
   TopTools_MapOfShape seen;
   std::size_t number = 0;
+  std::vector<std::size_t> taken;
   for (TopExp_Explorer e(loaded.shape, TopAbs_FACE); e.More(); e.Next()) {
     if (!seen.Add(e.Current())) continue;
     if (++number > kMostReadFaces) continue;
     const TopoDS_Face& face = TopoDS::Face(e.Current());
-    add_face(face, number, loaded.name_of(face), out);
+    if (add_face(face, number, loaded.name_of(face), out)) taken.push_back(number);
   }
+  tell_apart(out.model.patches, taken);
   if (number > kMostReadFaces) {
     out.warnings.push_back(fmt::format("{} faces beyond the first {} were not looked at",
                                        number - kMostReadFaces, kMostReadFaces));

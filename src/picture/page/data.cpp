@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <type_traits>
 
@@ -80,7 +81,9 @@ void put_indices(Bytes& out, const Mesh& mesh) {
 }
 
 std::vector<PrincipalCurvatures> put_patch(Bytes& out, const NurbsSurface& surface,
-                                           const Mesh& mesh, Vec3 centre) {
+                                           const Mesh& mesh, Vec3 centre,
+                                           const std::function<double(Vec3)>* off,
+                                           std::vector<double>& offs) {
   for (const MeshVertex& v : mesh.vertices) out.vector(v.point - centre);
   for (const MeshVertex& v : mesh.vertices) put_direction(out, v.normal);
   const Range us = domain_u(surface), vs = domain_v(surface);
@@ -95,6 +98,11 @@ std::vector<PrincipalCurvatures> put_patch(Bytes& out, const NurbsSurface& surfa
     curvatures.push_back(principal_at(surface, size, v.u, v.v));
     out.real(curvatures.back().k1);
     out.real(curvatures.back().k2);
+  }
+  for (const MeshVertex& v : mesh.vertices) {
+    if (off == nullptr) break;
+    offs.push_back((*off)(v.point));
+    out.real(offs.back());
   }
   put_indices(out, mesh);
   return curvatures;
@@ -146,20 +154,39 @@ void place(PageData& data, const std::vector<Mesh>& meshes,
 }  // namespace
 
 Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& meshes,
-                           const std::vector<ScenePolyline>& lines, const RunContext& run) {
+                           const std::vector<ScenePolyline>& lines,
+                           const std::optional<ShownDeviation>& deviation, const RunContext& run) {
+  const std::function<double(Vec3)>* off =
+      deviation && deviation->of_place ? &deviation->of_place : nullptr;
+  std::vector<WeighedValue> offs;
   PageData data;
   place(data, meshes, lines);
   Bytes out;
   std::vector<Measured> measured;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const auto k = put_patch(out, model.patches[i].surface, meshes[i], data.centre);
+    std::vector<double> own;
+    const auto k = put_patch(out, model.patches[i].surface, meshes[i], data.centre, off, own);
     const auto area = areas(meshes[i]);
+    for (std::size_t v = 0; v < own.size(); ++v) offs.push_back({own[v], area[v]});
     for (std::size_t v = 0; v < k.size(); ++v) measured.push_back({k[v], area[v]});
     const double part = static_cast<double>(i + 1) / static_cast<double>(meshes.size());
     OBVID_TRY(tell(run, "page", part));
   }
   for (const ScenePolyline& line : lines) {
     for (const Vec3 p : line.points) out.vector(p - data.centre);
+  }
+  if (deviation) {
+    constexpr std::size_t kMostDots = 200'000;
+    const auto dots = shown_dots(deviation->dots, kMostDots);
+    data.dots = dots.size();
+    for (const SceneDot& dot : dots) out.vector(dot.point - data.centre);
+    for (const SceneDot& dot : dots) out.real(dot.value);
+    data.deviation =
+        dots.empty() ? value_scale(std::move(offs),
+                                   resolution_of(SurfaceColouring::kDeviation, 2.0 * data.radius))
+                     : scale_of_dots(dots, 2.0 * data.radius);
+    data.deviation.least = deviation->told.from;
+    data.deviation.most = deviation->told.to;
   }
   for (std::size_t q = 0; q < kPageQuantities.size(); ++q) {
     data.scales[q] = scale_of(measured, kPageQuantities[q], 2.0 * data.radius);

@@ -17,19 +17,23 @@ inline constexpr std::array kPageQuantities = {SurfaceColouring::kGaussian, Surf
                                                SurfaceColouring::kK1, SurfaceColouring::kK2};
 
 /// All numbers of a page: for each patch positions relative to the centre, normals folded onto an
-/// octahedron, parameters scaled to [0, 1], both principal curvatures and the triangles; then the
-/// points of the lines. Little-endian, each array padded to 4 bytes.
+/// octahedron, parameters scaled to [0, 1], both principal curvatures, the deviation where it has
+/// one, and the triangles; then the points of the lines, then measured points with theirs.
+/// Little-endian, each array padded to 4 bytes.
 struct PageData {
   std::string bytes;
   Vec3 centre;
   Vec3 size;            ///< of the box around all triangles
   double radius = 1.0;  ///< of the sphere around the centre that holds everything
   std::array<ValueScale, kPageQuantities.size()> scales;
+  ValueScale deviation;  ///< where there is one
+  std::size_t dots = 0;  ///< measured points
 };
 
 /// Patches, meshes and lines as `surface_page` has checked them.
 [[nodiscard]] Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& meshes,
                                          const std::vector<ScenePolyline>& lines,
+                                         const std::optional<ShownDeviation>& deviation,
                                          const RunContext& run);
 
 [[nodiscard]] std::string base64(const std::string& bytes);

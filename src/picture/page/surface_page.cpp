@@ -108,18 +108,23 @@ json palette_json(bool diverging) {
   return stops;
 }
 
-json scales_json(const picture::PageData& data, const std::string& units) {
+json scale_json(const picture::ValueScale& s, const std::string& title, const std::string& unit) {
+  return {{"title", title},          {"unit", unit},     {"low", s.low},
+          {"high", s.high},          {"least", s.least}, {"most", s.most},
+          {"diverging", s.diverging}};
+}
+
+json scales_json(const picture::PageData& data, const std::optional<ShownDeviation>& deviation,
+                 const std::string& units) {
   json scales;
+  if (deviation) {
+    scales["deviation"] = scale_json(data.deviation, plain_text(deviation->title), units);
+  }
   for (std::size_t q = 0; q < data.scales.size(); ++q) {
     const SurfaceColouring c = picture::kPageQuantities[q];
     const picture::ValueScale& s = data.scales[q];
-    scales[std::string(name_of(c))] = {{"title", picture::title_of(c)},
-                                       {"unit", picture::unit_of(c, units)},
-                                       {"low", s.low},
-                                       {"high", s.high},
-                                       {"least", s.least},
-                                       {"most", s.most},
-                                       {"diverging", s.diverging}};
+    scales[std::string(name_of(c))] =
+        scale_json(s, std::string(picture::title_of(c)), picture::unit_of(c, units));
   }
   return scales;
 }
@@ -178,7 +183,9 @@ std::string header_json(const SurfaceModel& model, const std::vector<Mesh>& mesh
       {"radius", data.radius},
       {"patches", patches_json(model, meshes)},
       {"lines", lines_json(options.lines)},
-      {"scales", scales_json(data, units)},
+      {"scales", scales_json(data, options.deviation, units)},
+      {"off", options.deviation && options.deviation->of_place ? 1 : 0},
+      {"dots", data.dots},
       {"palettes", {{"sequential", palette_json(false)}, {"diverging", palette_json(true)}}},
       {"start",
        {{"mode", name_of(options.colouring)},
@@ -261,9 +268,13 @@ Result<std::string> surface_page(const SurfaceModel& model, const std::vector<Me
                                  const PageOptions& options, const RunContext& run) {
   OBVID_TRY(check_page_options(options));
   OBVID_TRY(check_lines(options.lines));
+  if (options.colouring == SurfaceColouring::kDeviation && !options.deviation) {
+    return error(ErrorCode::kBadOption, "colours of a deviation need something measured against")
+        .hint("obvid surface check SURFACE --against FILE");
+  }
   const auto triangles = count_triangles(model, meshes, options.most_triangles);
   OBVID_TRY(triangles);
-  auto made = picture::page_data(model, meshes, options.lines, run);
+  auto made = picture::page_data(model, meshes, options.lines, options.deviation, run);
   OBVID_TRY(made);
   picture::PageData& data = *made;
   for (std::size_t q = 0; options.extremes && q < data.scales.size(); ++q) {

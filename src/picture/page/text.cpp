@@ -11,8 +11,9 @@
 namespace obvid {
 namespace {
 
-constexpr std::string_view kColourings[] = {"shaded", "isolines", "gaussian", "mean",
-                                            "k1",     "k2",       "zebra"};
+constexpr std::string_view kColourings[] = {"shaded",     "isolines", "gaussian", "mean",
+                                            "k1",         "k2",       "zebra",    "isophotes",
+                                            "reflection", "deviation"};
 constexpr std::string_view kViews[] = {"iso", "front", "top", "side", "back", "bottom"};
 
 template <class T, std::size_t n>

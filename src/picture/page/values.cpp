@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 namespace obvid::picture {
@@ -18,6 +19,8 @@ constexpr double kSameValue = 1e-4;
 constexpr double kShortEnd = 0.02;
 /// Curvatures below this divided by the size of the surface are those of a plane.
 constexpr double kPlaneCurvature = 1e-9;
+/// Deviations below this part of the size are none.
+constexpr double kNoDeviation = 1e-12;
 /// A derivative that would carry less far than this part of the size vanishes.
 constexpr double kCollapsed = 1e-6;
 /// How far from a pole curvatures are read, parts of the domain.
@@ -93,6 +96,10 @@ double quantity(SurfaceColouring colouring, PrincipalCurvatures k) {
 
 bool is_curvature(SurfaceColouring colouring) { return !title_of(colouring).empty(); }
 
+bool has_scale(SurfaceColouring colouring) {
+  return is_curvature(colouring) || colouring == SurfaceColouring::kDeviation;
+}
+
 std::string_view title_of(SurfaceColouring colouring) {
   switch (colouring) {
     case SurfaceColouring::kGaussian:
@@ -109,10 +116,12 @@ std::string_view title_of(SurfaceColouring colouring) {
 }
 
 std::string unit_of(SurfaceColouring colouring, const std::string& units) {
+  if (colouring == SurfaceColouring::kDeviation) return units;
   return "1/" + units + (colouring == SurfaceColouring::kGaussian ? "²" : "");
 }
 
 double resolution_of(SurfaceColouring colouring, double size) {
+  if (colouring == SurfaceColouring::kDeviation) return kNoDeviation * size;
   const double flat = kPlaneCurvature / size;
   return colouring == SurfaceColouring::kGaussian ? flat / size : flat;
 }
@@ -146,6 +155,34 @@ ValueScale value_scale(std::vector<WeighedValue> values, double resolution) {
     (scale.high > -scale.low ? scale.low : scale.high) = 0.0;
   }
   return scale;
+}
+
+ValueScale scale_of_dots(const std::vector<SceneDot>& dots, double size) {
+  std::vector<WeighedValue> values;
+  values.reserve(dots.size());
+  for (const SceneDot& dot : dots) values.push_back({dot.value, 1.0});
+  return value_scale(std::move(values), resolution_of(SurfaceColouring::kDeviation, size));
+}
+
+std::vector<SceneDot> shown_dots(const std::vector<SceneDot>& dots, std::size_t most) {
+  if (dots.size() <= most) return dots;
+  std::vector<std::size_t> order(dots.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t farthest = most / 4;
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(farthest),
+                   order.end(), [&](std::size_t a, std::size_t b) {
+                     const double x = std::abs(dots[a].value), y = std::abs(dots[b].value);
+                     return x != y ? x > y : a < b;
+                   });
+  std::vector<bool> kept(dots.size(), false);
+  for (std::size_t k = 0; k < farthest; ++k) kept[order[k]] = true;
+  for (std::size_t k = 0; k < most - farthest; ++k)
+    kept[k * dots.size() / (most - farthest)] = true;
+  std::vector<SceneDot> out;
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    if (kept[i]) out.push_back(dots[i]);
+  }
+  return out;
 }
 
 Rgb palette(bool diverging, double part) {

@@ -27,9 +27,11 @@ struct PrincipalCurvatures {
 /// Of the four curvature colourings; 0 for the others.
 [[nodiscard]] double quantity(SurfaceColouring colouring, PrincipalCurvatures k);
 [[nodiscard]] bool is_curvature(SurfaceColouring colouring);
+/// Curvature or deviation: colours of a scale with a legend.
+[[nodiscard]] bool has_scale(SurfaceColouring colouring);
 /// "Gaussian curvature", ...
 [[nodiscard]] std::string_view title_of(SurfaceColouring colouring);
-/// "1/mm²" or "1/mm".
+/// "1/mm²" or "1/mm", "mm" of deviations.
 [[nodiscard]] std::string unit_of(SurfaceColouring colouring, const std::string& units);
 
 /// Which sides (`PatchSide`) of each patch are edges: not those that shrink to a point, nor those
@@ -53,6 +55,11 @@ struct ValueScale {
 
 /// Values whose size is below `resolution` count as 0.
 [[nodiscard]] ValueScale value_scale(std::vector<WeighedValue> values, double resolution);
+/// Of measured points; `size` of what is shown.
+[[nodiscard]] ValueScale scale_of_dots(const std::vector<SceneDot>& dots, double size);
+/// So many of them that a picture stays light: the farthest off, and others evenly.
+[[nodiscard]] std::vector<SceneDot> shown_dots(const std::vector<SceneDot>& dots,
+                                               std::size_t most = 4000);
 /// What is 0 within rounding for a surface of this size.
 [[nodiscard]] double resolution_of(SurfaceColouring colouring, double size);
 

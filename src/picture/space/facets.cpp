@@ -70,6 +70,7 @@ class Painter {
   /// Pieces of a cell, those of whole ones at the end and by colour.
   void add(const DrawnCell& cell, bool whole) {
     front_ = cell.front();
+    coloured_ = valued(cell.patch);
     Corners corners{};
     for (std::size_t k = 0; k < corners.size(); ++k) {
       corners[k] = {{cell.quad[k].x, cell.quad[k].y}, band_at(cell, k)};
@@ -80,6 +81,7 @@ class Painter {
   /// Parts of a cell that should be seen and were covered, as strips on top of what is there.
   void mend(const DrawnCell& cell, const DepthBuffer& depth) {
     front_ = cell.front();
+    coloured_ = valued(cell.patch);
     const int parts = parts_of(cell.quad);
     for (int j = 0; j < parts; ++j) {
       for (int i = 0; i < parts; ++i) {
@@ -127,7 +129,7 @@ class Painter {
   /// Value of a corner in bands or shades.
   [[nodiscard]] double band_at(const DrawnCell& cell, std::size_t corner) const {
     const std::size_t vertex = cell.corners[corner];
-    if (is_curvature(colours_.colouring)) {
+    if (valued(cell.patch)) {
       const ValueScale& s = colours_.scale;
       const double part =
           s.constant() ? 0.5 : (cell.patch.values[vertex] - s.low) / (s.high - s.low);
@@ -135,26 +137,56 @@ class Painter {
       return kBands * std::clamp(part, -1.0, 2.0);
     }
     const Vec3 n = camera_.seen((front_ ? 1.0 : -1.0) * cell.patch.normals[vertex]);
-    if (colours_.colouring != SurfaceColouring::kZebra) return light_at(n);
+    if (!striped()) return light_at(n);
+    if (colours_.colouring == SurfaceColouring::kIsophotes) {
+      return 4.0 * colours_.zebra_stripes * std::acos(std::clamp(n.z, -1.0, 1.0)) /
+             std::numbers::pi;
+    }
+    if (colours_.colouring == SurfaceColouring::kReflection) {
+      return lamp_at(camera_.seen(cell.patch.points[vertex] - camera_.centre), n);
+    }
     // reflection of the direction of view, two bands to a stripe
     const double angle = std::asin(std::clamp(2.0 * n.z * n.y, -1.0, 1.0));
     return 2.0 * colours_.zebra_stripes * angle / std::numbers::pi + 0.5;
   }
 
+  /// Whether the patch has values of its own for the scale (points alone may have them).
+  [[nodiscard]] bool valued(const DrawnPatch& patch) const {
+    return has_scale(colours_.colouring) && !patch.values.empty();
+  }
+  [[nodiscard]] bool striped() const {
+    return colours_.colouring == SurfaceColouring::kZebra ||
+           colours_.colouring == SurfaceColouring::kIsophotes ||
+           colours_.colouring == SurfaceColouring::kReflection;
+  }
+
+  /// Lamps that run away from the viewer along the ceiling, two bands to each: where the ray that
+  /// is mirrored at a place meets it. No lamp beyond the outermost, and none below the horizon.
+  [[nodiscard]] double lamp_at(Vec3 place, Vec3 n) const {
+    const double up = 2.0 * n.z * n.y, right = 2.0 * n.z * n.x;
+    const double most = 2.0 * colours_.zebra_stripes + 1.0;
+    const double height = colours_.ceiling - place.y;
+    if (!(up > 0.0)) return std::copysign(most, right);
+    const double at = (place.x + height * right / up) / colours_.ceiling;
+    return std::clamp(2.0 * colours_.zebra_stripes * at + 0.5, -most, most);
+  }
+
   /// First and last band, both open.
   [[nodiscard]] std::pair<int, int> bands() const {
-    if (is_curvature(colours_.colouring)) return {0, kBands - 1};
-    if (colours_.colouring != SurfaceColouring::kZebra) return {0, kShades - 1};
+    if (coloured_) return {0, kBands - 1};
+    if (!striped()) return {0, kShades - 1};
     const int most = 2 * colours_.zebra_stripes + 1;
     return {-most, most};
   }
 
   [[nodiscard]] Rgb band_colour(int band) const {
-    if (colours_.colouring == SurfaceColouring::kZebra) return band % 2 == 0 ? kLight : kDark;
-    if (is_curvature(colours_.colouring)) {
+    if (striped()) return band % 2 == 0 ? kLight : kDark;
+    if (coloured_) {
       return palette(colours_.scale.diverging, (band + 0.5) / kBands);
     }
-    return shade_colour(band, front_, colours_.colouring == SurfaceColouring::kIsolines);
+    return shade_colour(band, front_,
+                        colours_.colouring == SurfaceColouring::kIsolines ||
+                            colours_.colouring == SurfaceColouring::kDeviation);
   }
 
   /// A quadrilateral cut along the borders of its bands.
@@ -201,7 +233,8 @@ class Painter {
   std::map<Rgb, TenthsPath> whole_;
   TenthsPath partly_;
   Rgb partly_colour_{};
-  bool front_ = true;  ///< of the cell that is being drawn
+  bool front_ = true;      ///< of the cell that is being drawn
+  bool coloured_ = false;  ///< likewise: it has values of the scale
 };
 
 /// Visits the cells of all patches in their order.

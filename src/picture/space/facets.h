@@ -18,6 +18,8 @@ struct Colours {
   SurfaceColouring colouring = SurfaceColouring::kShaded;
   ValueScale scale;
   int zebra_stripes = 1;
+  double ceiling = 1.0;  ///< units above the centre, of the lamps of reflection lines
+  std::string title;     ///< of the legend
 };
 
 /// Cells of all patches on the sheet, in order.

@@ -30,13 +30,13 @@ text{font-family:"Helvetica Neue",Arial,"Liberation Sans","DejaVu Sans",sans-ser
 </style>
 )";
 
-constexpr double kAxis = 26.0;       // px, an axis parallel to the sheet
-constexpr double kAxisName = 37.0;   // px, its letter
-constexpr double kShortAxis = 5.0;   // px, shorter ones have no letter
+constexpr double kAxis = 26.0;            // px, an axis parallel to the sheet
+constexpr double kAxisName = 37.0;        // px, its letter
+constexpr double kShortAxis = 5.0;        // px, shorter ones have no letter
 constexpr double kSheetScaleBar = 130.0;  // px, widest
-constexpr double kLegend = 330.0;    // px, at most
-constexpr int kTicks = 6;            // wanted
-constexpr int kSheetDigits = 3;      // of numbers
+constexpr double kLegend = 330.0;         // px, at most
+constexpr int kTicks = 6;                 // wanted
+constexpr int kSheetDigits = 3;           // of numbers
 /// A tick this part of a step beyond the range lies on its end.
 constexpr double kSlack = 1e-9;
 
@@ -127,8 +127,7 @@ std::string legend(const Colours& colours, const std::string& units, double widt
   const ValueScale& scale = colours.scale;
   const double wide = std::min(kLegend, width - 2.0 * (kSheetMargin + 165.0));
   const double left = 0.5 * (width - wide), y = height - 52.0;
-  const std::string head =
-      std::string(title_of(colours.colouring)) + ", " + unit_of(colours.colouring, units);
+  const std::string head = colours.title + ", " + unit_of(colours.colouring, units);
   if (scale.constant()) {
     return text_at(0.5 * width, y - 6.0, "name", "middle", head) +
            fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"22\" height=\"11\" fill=\"{}\"/>\n",
@@ -154,7 +153,7 @@ std::string sheet_furniture(const SheetTexts& texts, const PictureCamera& camera
                     text_at(kSheetMargin, 52.0, "facts", "start", texts.facts) +
                     axes(camera, options.height) +
                     scale_bar(texts, camera, options.width, options.height);
-  if (is_curvature(colours.colouring)) {
+  if (has_scale(colours.colouring)) {
     out += legend(colours, texts.units, options.width, options.height);
   }
   return out;
@@ -168,8 +167,8 @@ std::string sheet(const SheetTexts& texts, const SurfacePictureOptions& options,
       "width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\" "
       "{6}=\"{7}\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
       "{4}<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#fff\"/>\n{5}</svg>\n",
-      options.width, options.height, escaped_xml(texts.title), escaped_xml(texts.facts), kSheetStyle,
-      body, kPictureAttribute, kPictureValue);
+      options.width, options.height, escaped_xml(texts.title), escaped_xml(texts.facts),
+      kSheetStyle, body, kPictureAttribute, kPictureValue);
 }
 
 }  // namespace obvid::picture

@@ -24,6 +24,8 @@ constexpr std::size_t kMostFileText = 1'450'000, kFewestFacets = 1500;
 /// Sizes beyond these leave the range of doubles when they are multiplied.
 constexpr double kLeastSize = 1e-60, kMostSize = 1e60;
 
+const std::vector<SceneDot> kNoDots;
+
 Error bad_option(const char* what, double value) {
   return error(ErrorCode::kBadOption, what).value(value);
 }
@@ -44,6 +46,10 @@ Result<void> check_picture_options(const SurfacePictureOptions& o) {
   if (o.range && !(std::isfinite(o.range->length()) && o.range->length() > 0.0)) {
     return fail(bad_option("a range of colours ascends", o.range->length()));
   }
+  if (o.colouring == SurfaceColouring::kDeviation && !o.deviation) {
+    return error(ErrorCode::kBadOption, "colours of a deviation need something measured against")
+        .hint("obvid surface check SURFACE --against FILE");
+  }
   for (const auto& angle : {o.azimuth_deg, o.elevation_deg}) {
     if (angle && !std::isfinite(*angle)) return fail(bad_option("an angle is finite", *angle));
   }
@@ -60,6 +66,11 @@ Result<void> check_scene(const SurfaceModel& model, const SurfacePictureOptions&
   }
   for (const SurfacePatch& patch : model.patches) {
     OBVID_TRY(check(patch.surface));
+  }
+  for (const SceneDot& dot : options.deviation ? options.deviation->dots : kNoDots) {
+    if (!is_finite(dot.point) || !std::isfinite(dot.value)) {
+      return error(ErrorCode::kNotFinite, "a measured point is not finite");
+    }
   }
   for (std::size_t i = 0; i < options.lines.size(); ++i) {
     for (const Vec3 p : options.lines[i].points) {
@@ -114,7 +125,18 @@ SheetTexts texts_of(const SurfaceModel& model, const std::vector<DrawnPatch>& pa
 }
 
 Colours colours_of(const std::vector<DrawnPatch>& patches, const SurfacePictureOptions& options) {
-  Colours colours{options.colouring, {}, options.zebra_stripes};
+  Colours colours{options.colouring, {}, options.zebra_stripes, 1.0, {}};
+  const Box3 box = box_of_patches(patches);
+  colours.ceiling = std::max(box.diagonal(), kLeastSize);
+  colours.title = std::string(title_of(options.colouring));
+  if (options.colouring == SurfaceColouring::kDeviation) {
+    colours.title = plain_text(options.deviation->title);
+    colours.scale = options.deviation->dots.empty()
+                        ? scale_of(patches, options.colouring)
+                        : scale_of_dots(options.deviation->dots, colours.ceiling);
+    colours.scale.least = options.deviation->told.from;
+    colours.scale.most = options.deviation->told.to;
+  }
   if (!is_curvature(options.colouring)) return colours;
   colours.scale = scale_of(patches, options.colouring);
   if (options.extremes) {
@@ -129,14 +151,37 @@ Colours colours_of(const std::vector<DrawnPatch>& patches, const SurfacePictureO
   return colours;
 }
 
+/// Measured points in the colours of the scale; those far behind the surface are hidden.
+std::string dots(const Scene& scene, const Colours& colours, const SurfacePictureOptions& options) {
+  if (options.colouring != SurfaceColouring::kDeviation) return {};
+  constexpr double kRadius = 2.0, kBefore = 8.0;  // px
+  const ValueScale& scale = colours.scale;
+  std::string out;
+  for (const SceneDot& dot : shown_dots(options.deviation->dots)) {
+    Vec3 at = scene.camera.project(dot.point);
+    const Vec2 place{at.x, at.y};
+    at.z += kBefore;
+    if (!scene.depth.sees(at)) continue;
+    const double part = scale.constant() ? 0.5 : (dot.value - scale.low) / (scale.high - scale.low);
+    out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.0f}\" fill=\"{}\"/>\n", place.x,
+                       place.y, kRadius, hex(palette(scale.diverging, part)));
+  }
+  return out.empty() ? out : "<g stroke=\"#1c2733\" stroke-width=\"0.3\">\n" + out + "</g>\n";
+}
+
 Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions& options,
                           std::size_t facets) {
-  const auto patches = drawn_patches(model, options.colouring, facets);
+  auto patches = drawn_patches(model, options.colouring, facets);
   for (const DrawnPatch& patch : patches) {
     if (!std::all_of(patch.points.begin(), patch.points.end(),
                      [](Vec3 p) { return is_finite(p); })) {
       return error(ErrorCode::kNotFinite, "a point of the surface is not finite")
           .hint("change the unit");
+    }
+  }
+  if (options.colouring == SurfaceColouring::kDeviation && options.deviation->of_place) {
+    for (DrawnPatch& patch : patches) {
+      for (const Vec3 p : patch.points) patch.values.push_back(options.deviation->of_place(p));
     }
   }
   const double size = box_of_patches(patches).diagonal();
@@ -154,7 +199,7 @@ Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions
   const SheetTexts texts = texts_of(model, patches, options);
   return sheet(texts, options,
                facet_paths(patches, quads, depth, camera, colours) + surface_lines(scene, options) +
-                   extra_lines(scene, options.lines) +
+                   extra_lines(scene, options.lines) + dots(scene, colours, options) +
                    sheet_furniture(texts, camera, colours, options));
 }
 

@@ -42,6 +42,7 @@ Looks looks_of(SurfaceExport& e) {
   out.colouring = e.options.colouring;
   out.view = e.options.view;
   out.lines = e.options.lines;
+  out.deviation = e.options.deviation;
   out.extremes = e.extremes();
   return out;
 }

@@ -99,6 +99,34 @@ void add_lines(JsonText& json, const char* name, const LineReport& lines) {
   json.pair("inflections", lines.inflections).end_object();
 }
 
+/// Where the smallest and the greatest value are.
+void add_extent_places(JsonText& json, const char* name, const Extent& extent) {
+  json.key(name).begin_array();
+  for (const SurfacePlace* place : {&extent.least_at, &extent.most_at}) {
+    json.begin_object().pair("u", place->u).pair("v", place->v);
+    add_coordinates(json, "place", place->point).end_object();
+  }
+  json.end_array();
+}
+
+void add_measured_place(JsonText& json, const char* name, const MeasuredPlace& place, bool points) {
+  json.key(name).begin_object().pair("off", place.off);
+  json.pair(points ? "point" : "patch", points ? place.number + 1 : place.number);
+  add_coordinates(json, "place", place.point);
+  add_coordinates(json, "nearest", place.nearest.point);
+  json.pair("beside", place.nearest.beside).end_object();
+}
+
+void add_deviation(JsonText& json, const char* name, const Deviation& found, bool points) {
+  json.key(name).begin_object().pair("places", found.places);
+  json.pair("largest", std::abs(found.farthest().off));
+  json.pair("root_mean_square", found.root_mean_square).pair("mean", found.mean);
+  json.pair("beside", found.beside);
+  add_measured_place(json, "least", found.least, points);
+  add_measured_place(json, "most", found.most, points);
+  json.end_object();
+}
+
 /// Found at a place, and what is nowhere exceeded.
 void add_measured(JsonText& json, const char* name, const ToolpathReport::Measured& measured) {
   json.key(name).begin_object().pair("found", measured.found).pair("most", measured.most);
@@ -128,8 +156,9 @@ std::string surface_report_json(const MadeSurface& made, const Written& written)
   return json.end_object().take() + "\n";
 }
 
-std::string surface_check_json(const SurfaceModel& model, const SurfaceCheck& check,
+std::string surface_check_json(const SurfaceModel& model, const CheckedSurface& checked,
                                const Written& written) {
+  const SurfaceCheck& check = checked.check;
   JsonText json;
   json.begin_object().pair("name", model.name);
   add_units(json, model.units);
@@ -143,6 +172,12 @@ std::string surface_check_json(const SurfaceModel& model, const SurfaceCheck& ch
     add_extent(json, "mean", p.mean);
     add_extent(json, "k1", p.k1);
     add_extent(json, "k2", p.k2);
+    json.key("places").begin_object();
+    add_extent_places(json, "gaussian", p.gaussian);
+    add_extent_places(json, "mean", p.mean);
+    add_extent_places(json, "k1", p.k1);
+    add_extent_places(json, "k2", p.k2);
+    json.end_object();
     add_lines(json, "along_u", p.along_u);
     add_lines(json, "along_v", p.along_v);
     json.end_object();
@@ -154,9 +189,21 @@ std::string surface_check_json(const SurfaceModel& model, const SurfaceCheck& ch
     json.key("sides").begin_array();
     for (const PatchSide side : j.side) json.value(border_name(side));
     json.end_array().pair("gap", j.gap).pair("angle", j.angle).pair("curvature", j.curvature);
-    json.pair("order", j.order).pair("shared", j.shared).end_object();
+    json.pair("order", j.order).pair("shared", j.shared);
+    add_coordinates(json, "gap_at", j.gap_at);
+    add_coordinates(json, "angle_at", j.angle_at);
+    add_coordinates(json, "curvature_at", j.curvature_at).end_object();
   }
-  json.end_array().pair("free_borders", check.free_borders).key("written").begin_array();
+  json.end_array().pair("free_borders", check.free_borders);
+  if (const auto& deviation = checked.deviation) {
+    json.key("deviation").begin_object().pair("against", deviation->against);
+    json.pair("of", deviation->points ? "points" : "surface");
+    add_deviation(json, "found", deviation->found, deviation->points);
+    if (deviation->back) add_deviation(json, "back", *deviation->back, false);
+    json.end_object();
+  }
+  add_list(json, "warnings", checked.warnings);
+  json.key("written").begin_array();
   for (const std::string& file : written.files) json.value(file);
   return json.end_array().end_object().take() + "\n";
 }

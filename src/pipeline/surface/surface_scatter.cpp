@@ -3,35 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
-#include "obvid/core/files.h"
-#include "obvid/exchange/mesh_read.h"
-#include "obvid/io/internal/read_cloud.h"
+#include "surface/cloud_input.h"
 #include "surface/surface_kinds.h"
 
 namespace obvid::pipeline_detail {
 namespace {
-
-Result<PointCloud> cloud_of(const SurfaceInput& input) {
-  if (input.points) return PointCloud{*input.points, {}};
-  std::string text;
-  if (input.text) {
-    text = *input.text;
-  } else {
-    auto read = read_file(input.name);
-    OBVID_TRY(read);
-    text = std::move(*read);
-  }
-  if (!is_mesh(text, input.name)) return parse_cloud(text, input.name);
-  auto points = parse_mesh_points(text, input.name);
-  OBVID_TRY(points);
-  PointCloud out;
-  out.points.name = std::filesystem::path(input.name).stem().string();
-  out.points.points = std::move(*points);
-  return out;
-}
 
 std::string place(Vec3 p) {
   p = p + Vec3{};  // -0 becomes 0

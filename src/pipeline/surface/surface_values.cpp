@@ -221,7 +221,8 @@ Result<void> set_surface_formats(const SurfaceFormatValues& typed, SurfaceExport
   const auto colouring = colouring_named(typed.colour);
   if (!colouring) {
     return fail(bad_option("unknown colouring '" + typed.colour + "'", "--colour",
-                           "available are shaded, isolines, gaussian, mean, k1, k2, zebra"));
+                           "available are shaded, isolines, gaussian, mean, k1, k2, zebra, "
+                           "isophotes, reflection, deviation"));
   }
   formats.colouring = *colouring;
   const auto view = view_named(typed.view);
@@ -255,10 +256,20 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
       .and_then([&] { return set_stock(typed.stock, plan); });
 }
 
-Result<std::size_t> checked_samples(long samples) {
+Result<void> set_surface_check(const SurfaceCheckValues& typed, SurfaceCheckJob& job) {
   constexpr long kLeast = 3, kMost = 2000;
-  if (samples >= kLeast && samples <= kMost) return static_cast<std::size_t>(samples);
-  return fail(bad_option("the number of samples must lie in 3 to 2000", "--samples", ""));
+  if (typed.samples) {
+    if (*typed.samples < kLeast || *typed.samples > kMost) {
+      return fail(bad_option("the number of samples must lie in 3 to 2000", "--samples", ""));
+    }
+    job.check.samples = static_cast<std::size_t>(*typed.samples);
+  }
+  if (typed.against) {
+    if (typed.against->empty()) return fail(bad_option("no file is named", "--against", ""));
+    job.against = SurfaceInput(*typed.against);
+  }
+  job.check.meeting = typed.meeting;
+  return positive(typed.meeting, "--meeting");
 }
 
 }  // namespace obvid

@@ -5,6 +5,7 @@
 
 #include "obvid/picture/surface_svg.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "obvid/pipeline/surface_check_job.h"
 #include "obvid/pipeline/surface_job.h"
 #include "obvid/pipeline/toolpath_job.h"
 #include "obvid/surface_builders/internal/check.h"
@@ -17,9 +18,9 @@ namespace obvid {
 /// What was made.
 [[nodiscard]] std::string surface_report_json(const MadeSurface& made, const Written& written);
 
-/// What was measured of each patch and border.
-[[nodiscard]] std::string surface_check_json(const SurfaceModel& model, const SurfaceCheck& check,
-                                             const Written& written);
+/// What was measured of each patch and border, and the deviation.
+[[nodiscard]] std::string surface_check_json(const SurfaceModel& model,
+                                             const CheckedSurface& checked, const Written& written);
 
 /// What the printed program does.
 [[nodiscard]] std::string toolpath_report_json(const MadeToolpath& made, const Written& written);

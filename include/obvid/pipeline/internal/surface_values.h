@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/pipeline/surface_check_job.h"
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
 #include "obvid/pipeline/toolpath_job.h"
@@ -51,7 +52,12 @@ struct ToolpathValues {
 /// The names; numbers go into the job as they are.
 [[nodiscard]] Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job);
 
-/// Lines of each family of a check, and points on them. Error: E203 outside 3 to 2000.
-[[nodiscard]] Result<std::size_t> checked_samples(long samples);
+struct SurfaceCheckValues {
+  std::optional<long> samples;         ///< lines of each family, and points on them: 3 to 2000 [65]
+  std::optional<std::string> against;  ///< path of a file
+  std::optional<double> meeting;       ///< units
+};
+
+[[nodiscard]] Result<void> set_surface_check(const SurfaceCheckValues& typed, SurfaceCheckJob& job);
 
 }  // namespace obvid

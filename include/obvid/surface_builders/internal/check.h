@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,18 @@
 
 namespace obvid {
 
+/// A place of a patch.
+struct SurfacePlace {
+  double u = 0.0, v = 0.0;
+  Vec3 point;
+};
+
 /// Smallest and largest value of a quantity over a patch; infinite where it was found to have no
 /// bound on that side.
 struct Extent {
   double least = 0.0;
   double most = 0.0;
+  SurfacePlace least_at, most_at;  ///< where; the point of a pole where there is no bound
 };
 
 /// Least and greatest curvatures of a patch.
@@ -28,11 +36,12 @@ struct CurvatureExtents {
 };
 
 /// Between which figures the curvatures of a patch lie: looked for at about `samples` places per
-/// direction, two or more in each span, and climbed to from there (the nearest extreme, to some
-/// 1e-9 of it). Not proved: an extreme between the places can be missed. Towards borders and corners
-/// where du x dv vanishes (poles) each quantity is followed over eight halvings of the distance: one
-/// whose steps do not shrink by then (a tenth each) has no bound on that side. Poles inside a patch
-/// are not looked for. All 0 without a tangent plane.
+/// direction, two or more in each span, and climbed to from the best of them (three, each the best
+/// of a sixteenth of the patch; to some 1e-9 of the extreme). Not proved: an extreme between the
+/// places can be missed. Towards borders and corners
+/// where du x dv vanishes (poles) each quantity is followed over eight halvings of the distance:
+/// one whose steps do not shrink by then (a tenth each) has no bound on that side. Poles inside a
+/// patch are not looked for. All 0 without a tangent plane.
 [[nodiscard]] CurvatureExtents curvature_extents(const NurbsSurface& surface,
                                                  std::size_t samples = 65);
 
@@ -70,6 +79,8 @@ struct JointReport {
   double curvature = 0.0;  ///< largest step of the normal curvature across the border, as a share
                            ///< of the largest curvature beside it
   int order = 0;           ///< 0 G0, 1 G1, 2 G2, by the limits named below
+  Vec3 gap_at, angle_at, curvature_at;  ///< where on the first patch each of the three is largest
+  std::size_t places = 0;               ///< that were looked at before the extremes were climbed to
 };
 
 /// Up to these a border counts as smooth.
@@ -85,15 +96,20 @@ struct SurfaceCheck {
 
 struct CheckOptions {
   std::size_t samples = 65;  ///< per direction and patch for curvature, and lines of each family
-  double meeting = 1e-5;     ///< of the size: borders nearer than this meet
+  std::optional<double>
+      meeting{};  ///< units: borders nearer than this meet [`kMeeting` of the size]
 };
+
+inline constexpr double kMeeting = 1e-5;
 
 /// What can be measured about a model: curvature, continuity inside patches and across borders,
 /// vertices of the lines of constant parameters. Figures are sampled, not proved: a feature smaller
 /// than a step of the raster can be missed. Borders meet as wholes only: a border that meets parts
-/// of two others is not found; those that are the same curve with other parameters are. Curvature
-/// of lines is that of curves in space, with the sign that their mean plane gives; steps below 1e-6
-/// of a line's largest curvature are rounding.
+/// of two others is not found; those that are the same curve with other parameters are. Along a
+/// joint, gap, angle and step of curvature are looked for at four places or more in every span of
+/// both borders and climbed to from the best; where the borders run at different speeds, in fewer
+/// spans when there are more than 256. Curvature of lines is that of curves in space, with the sign
+/// that their mean plane gives; steps below 1e-6 of a line's largest curvature are rounding.
 [[nodiscard]] Result<SurfaceCheck> check_surface(const SurfaceModel& model,
                                                  const CheckOptions& options = {},
                                                  const RunContext& run = {});

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/cloud_input.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "files/cad_of_text.h"
+#include "obvid/cad/internal/cad.h"
+#include "obvid/core/files.h"
+#include "obvid/exchange/mesh_read.h"
+
+namespace obvid::pipeline_detail {
+
+Result<PointCloud> cloud_of(const SurfaceInput& input) {
+  if (input.points) return PointCloud{*input.points, {}};
+  std::string text;
+  if (input.text) {
+    text = *input.text;
+  } else {
+    auto read = read_file(input.name);
+    OBVID_TRY(read);
+    text = std::move(*read);
+  }
+  if (!is_mesh(text, input.name)) return parse_cloud(text, input.name);
+  auto points = parse_mesh_points(text, input.name);
+  OBVID_TRY(points);
+  PointCloud out;
+  out.points.name = std::filesystem::path(input.name).stem().string();
+  out.points.points = std::move(*points);
+  return out;
+}
+
+bool holds_surface(const std::string& text, const std::string& name) {
+  if (is_mesh(text, name)) return false;
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && text[first] == '{') return true;
+  const std::string ending = std::filesystem::path(name).extension().string();
+  return is_cad_text(text) || ending == ".cpt" || ending == ".cptw";
+}
+
+}  // namespace obvid::pipeline_detail

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// The nearest place of many patches: a tree of boxes around the spans, Newton's steps inside.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "obvid/curve/internal/basis.h"
+#include "obvid/geom/internal/box.h"
+#include "obvid/surface_builders/internal/deviation.h"
+
+namespace obvid {
+namespace nearest_detail {
+
+/// Cells of a model with few patches, about; and how often a direction is divided at most and
+/// least.
+constexpr double kCells = 20'000.0;
+constexpr double kMostParts = 24.0, kLeastParts = 4.0;
+constexpr std::uint32_t kLeafCells = 4;
+/// A residual that turns from the normal by more than this (sine) does not stand on the surface.
+constexpr double kAlongNormal = 1e-6;
+/// Of the coordinates: shorter residuals are rounding and have no direction.
+constexpr double kRounding = 1e-12;
+
+struct Cell {
+  Box3 box;
+  std::uint32_t patch = 0;
+  Range u, v;
+};
+
+static double square_from(const Box3& box, Vec3 p) {
+  const auto outside = [](double x, double low, double high) {
+    return std::max({low - x, x - high, 0.0});
+  };
+  const Vec3 d{outside(p.x, box.low.x, box.high.x), outside(p.y, box.low.y, box.high.y),
+               outside(p.z, box.low.z, box.high.z)};
+  return dot(d, d);
+}
+
+/// Knots that divide a domain into about `parts`, where the spans are longer.
+static std::vector<double> dividing(const std::vector<double>& knots, const Range& domain,
+                                    double parts) {
+  std::vector<double> out;
+  const std::vector<double> ends = distinct(knots);
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const Range span{ends[k], ends[k + 1]};
+    const double cells = std::ceil(parts * span.length() / domain.length());
+    for (double i = 1.0; i < cells; i += 1.0) out.push_back(span.at(i / cells));
+  }
+  return out;
+}
+
+/// A span lies in the box of its control points: the weights are positive.
+static void add_cells(const NurbsSurface& surface, std::uint32_t patch, double parts,
+                      std::vector<Cell>& cells) {
+  NurbsSurface fine = with_knots_u(surface, dividing(surface.knots_u, domain_u(surface), parts));
+  fine = with_knots_v(fine, dividing(fine.knots_v, domain_v(fine), parts));
+  const auto p = static_cast<std::size_t>(fine.degree_u),
+             q = static_cast<std::size_t>(fine.degree_v);
+  for (std::size_t j = q; j < fine.count_v(); ++j) {
+    if (!(fine.knots_v[j] < fine.knots_v[j + 1])) continue;
+    for (std::size_t i = p; i < fine.count_u(); ++i) {
+      if (!(fine.knots_u[i] < fine.knots_u[i + 1])) continue;
+      Cell cell;
+      cell.patch = patch;
+      cell.u = {fine.knots_u[i], fine.knots_u[i + 1]};
+      cell.v = {fine.knots_v[j], fine.knots_v[j + 1]};
+      for (std::size_t l = j - q; l <= j; ++l) {
+        for (std::size_t k = i - p; k <= i; ++k) cell.box.add(fine.points[l * fine.count_u() + k]);
+      }
+      cells.push_back(cell);
+    }
+  }
+}
+
+/// Half of a node's cells each; leaves have none.
+struct Branch {
+  Box3 box;
+  std::uint32_t first = 0, count = 0;  ///< cells
+  std::uint32_t left = 0, right = 0;   ///< branches; 0: a leaf
+};
+
+/// Place and squared distance while one is looked for.
+struct Found {
+  double square = HUGE_VAL;
+  std::uint32_t patch = 0;
+  double u = 0.0, v = 0.0;
+};
+
+/// Newton's step downhill inside the cell; a coordinate that is pressed against its end stays.
+static std::array<double, 2> step_of(const SurfaceJet& jet, Vec3 r, const Cell& cell, double u,
+                                     double v) {
+  const double gu = dot(r, jet.du), gv = dot(r, jet.dv);
+  const bool u_fast = (u <= cell.u.from && gu > 0.0) || (u >= cell.u.to && gu < 0.0);
+  const bool v_fast = (v <= cell.v.from && gv > 0.0) || (v >= cell.v.to && gv < 0.0);
+  const double uu = dot(jet.du, jet.du), vv = dot(jet.dv, jet.dv), uv = dot(jet.du, jet.dv);
+  const double huu = uu + dot(r, jet.duu), hvv = vv + dot(r, jet.dvv), huv = uv + dot(r, jet.duv);
+  const auto alone = [](double g, double h, double gauss) {
+    const double by = h > 0.0 ? h : gauss;
+    return by > 0.0 ? -g / by : 0.0;
+  };
+  if (u_fast && v_fast) return {0.0, 0.0};
+  if (u_fast) return {0.0, alone(gv, hvv, vv)};
+  if (v_fast) return {alone(gu, huu, uu), 0.0};
+  double a = huu, b = huv, c = hvv;
+  if (!(a > 0.0 && a * c - b * b > 0.0)) a = uu, b = uv, c = vv;  // downhill all the same
+  const double det = a * c - b * b;
+  constexpr double kOneDirection = 1e-14;  // of a c: the two directions are one
+  if (!(det > kOneDirection * a * c)) return {alone(gu, a, uu), alone(gv, c, vv)};
+  return {-(c * gu - b * gv) / det, -(a * gv - b * gu) / det};
+}
+
+}  // namespace nearest_detail
+
+struct NearestOnModel::Tree {
+  std::vector<const NurbsSurface*> patches;
+  std::vector<nearest_detail::Cell> cells;
+  std::vector<nearest_detail::Branch> branches;
+
+  std::uint32_t build(std::uint32_t first, std::uint32_t count) {
+    const auto number = static_cast<std::uint32_t>(branches.size());
+    branches.push_back({{}, first, count, 0, 0});
+    Box3 box, middles;
+    for (std::uint32_t k = first; k < first + count; ++k) {
+      box.add_box(cells[k].box);
+      middles.add(cells[k].box.middle());
+    }
+    branches[number].box = box;
+    if (count <= nearest_detail::kLeafCells) return number;
+    const Vec3 size = middles.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto along = [axis](const nearest_detail::Cell& cell) {
+      const Vec3 m = cell.box.middle();
+      return axis == 0 ? m.x : axis == 1 ? m.y : m.z;
+    };
+    const std::uint32_t half = count / 2;
+    std::nth_element(cells.begin() + first, cells.begin() + first + half,
+                     cells.begin() + first + count,
+                     [&](const nearest_detail::Cell& a, const nearest_detail::Cell& b) {
+                       return along(a) < along(b);
+                     });
+    const std::uint32_t left = build(first, half);
+    const std::uint32_t right = build(first + half, count - half);
+    branches[number].left = left;
+    branches[number].right = right;
+    return number;
+  }
+
+  void look_inside(const nearest_detail::Cell& cell, Vec3 p, nearest_detail::Found& best) const {
+    const NurbsSurface& s = *patches[cell.patch];
+    const auto found_at = [&](double u, double v) {
+      const Vec3 r = evaluate(s, u, v).point - p;
+      return nearest_detail::Found{dot(r, r), cell.patch, u, v};
+    };
+    nearest_detail::Found here = found_at(cell.u.at(0.5), cell.v.at(0.5));
+    for (const double a : {0.0, 1.0}) {
+      for (const double b : {0.0, 1.0}) {
+        const nearest_detail::Found corner = found_at(cell.u.at(a), cell.v.at(b));
+        if (corner.square < here.square) here = corner;
+      }
+    }
+    constexpr int kMostSteps = 30, kMostHalvings = 12;
+    constexpr double kLastStep = 1e-8;  // of a cell: the next one is its square
+    // what is no rise, but the rounding of coordinates
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
+                            std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const auto risen = [rounding](double square, double before) {
+      return !(std::sqrt(square) <= std::sqrt(before) + rounding);
+    };
+    for (int step = 0; step < kMostSteps; ++step) {
+      const SurfaceJet jet = evaluate(s, here.u, here.v);
+      auto [du, dv] = nearest_detail::step_of(jet, jet.point - p, cell, here.u, here.v);
+      const bool last = std::abs(du) <= kLastStep * cell.u.length() &&
+                        std::abs(dv) <= kLastStep * cell.v.length();
+      nearest_detail::Found next;
+      for (int halving = 0; halving < kMostHalvings; ++halving) {
+        next = found_at(std::clamp(here.u + du, cell.u.from, cell.u.to),
+                        std::clamp(here.v + dv, cell.v.from, cell.v.to));
+        if (!risen(next.square, here.square)) break;
+        du /= 2.0;
+        dv /= 2.0;
+      }
+      if (risen(next.square, here.square)) break;
+      here = next;
+      if (last) break;
+    }
+    if (here.square < best.square) best = here;
+  }
+
+  void search(std::uint32_t number, Vec3 p, nearest_detail::Found& best) const {
+    const nearest_detail::Branch& branch = branches[number];
+    if (branch.left == 0) {
+      for (std::uint32_t k = branch.first; k < branch.first + branch.count; ++k) {
+        if (nearest_detail::square_from(cells[k].box, p) < best.square)
+          look_inside(cells[k], p, best);
+      }
+      return;
+    }
+    double near = nearest_detail::square_from(branches[branch.left].box, p);
+    double far = nearest_detail::square_from(branches[branch.right].box, p);
+    std::uint32_t first = branch.left, second = branch.right;
+    if (far < near) {
+      std::swap(near, far);
+      std::swap(first, second);
+    }
+    if (near < best.square) search(first, p, best);
+    if (far < best.square) search(second, p, best);
+  }
+};
+
+NearestOnModel::NearestOnModel(const SurfaceModel& model) : tree_(new Tree) {
+  tree_->patches = surfaces_of(model);
+  const double parts =
+      std::clamp(std::sqrt(nearest_detail::kCells /
+                           static_cast<double>(std::max<std::size_t>(model.patches.size(), 1))),
+                 nearest_detail::kLeastParts, nearest_detail::kMostParts);
+  for (std::size_t i = 0; i < tree_->patches.size(); ++i) {
+    nearest_detail::add_cells(*tree_->patches[i], static_cast<std::uint32_t>(i), parts,
+                              tree_->cells);
+  }
+  if (!tree_->cells.empty()) tree_->build(0, static_cast<std::uint32_t>(tree_->cells.size()));
+}
+
+NearestOnModel::~NearestOnModel() = default;
+
+NearestPlace NearestOnModel::at(Vec3 point) const {
+  nearest_detail::Found found;
+  if (!tree_->branches.empty()) tree_->search(0, point, found);
+  NearestPlace out;
+  if (!std::isfinite(found.square)) return out;
+  out.patch = found.patch;
+  out.u = found.u;
+  out.v = found.v;
+  const SurfaceJet jet = evaluate(*tree_->patches[found.patch], found.u, found.v);
+  out.point = jet.point;
+  const Vec3 away = point - jet.point;
+  out.distance = norm(away);
+  const Vec3 normal = curvature(jet).normal;
+  const double along = dot(away, normal);
+  out.off = along < 0.0 ? -out.distance : out.distance;
+  const double rounding = nearest_detail::kRounding *
+                          std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  out.beside = norm(normal) > 0.0 &&
+               norm(cross(away, normal)) > nearest_detail::kAlongNormal * out.distance + rounding;
+  return out;
+}
+
+}  // namespace obvid
