@@ -90,11 +90,11 @@ Attempt attempt(Extended current, bool convex, Watch& watch) {
   return out;
 }
 
-/// Whether the points alone have a solution, so that it is the wishes which have none. Then no
+/// Whether the points alone have a solution, so that it is the constraints which have none. Then no
 /// direction is turned: further vertices are not what somebody who fixes a radius asks for.
-bool fulfilled_without(const ChainWishes& wishes, const Analysis& analysis, Extended series,
-                       Watch& watch) {
-  if (!anything_wished(wishes)) return false;
+bool fulfilled_without(const ChainConstraints& constraints, const Analysis& analysis,
+                       Extended series, Watch& watch) {
+  if (!anything_constrained(constraints)) return false;
   auto problem = chain_problem(analysis, {});
   if (!problem) return false;
   series.problem = std::move(*problem);
@@ -115,19 +115,19 @@ double repair_work(std::size_t points) {
 }  // namespace
 
 Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analysis& analysis,
-                                    const ChainWishes& wishes, Watch& watch) {
-  auto problem = chain_problem(analysis, wishes);
+                                    const ChainConstraints& constraints, Watch& watch) {
+  auto problem = chain_problem(analysis, constraints);
   OBVID_TRY(problem);
   Extended current;
   current.points = points;
   current.problem = std::move(*problem);
-  if (wishes.to_the_edge) current.least_sigma = kLeastSigmaAtEdge;
+  if (constraints.to_the_edge) current.least_sigma = kLeastSigmaAtEdge;
   for (std::size_t i = 0; i < points.size(); ++i) current.source.emplace_back(i);
 
   current.turned.assign(current.problem.direction.size(), false);
-  Attempt tried = attempt(current, wishes.convex, watch);
-  if (!tried.chain && fulfilled_without(wishes, analysis, current, watch)) {
-    return fail(explain(points, analysis, wishes, tried.why));
+  Attempt tried = attempt(current, constraints.convex, watch);
+  if (!tried.chain && fulfilled_without(constraints, analysis, current, watch)) {
+    return fail(explain(points, analysis, constraints, tried.why));
   }
   const Infeasibility first_reason = tried.why;
   int steps = tried.steps;
@@ -142,11 +142,11 @@ Result<SeriesChain> choose_elements(const std::vector<Vec2>& points, const Analy
       direction = static_cast<std::int8_t>(-direction);
     }
     ++turned;
-    tried = attempt(current, wishes.convex, watch);
+    tried = attempt(current, constraints.convex, watch);
     steps += tried.steps;
   }
   if (!tried.chain) {
-    Error error = explain(points, analysis, wishes, first_reason);
+    Error error = explain(points, analysis, constraints, first_reason);
     if (!watch.may_go_on()) error.hint += "; the search for other directions ended at its limit";
     return fail(std::move(error));
   }

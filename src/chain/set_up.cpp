@@ -81,24 +81,24 @@ int sign_of(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
 
 /// The way in which most points turn, 1 or -1; where they do not tell, that of the fixed
 /// curvatures.
-int way_of_turning(const Analysis& a, const ChainWishes& wishes) {
+int way_of_turning(const Analysis& a, const ChainConstraints& constraints) {
   int turns = 0;
   for (const AdjacentCircle& circle : a.circles) turns += sign_of(circle.kappa);
-  for (std::size_t i = 0; turns == 0 && i < wishes.fixed.size(); ++i) {
-    turns = sign_of(wishes.fixed[i].kappa.value_or(0.0));
+  for (std::size_t i = 0; turns == 0 && i < constraints.fixed.size(); ++i) {
+    turns = sign_of(constraints.fixed[i].kappa.value_or(0.0));
   }
   return turns > 0 ? 1 : -1;
 }
 
 }  // namespace
 
-bool anything_wished(const ChainWishes& wishes) {
-  return wishes.convex || std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
-                                      [](const FixedData& f) { return f.says_how(); });
+bool anything_constrained(const ChainConstraints& constraints) {
+  return constraints.convex || std::any_of(constraints.fixed.begin(), constraints.fixed.end(),
+                                           [](const FixedData& f) { return f.says_how(); });
 }
 
-Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWishes& wishes,
-              const Infeasibility& why) {
+Error explain(const std::vector<Vec2>& points, const Analysis& a,
+              const ChainConstraints& constraints, const Infeasibility& why) {
   const auto index = static_cast<std::ptrdiff_t>(why.first_point);
   const auto last = static_cast<std::ptrdiff_t>(why.last_point);
   const std::string where = point_range(why);
@@ -123,7 +123,7 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
         .points(index, last)
         .value(why.move);
   }
-  if (anything_wished(wishes)) {
+  if (anything_constrained(constraints)) {
     return error(ErrorCode::kFixedDataContradict,
                  "the fixed headings, curvatures or convexity cannot be met by a monotone contour")
         .where(where)
@@ -151,21 +151,21 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a, const ChainWis
 
 namespace obvid {
 
-Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes) {
+Result<ChainProblem> chain_problem(const Analysis& a, const ChainConstraints& constraints) {
   using namespace chain_detail;
   ChainProblem p{a.chords, a.circles, a.direction, {}, std::vector<NodeData>(a.circles.size())};
-  p.least_change = wishes.least_change;
+  p.least_change = constraints.least_change;
   for (const std::int8_t d : a.direction)
     p.cone.push_back(d == 0 ? Cone::kNone : Cone::kClosedForm);
   for (std::size_t i = 0; i < p.nodes.size(); ++i) {
     p.nodes[i].curvature_sign = forced_sign(a, i);
-    if (i < wishes.fixed.size()) {
-      p.nodes[i].theta = wishes.fixed[i].theta;
-      p.nodes[i].kappa = wishes.fixed[i].kappa;
+    if (i < constraints.fixed.size()) {
+      p.nodes[i].theta = constraints.fixed[i].theta;
+      p.nodes[i].kappa = constraints.fixed[i].kappa;
     }
   }
-  if (wishes.convex) {
-    const int turns = way_of_turning(a, wishes);
+  if (constraints.convex) {
+    const int turns = way_of_turning(a, constraints);
     for (std::size_t i = 0; i < p.nodes.size(); ++i) {
       const AdjacentCircle& c = a.circles[i];
       if (turns * c.kappa < 0.0 && std::abs(c.kappa) > c.rounding) {
@@ -191,8 +191,8 @@ Result<ChainProblem> chain_problem(const Analysis& a, const ChainWishes& wishes)
   for (const CircularStretch& s : a.stretches) {
     for (std::size_t i = s.first; i <= s.last; ++i) {
       const double theta = heading_on_stretch(a, s, i);
-      if (i < wishes.fixed.size() &&
-          contradicts(wishes.fixed[i], theta, s.kappa, a.circles[i].rounding)) {
+      if (i < constraints.fixed.size() &&
+          contradicts(constraints.fixed[i], theta, s.kappa, a.circles[i].rounding)) {
         return error(ErrorCode::kFixedDataContradict,
                      "the points lie on one circle or line here, with another heading or radius "
                      "than the fixed one")

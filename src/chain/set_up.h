@@ -7,9 +7,9 @@ namespace obvid::chain_detail {
 
 /// Why a series has no chain, for the user.
 [[nodiscard]] Error explain(const std::vector<Vec2>& points, const Analysis& analysis,
-                            const ChainWishes& wishes, const Infeasibility& why);
+                            const ChainConstraints& constraints, const Infeasibility& why);
 
 /// Whether any heading, curvature or convexity was asked for.
-[[nodiscard]] bool anything_wished(const ChainWishes& wishes);
+[[nodiscard]] bool anything_constrained(const ChainConstraints& constraints);
 
 }  // namespace obvid::chain_detail

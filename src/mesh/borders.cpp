@@ -47,7 +47,7 @@ double Borders::part_of_edge(const TopologyEdge& edge, const EdgeUse& use, Line 
   const PatchAxis& own = axis(use);
   double part = line == own.last() ? 1.0 : 0.0;
   if (line != 0 && line != own.last()) {
-    if (use.own_pace) {
+    if (use.other_parameters) {
       const Range range = domain(edge.curve);
       return (nearest_parameter(edge.curve, point(use, own.at(line))) - range.from) /
              range.length();
@@ -59,7 +59,7 @@ double Borders::part_of_edge(const TopologyEdge& edge, const EdgeUse& use, Line 
 
 double Borders::own_parameter(const TopologyEdge& edge, const EdgeUse& use, double part) const {
   const PatchAxis& own = axis(use);
-  if (use.own_pace && part > 0.0 && part < 1.0) {
+  if (use.other_parameters && part > 0.0 && part < 1.0) {
     const Vec3 on_edge = point(edge.uses.front(), domain(edge.curve).at(part));
     return nearest_parameter(border_of(patches_[use.patch].surface(), use.side), on_edge);
   }

@@ -354,7 +354,7 @@ void keep_sharpest(const std::vector<Vec2>& points, std::vector<Candidate> found
 std::vector<std::size_t> find_corners(const std::vector<Vec2>& points,
                                       const std::vector<double>& tolerance, bool closed,
                                       const std::vector<FixedData>& fixed,
-                                      const CornerWishes& wishes) {
+                                      const CornerConstraints& constraints) {
   std::vector<Candidate> kept;
   const std::size_t n = points.size();
   if (n < 3) return {};
@@ -362,9 +362,9 @@ std::vector<std::size_t> find_corners(const std::vector<Vec2>& points,
     const bool end = !closed && (i == 0 || i + 1 == n);
     if (fixed[i].corner && !end) kept.push_back({i, 0.0, 0.0, 0.0, {}});
   }
-  if (wishes.find) {
+  if (constraints.find) {
     std::vector<Candidate> found =
-        CornerSearch(points, tolerance, closed, wishes.angle).candidates();
+        CornerSearch(points, tolerance, closed, constraints.angle).candidates();
     const auto marked = [&](const Candidate& c) {
       return std::any_of(kept.begin(), kept.end(),
                          [&](const Candidate& k) { return k.index == c.index; });

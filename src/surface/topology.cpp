@@ -207,15 +207,15 @@ class TopologyBuilder {
   bool joined_to_another(const TopologyEdge& edge, std::size_t patch, PatchSide side) {
     const auto found = between_.find(std::minmax(edge.from, edge.to));
     if (found == between_.end()) return false;
-    for (const bool own_pace : {false, true}) {
+    for (const bool other_parameters : {false, true}) {
       for (const std::size_t number : found->second) {
         TopologyEdge& other = out_.edges[number];
         for (const bool along : {true, false}) {
           if ((along ? other.from : other.to) != edge.from) continue;
           const BorderPair pair(other.curve, edge.curve, along, tolerance_);
-          const auto gap = own_pace ? pair.at_own_pace() : pair.at_one_pace();
+          const auto gap = other_parameters ? pair.at_own_pace() : pair.at_one_pace();
           if (!gap) continue;
-          other.uses.push_back({patch, side, along, own_pace, *gap});
+          other.uses.push_back({patch, side, along, other_parameters, *gap});
           out_.edge_of[patch][side] = number;
           return true;
         }

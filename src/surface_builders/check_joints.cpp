@@ -33,7 +33,7 @@ class EdgePair {
         sides_{a.side, b.side},
         borders_{border_of(first_, a.side), border_of(second_, b.side)},
         along_(a.along == b.along),
-        own_pace_(a.own_pace || b.own_pace) {}
+        own_pace_(a.other_parameters || b.other_parameters) {}
 
   /// Of both patches, at a part of the first one's border.
   [[nodiscard]] std::array<SurfaceJet, 2> at(double part) const {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "families.h"
 #include "move_list.h"
 #include "obvid/core/internal/parallel.h"
+#include "pass_families.h"
 
 namespace obvid::toolpath {
 namespace {

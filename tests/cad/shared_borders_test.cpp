@@ -54,10 +54,10 @@ const double kFreeLength = 2.0 * kParabola + 4.0 * 3.0 + 2.0 * std::numbers::pi;
 
 /// What each of those who look at borders makes of a model.
 struct Borders {
-  std::size_t edges = 0, points = 0, own_pace = 0;  // topology
-  std::size_t joints = 0, free = 0;                 // check, of those that it calls shared
-  double open_in_mesh = 0.0, open_to_cutter = 0.0;  // lengths
-  std::size_t drawn = 0;                            // page
+  std::size_t edges = 0, points = 0, other_parameters = 0;  // topology
+  std::size_t joints = 0, free = 0;                         // check, of those that it calls shared
+  double open_in_mesh = 0.0, open_to_cutter = 0.0;          // lengths
+  std::size_t drawn = 0;                                    // page
 };
 
 std::vector<Mesh> meshes_of(const SurfaceModel& model) {
@@ -119,7 +119,7 @@ Borders seen(const SurfaceModel& model) {
   Borders out;
   for (const TopologyEdge& edge : topology_of(model).edges) {
     ++(edge.point ? out.points : out.edges);
-    for (const EdgeUse& use : edge.uses) out.own_pace += use.own_pace ? 1 : 0;
+    for (const EdgeUse& use : edge.uses) out.other_parameters += use.other_parameters ? 1 : 0;
   }
   const auto check = check_surface(model);
   EXPECT_TRUE(check);
@@ -137,7 +137,7 @@ TEST(SharedBorders, CheckMeshPageAndToolPathAgreeWithTheTopology) {
   const Borders found = seen(model);
   EXPECT_EQ(found.edges, 11U);  // 16 sides: 1 point, 2 seams and 2 common borders count once
   EXPECT_EQ(found.points, 1U);
-  EXPECT_EQ(found.own_pace, 1U);
+  EXPECT_EQ(found.other_parameters, 1U);
   EXPECT_EQ(found.joints, 4U);  // two seams, the parabola, the circle
   EXPECT_EQ(found.free, 7U);
   EXPECT_NEAR(found.open_in_mesh, kFreeLength, 20 * kChord);

@@ -21,11 +21,12 @@ namespace {
 
 using namespace test;
 
-Result<SeriesChain> chain_of(const std::vector<Vec2>& points, const ChainWishes& wishes = {}) {
+Result<SeriesChain> chain_of(const std::vector<Vec2>& points,
+                             const ChainConstraints& constraints = {}) {
   const auto analysis = analyse(points);
   if (!analysis) return tl::unexpected(analysis.error());
   Watch nobody;
-  return choose_elements(points, *analysis, wishes, nobody);
+  return choose_elements(points, *analysis, constraints, nobody);
 }
 
 /// Whether a spiral exists between two elements ([Kurnosenko 2013]), from their numbers alone.
@@ -148,24 +149,25 @@ TEST(SeriesChain, FixedHeadingsAndCurvaturesAreMet) {
     const std::size_t n = s.points.size(), at = rng() % n;
     const std::size_t link = at + 1 < n ? at : at - 1;
     const Element e = free->elements[at];
-    ChainWishes wishes;
-    wishes.fixed.resize(n);
+    ChainConstraints constraints;
+    constraints.fixed.resize(n);
     const double turns = 2.0 * std::numbers::pi * static_cast<double>(rng() % 3);
-    if (i % 3 != 1) wishes.fixed[at].theta = e.theta + kMoved * free->links[link].sigma + turns;
+    if (i % 3 != 1)
+      constraints.fixed[at].theta = e.theta + kMoved * free->links[link].sigma + turns;
     if (i % 3 != 0) {
       const double change = free->elements[link + 1].kappa - free->elements[link].kappa;
-      wishes.fixed[at].kappa = e.kappa + kMoved * (at + 1 < n ? change : -change);
+      constraints.fixed[at].kappa = e.kappa + kMoved * (at + 1 < n ? change : -change);
     }
-    const auto fixed = chain_of(s.points, wishes);
+    const auto fixed = chain_of(s.points, constraints);
     ASSERT_TRUE(fixed) << i << ": " << to_line(fixed.error());
     std::size_t node = 0;
     while (fixed->source[node] != at) ++node;
     const Element& f = fixed->elements[node];
-    if (wishes.fixed[at].theta) {
-      const double off = f.theta - *wishes.fixed[at].theta;
+    if (constraints.fixed[at].theta) {
+      const double off = f.theta - *constraints.fixed[at].theta;
       EXPECT_NEAR(std::remainder(off, 2.0 * std::numbers::pi), 0.0, kSameHeading) << i;
     }
-    EXPECT_EQ(f.kappa, wishes.fixed[at].kappa.value_or(f.kappa)) << i;  // to the last bit
+    EXPECT_EQ(f.kappa, constraints.fixed[at].kappa.value_or(f.kappa)) << i;  // to the last bit
     EXPECT_EQ(fixed->turned_directions, 0U) << i;
     expect_inside_all_cones(*fixed, std::to_string(i));
     ++met;
@@ -188,10 +190,10 @@ TEST(SeriesChain, ContradictoryFixedDataAreRefused) {
   const auto free = chain_of(points);
   ASSERT_TRUE(free);
   const auto refused = [&](const char* what, std::size_t at, auto set) {
-    ChainWishes wishes;
-    wishes.fixed.resize(points.size());
-    set(wishes.fixed, at);
-    const auto chain = chain_of(points, wishes);
+    ChainConstraints constraints;
+    constraints.fixed.resize(points.size());
+    set(constraints.fixed, at);
+    const auto chain = chain_of(points, constraints);
     ASSERT_FALSE(chain) << what << ": turned " << chain->turned_directions;
     EXPECT_EQ(chain.error().code, ErrorCode::kFixedDataContradict) << what;
     EXPECT_FALSE(chain.error().where.empty()) << what;
@@ -215,7 +217,7 @@ TEST(SeriesChain, ContradictoryFixedDataAreRefused) {
 
 TEST(SeriesChain, AConvexWishIsKeptOrRefused) {
   const std::vector<Vec2> bend = involute_points();
-  ChainWishes convex;
+  ChainConstraints convex;
   convex.convex = true;
   const auto kept = chain_of(bend, convex);
   ASSERT_TRUE(kept) << to_line(kept.error());

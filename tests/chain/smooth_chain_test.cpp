@@ -303,16 +303,16 @@ TEST(SmoothSlopes, KeepGivenHeadingsAndCurvatures) {
   Watch nobody;
   const auto free = choose_elements(points, *analysis, {}, nobody);
   ASSERT_TRUE(free.has_value());
-  ChainWishes wishes;
-  wishes.fixed.resize(points.size());
-  wishes.fixed[2].theta = free->elements[2].theta + 1e-4 * free->links[2].sigma;
-  wishes.fixed[4].kappa = free->elements[4].kappa;
-  auto chain = choose_elements(points, *analysis, wishes, nobody);
+  ChainConstraints constraints;
+  constraints.fixed.resize(points.size());
+  constraints.fixed[2].theta = free->elements[2].theta + 1e-4 * free->links[2].sigma;
+  constraints.fixed[4].kappa = free->elements[4].kappa;
+  auto chain = choose_elements(points, *analysis, constraints, nobody);
   ASSERT_TRUE(chain.has_value());
   const SmoothedSlopes found = smooth_slopes(*chain, false, nobody);
   EXPECT_TRUE(found.stepped.empty());
-  EXPECT_NEAR(chain->elements[2].theta, *wishes.fixed[2].theta, 1e-14);
-  EXPECT_EQ(chain->elements[4].kappa, *wishes.fixed[4].kappa);
+  EXPECT_NEAR(chain->elements[2].theta, *constraints.fixed[2].theta, 1e-14);
+  EXPECT_EQ(chain->elements[4].kappa, *constraints.fixed[4].kappa);
 }
 
 }  // namespace

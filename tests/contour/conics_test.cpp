@@ -203,10 +203,10 @@ TEST(Conics, UnknownCurvaturesGiveTheMedianOfTheTangentsAlone) {
 std::vector<Element> chosen_elements(const std::vector<Vec2>& points) {
   const auto analysis = analyse(points);
   EXPECT_TRUE(analysis.has_value());
-  ChainWishes wishes;
-  wishes.convex = true;
+  ChainConstraints constraints;
+  constraints.convex = true;
   Watch nobody;
-  const auto chain = choose_elements(points, *analysis, wishes, nobody);
+  const auto chain = choose_elements(points, *analysis, constraints, nobody);
   EXPECT_TRUE(chain.has_value());
   std::vector<Element> elements;
   for (std::size_t i = 0; chain && i < chain->elements.size(); ++i) {

@@ -73,7 +73,8 @@ constexpr const char* kUnits[] = {"mm", "m", "in", "cm", "ft", "um", "km", "yd",
 class SeriesMaker {
  public:
   SeriesMaker(std::uint64_t seed, std::uint64_t index)
-      : dice_(seed * 0x100000001B3ULL ^ index), thinning_(~seed * 0x100000001B3ULL ^ index),
+      : dice_(seed * 0x100000001B3ULL ^ index),
+        thinning_(~seed * 0x100000001B3ULL ^ index),
         naming_((seed + 1) * 0x100000001B3ULL ^ ~index) {
     for (int i = 0; i < 4; ++i) {
       dice_.next();
@@ -217,8 +218,8 @@ class SeriesMaker {
     const bool closed =
         std::find(out_.options.begin(), out_.options.end(), "--closed") != out_.options.end();
     const auto n = static_cast<int>(points.size());
-    const int wishes = dice_.whole(1, 3);
-    for (int k = 0; k < wishes; ++k) {
+    const int constraints = dice_.whole(1, 3);
+    for (int k = 0; k < constraints; ++k) {
       const int kind = dice_.whole(closed ? 4 : 0, 6);
       const int i = kind < 4 ? (kind % 2 == 0 ? 1 : n) : dice_.whole(1, n);
       const bool honest = out_.truth.has_value() && dice_.chance(0.7);

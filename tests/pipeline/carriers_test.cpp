@@ -194,7 +194,7 @@ TEST(Carriers, KeepCorners) {
   for (const Carrier carrier :
        {Carrier::kSpiral, Carrier::kBspline, Carrier::kCubic, Carrier::kBaseline}) {
     FitJob job;
-    job.wishes.push_back({8, {}, {}, true});
+    job.constraints.push_back({8, {}, {}, true});
     const auto f = fit_with(carrier, points, job);
     ASSERT_TRUE(f) << to_string(carrier) << ": " << to_line(f.error());
     EXPECT_EQ(f->certificate.corners, 1) << to_string(carrier);
@@ -382,7 +382,7 @@ PointSeries cornered() {
 
 TEST(Compare, BehindACornerTheRegionsAreThoseBehindIt) {
   FitJob job;
-  job.wishes.push_back({8, {}, {}, true});
+  job.constraints.push_back({8, {}, {}, true});
   const auto c = compare_carriers(cornered(), job);
   ASSERT_TRUE(c);
   for (const ComparedCarrier& row : c->carriers) {

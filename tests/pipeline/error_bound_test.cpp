@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "verify/report.h"
 #include "../common/ten_points.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/compare.h"
 #include "obvid/pipeline/fit.h"
 #include "oracle_curves.h"
+#include "verify/report.h"
 
 namespace obvid {
 namespace {
@@ -291,7 +291,7 @@ TEST(PointsOnlyError, IsUnknownBetweenCornersThreePointsApart) {
   PointSeries series;
   series.points = {{0, 0}, {1, 0.2}, {2, 0}, {2.2, -1}, {2, -2}};
   FitJob job;
-  job.wishes.push_back({2, {}, {}, true});
+  job.constraints.push_back({2, {}, {}, true});
   const auto f = fit(series, job);
   ASSERT_TRUE(f) << to_line(f.error());
   EXPECT_EQ(f->certificate.corners, 1);

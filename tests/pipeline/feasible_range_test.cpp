@@ -23,10 +23,10 @@ PointSeries half_parabola() {
 
 FitJob wishing(std::size_t point, Datum datum, double value) {
   FitJob job;
-  PointWish wish;
+  PointConstraint wish;
   wish.index = point;
   (datum == Datum::kHeading ? wish.theta : wish.kappa) = value;
-  job.wishes.push_back(wish);
+  job.constraints.push_back(wish);
   return job;
 }
 
@@ -85,7 +85,7 @@ TEST(FeasibleRange, IsNothingWhereNothingIsFixed) {
 
 TEST(FeasibleRange, IsNothingWhereTwoDataAreInTheWay) {
   FitJob job = wishing(1, Datum::kHeading, 4.0);
-  job.wishes.push_back({4, 4.0, std::nullopt, false});
+  job.constraints.push_back({4, 4.0, std::nullopt, false});
   const auto refused = fit(half_parabola(), job);
   ASSERT_FALSE(refused);
   EXPECT_FALSE(feasible_range(half_parabola(), job, refused.error()));

@@ -167,13 +167,15 @@ TEST(FixedData, TwoValuesOfOneDatumAreRefusedWhereverTheyComeFrom) {
   using S = PointSeries;
   using J = FitJob;
   const Source file_theta = [](S& s, J&, double v) { s.fixed[0].theta = v; };
-  const Source point_theta = [](S&, J& j, double v) { j.wishes.push_back({0, v, {}, false}); };
+  const Source point_theta = [](S&, J& j, double v) { j.constraints.push_back({0, v, {}, false}); };
   const Source start_theta = [](S&, J& j, double v) { j.start_heading = v; };
   expect_one_value(points, file_theta, point_theta, first);
   expect_one_value(points, file_theta, start_theta, first);
   expect_one_value(points, point_theta, start_theta, first);
   const Source file_kappa = [](S& s, J&, double v) { s.fixed[kLast].kappa = v; };
-  const Source point_kappa = [](S&, J& j, double v) { j.wishes.push_back({kLast, {}, v, false}); };
+  const Source point_kappa = [](S&, J& j, double v) {
+    j.constraints.push_back({kLast, {}, v, false});
+  };
   const Source end_kappa = [](S&, J& j, double v) { j.end_kappa = v; };
   expect_one_value(points, file_kappa, point_kappa, 1.0 / last);
   expect_one_value(points, file_kappa, end_kappa, 1.0 / last);
@@ -183,7 +185,7 @@ TEST(FixedData, TwoValuesOfOneDatumAreRefusedWhereverTheyComeFrom) {
 TEST(FixedData, AWholeTurnMoreIsTheSameHeading) {
   FitJob job;
   job.start_heading = involute_parameter(0);
-  job.wishes.push_back({0, involute_parameter(0) - 2.0 * std::numbers::pi, {}, false});
+  job.constraints.push_back({0, involute_parameter(0) - 2.0 * std::numbers::pi, {}, false});
   EXPECT_TRUE(fit(involute(), job));
 }
 

@@ -60,10 +60,10 @@ struct Wish {
   FitJob job;
 };
 
-std::vector<Wish> wishes() {
+std::vector<Wish> constraints() {
   std::vector<Wish> out;
   FitJob inner;
-  inner.wishes.push_back({4, 80.0 * kDegree, {}, false});
+  inner.constraints.push_back({4, 80.0 * kDegree, {}, false});
   out.push_back({"a heading inside", inner});
   FitJob end_radius;
   end_radius.end_kappa = -1.0 / 500.0;
@@ -75,7 +75,7 @@ std::vector<Wish> wishes() {
   end_heading.end_heading = -39.0 * kDegree;
   out.push_back({"a heading at the end", end_heading});
   FitJob radius_inside;
-  radius_inside.wishes.push_back({4, {}, -1.0 / 33.0, false});
+  radius_inside.constraints.push_back({4, {}, -1.0 / 33.0, false});
   out.push_back({"a radius inside", radius_inside});
   FitJob both = inner;
   both.end_kappa = -1.0 / 500.0;
@@ -86,7 +86,7 @@ std::vector<Wish> wishes() {
 
 TEST(GivenData, EveryCarrierKeepsThemOrRefuses) {
   std::size_t kept = 0, refused = 0;
-  for (const Wish& wish : wishes()) {
+  for (const Wish& wish : constraints()) {
     for (const Carrier carrier : kAllCarriers) {
       FitJob job = wish.job;
       job.carrier = carrier;
@@ -113,8 +113,8 @@ TEST(GivenData, EveryCarrierKeepsThemOrRefuses) {
 
 TEST(GivenData, TheReportCountsThem) {
   FitJob job;
-  job.wishes.push_back({4, 80.0 * kDegree, {}, false});
-  job.wishes.push_back({7, {}, {}, true});
+  job.constraints.push_back({4, 80.0 * kDegree, {}, false});
+  job.constraints.push_back({7, {}, {}, true});
   job.end_kappa = -1.0 / 500.0;
   const auto f = fit(ten_points(), job);
   ASSERT_TRUE(f) << to_line(f.error());
@@ -125,7 +125,7 @@ TEST(GivenData, TheReportCountsThem) {
 
 TEST(GivenData, AFileWhoseContourMissesThemIsFalse) {
   FitJob job;
-  job.wishes.push_back({4, 80.0 * kDegree, {}, false});
+  job.constraints.push_back({4, 80.0 * kDegree, {}, false});
   auto f = fit(ten_points(), job);
   ASSERT_TRUE(f);
   const auto verdict = [&] { return verify({f->contour, f->report, f->certificate}); };
@@ -139,7 +139,7 @@ TEST(GivenData, AFileWhoseContourMissesThemIsFalse) {
 
 TEST(GivenData, StandInTheFile) {
   FitJob job;
-  job.wishes.push_back({4, 80.0 * kDegree, -1.0 / 33.0, false});
+  job.constraints.push_back({4, 80.0 * kDegree, -1.0 / 33.0, false});
   const auto f = fit(ten_points(), job);
   ASSERT_TRUE(f) << to_line(f.error());
   const auto stored =

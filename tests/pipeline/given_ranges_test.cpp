@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "../common/ten_points.h"
 #include "fit/given.h"
 #include "fit/series_ranges.h"
-#include "../common/ten_points.h"
 #include "obvid/curve/internal/nearest.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/io/contour_json.h"
@@ -30,15 +30,15 @@ PointSeries reference_series() {
   return series;
 }
 
-PointWish heading_range(std::size_t point, double low_deg, double high_deg) {
-  PointWish wish;
+PointConstraint heading_range(std::size_t point, double low_deg, double high_deg) {
+  PointConstraint wish;
   wish.index = point;
   wish.thetas = ValueRange{low_deg * kOneDegree, high_deg * kOneDegree};
   return wish;
 }
 
-PointWish kappa_range(std::size_t point, double low, double high) {
-  PointWish wish;
+PointConstraint kappa_range(std::size_t point, double low, double high) {
+  PointConstraint wish;
   wish.index = point;
   wish.kappas = ValueRange{low, high};
   return wish;
@@ -64,7 +64,7 @@ std::vector<Jet> sides_of(const Contour& contour, std::size_t point) {
   return out;
 }
 
-void expect_inside(const Contour& contour, const PointWish& wish) {
+void expect_inside(const Contour& contour, const PointConstraint& wish) {
   const std::vector<Jet> sides = sides_of(contour, wish.index);
   ASSERT_FALSE(sides.empty());
   double low = HUGE_VAL, high = -HUGE_VAL;
@@ -89,7 +89,7 @@ void expect_inside(const Contour& contour, const PointWish& wish) {
 }
 
 /// None of them holds what the fairest contour has: heading 80.4 degrees, radius -33.9.
-std::vector<PointWish> narrow_ranges() {
+std::vector<PointConstraint> narrow_ranges() {
   return {heading_range(4, 76.0, 78.0),
           heading_range(4, 82.0, 84.0),
           kappa_range(4, -1.0 / 31.0, -1.0 / 32.0 + 1e-4),
@@ -100,11 +100,11 @@ std::vector<PointWish> narrow_ranges() {
 
 TEST(GivenRanges, EveryCarrierKeepsThemOrRefuses) {
   std::size_t kept = 0, refused = 0;
-  for (const PointWish& wish : narrow_ranges()) {
+  for (const PointConstraint& wish : narrow_ranges()) {
     for (const Carrier carrier : kAllCarriers) {
       FitJob job;
       job.carrier = carrier;
-      job.wishes.push_back(wish);
+      job.constraints.push_back(wish);
       const auto f = fit(reference_series(), job);
       SCOPED_TRACE(std::string(to_string(carrier)) + " at point " + std::to_string(wish.index + 1));
       if (!f) {
@@ -128,17 +128,17 @@ TEST(GivenRanges, EveryCarrierKeepsThemOrRefuses) {
 TEST(GivenRanges, OfTwoThatAreAFullTurnApartTheCommonPartHolds) {
   FitJob job;
   for (const double turns : {-720.0, 0.0, 360.0}) {
-    job.wishes = {heading_range(4, 70.0 + turns, 78.0 + turns), heading_range(4, 76.0, 90.0)};
+    job.constraints = {heading_range(4, 70.0 + turns, 78.0 + turns), heading_range(4, 76.0, 90.0)};
     const auto f = fit(reference_series(), job);
     ASSERT_TRUE(f) << to_line(f.error());
     expect_inside(f->contour, heading_range(4, 76.0, 78.0));
   }
-  job.wishes = {heading_range(4, 350.0, 430.0), heading_range(4, 80.0, 100.0)};
+  job.constraints = {heading_range(4, 350.0, 430.0), heading_range(4, 80.0, 100.0)};
   EXPECT_EQ(fit(reference_series(), job).error().code, ErrorCode::kFixedDataContradict);
-  job.wishes = {heading_range(4, 0.0, 300.0), heading_range(4, 250.0, 380.0)};
+  job.constraints = {heading_range(4, 0.0, 300.0), heading_range(4, 250.0, 380.0)};
   EXPECT_EQ(fit(reference_series(), job).error().code, ErrorCode::kFixedDataContradict)
       << "0..20 and 250..300 are left";
-  job.wishes = {heading_range(4, 0.0, 400.0), heading_range(4, 76.0, 78.0)};
+  job.constraints = {heading_range(4, 0.0, 400.0), heading_range(4, 76.0, 78.0)};
   const auto free = fit(reference_series(), job);
   ASSERT_TRUE(free) << to_line(free.error());
   expect_inside(free->contour, heading_range(4, 76.0, 78.0));
@@ -146,7 +146,7 @@ TEST(GivenRanges, OfTwoThatAreAFullTurnApartTheCommonPartHolds) {
 
 TEST(GivenRanges, TheEndAtWhichTheContourLiesIsNamed) {
   FitJob job;
-  job.wishes.push_back(heading_range(4, 76.0, 78.0));
+  job.constraints.push_back(heading_range(4, 76.0, 78.0));
   job.end_kappas = ValueRange{-1.0 / 400.0, -1.0 / 500.0};
   const auto f = fit(reference_series(), job);
   ASSERT_TRUE(f) << to_line(f.error());
@@ -199,7 +199,7 @@ TEST(GivenRanges, OnlyTheEndItselfSaysHowNearIsAtTheEnd) {
 
 TEST(GivenRanges, ThoseThatHoldTheFairestContourChangeNothing) {
   FitJob job;
-  job.wishes.push_back(heading_range(4, 79.0, 82.0));
+  job.constraints.push_back(heading_range(4, 79.0, 82.0));
   const auto f = fit(reference_series(), job), free = fit(reference_series(), {});
   ASSERT_TRUE(f && free);
   EXPECT_TRUE(f->report.given.active.empty());
@@ -210,7 +210,7 @@ TEST(GivenRanges, ThoseThatHoldTheFairestContourChangeNothing) {
 
 TEST(GivenRanges, AFalseRangeOrEndInAFileIsFound) {
   FitJob job;
-  job.wishes.push_back(heading_range(4, 76.0, 78.0));
+  job.constraints.push_back(heading_range(4, 76.0, 78.0));
   const auto f = fit(reference_series(), job);
   ASSERT_TRUE(f);
   StoredContour stored{f->contour, f->report, f->certificate};
@@ -228,7 +228,7 @@ TEST(GivenRanges, AFalseRangeOrEndInAFileIsFound) {
 
 TEST(GivenRanges, AFileKeepsThem) {
   FitJob job;
-  job.wishes.push_back(heading_range(4, 76.0, 78.0));
+  job.constraints.push_back(heading_range(4, 76.0, 78.0));
   job.end_kappas = ValueRange{-HUGE_VAL, -1.0 / 500.0};
   const auto f = fit(reference_series(), job);
   ASSERT_TRUE(f);
@@ -250,12 +250,12 @@ TEST(GivenRanges, OneOutsideWhatThePointsAllowIsRefusedAndOneAcrossItsEndIsNot) 
     const HeadingRange& here = *(*ranges)[i].heading;
     const double step = 0.01 * (here.high - here.low);
     FitJob outside, across;
-    PointWish wish;
+    PointConstraint wish;
     wish.index = i;
     wish.thetas = ValueRange{here.high + step, here.high + 0.3};
-    outside.wishes.push_back(wish);
+    outside.constraints.push_back(wish);
     wish.thetas->low = here.high - step;
-    across.wishes.push_back(wish);
+    across.constraints.push_back(wish);
     const auto none = fit(reference_series(), outside), some = fit(reference_series(), across);
     ASSERT_FALSE(none) << i;
     EXPECT_EQ(none.error().code, ErrorCode::kFixedDataContradict);
@@ -274,17 +274,17 @@ TEST(GivenRanges, ManyTogetherAreKept) {
   ASSERT_TRUE(table);
   FitJob job;
   for (std::size_t i = 0; i < kTenPoints.size(); ++i) {
-    PointWish wish;
+    PointConstraint wish;
     wish.index = i;
     const double theta = std::remainder(table->elements[i].theta, 2.0 * std::numbers::pi);
     wish.thetas = ValueRange{theta - 0.02 * kOneDegree, theta + 0.02 * kOneDegree};
-    job.wishes.push_back(wish);
+    job.constraints.push_back(wish);
   }
   const auto f = fit(reference_series(), job);
   ASSERT_TRUE(f) << to_line(f.error());
   EXPECT_TRUE(f->certificate.proved);
   EXPECT_EQ(f->certificate.vertices, 0);
-  for (const PointWish& wish : job.wishes) expect_inside(f->contour, wish);
+  for (const PointConstraint& wish : job.constraints) expect_inside(f->contour, wish);
 }
 
 /// Integral of (d kappa / d s)^2 by many small steps.
@@ -310,14 +310,14 @@ double largest_curvature(const Contour& contour) {
 TEST(GivenRanges, WhatTheyLeaveToOthersIsWhatTheirValuesLeave) {
   const auto analysis = analyse(kTenPoints);
   ASSERT_TRUE(analysis);
-  const auto heading_at = [&](std::size_t at, const ChainWishes& wishes) {
-    const auto ranges = pipeline_detail::series_ranges(*analysis, wishes);
+  const auto heading_at = [&](std::size_t at, const ChainConstraints& constraints) {
+    const auto ranges = pipeline_detail::series_ranges(*analysis, constraints);
     return ranges ? (*ranges)[at].heading : std::nullopt;
   };
   const ValueRange kappas{-0.036, -0.031}, thetas{76.0 * kOneDegree, 79.0 * kOneDegree};
   for (const bool heading : {false, true}) {
     for (const std::size_t at : {std::size_t{3}, std::size_t{5}, std::size_t{7}}) {
-      ChainWishes whole;
+      ChainConstraints whole;
       whole.fixed.resize(kTenPoints.size());
       (heading ? whole.fixed[4].thetas : whole.fixed[4].kappas) = heading ? thetas : kappas;
       const auto found = heading_at(at, whole);
@@ -327,7 +327,7 @@ TEST(GivenRanges, WhatTheyLeaveToOthersIsWhatTheirValuesLeave) {
       for (int k = 0; k <= kValues; ++k) {
         const ValueRange& range = heading ? thetas : kappas;
         const double value = range.low + (range.high - range.low) * k / kValues;
-        ChainWishes one;
+        ChainConstraints one;
         one.fixed.resize(kTenPoints.size());
         (heading ? one.fixed[4].theta : one.fixed[4].kappa) = value;
         const auto here = heading_at(at, one);
@@ -363,7 +363,7 @@ TEST(Preferences, NoContourHasALargestCurvatureMuchBelowTheLeast) {
   const double most = largest_curvature(f->contour);
   EXPECT_LT(most, 0.95 * largest_curvature(fit(reference_series(), {})->contour));
   FitJob below;
-  below.wishes.push_back(kappa_range(0, -0.98 * most, 0.98 * most));
+  below.constraints.push_back(kappa_range(0, -0.98 * most, 0.98 * most));
   const auto none = fit(reference_series(), below);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::kFixedDataContradict);
@@ -426,7 +426,7 @@ TEST(Preferences, OfAClosedSeriesCloseAndKeepTheirWord) {
   FitJob below;
   below.closing = Closing::kClosed;
   for (std::size_t i = 0; i < series.points.size(); ++i) {
-    below.wishes.push_back(kappa_range(i, -0.98 * most, 0.98 * most));
+    below.constraints.push_back(kappa_range(i, -0.98 * most, 0.98 * most));
   }
   const auto none = fit(series, below);
   ASSERT_FALSE(none);
@@ -445,7 +445,7 @@ TEST(Preferences, WithNoiseThereAreNone) {
 TEST(GivenRanges, AreKeptWithinTolerancesOfThePointsToo) {
   FitJob job;
   job.noise = 0.01;
-  job.wishes.push_back(heading_range(4, 76.0, 78.0));
+  job.constraints.push_back(heading_range(4, 76.0, 78.0));
   job.end_kappas = ValueRange{-1.0 / 400.0, -1.0 / 500.0};
   const auto f = fit(reference_series(), job);
   ASSERT_TRUE(f) << to_line(f.error());

@@ -232,7 +232,7 @@ TEST(JoinedNurbs, CornersAreKnotsOfFullMultiplicity) {
   for (int i = 0; i <= 8; ++i) points.push_back({0.25 * i - 2.0, -0.05 * (i - 9.0) * (i - 9.0)});
   for (int i = 1; i <= 8; ++i) points.push_back({0.02 * i * i, -0.05 - 0.25 * i});
   FitJob job;
-  job.wishes.push_back({8, {}, {}, true});
+  job.constraints.push_back({8, {}, {}, true});
   const Contour contour = contour_through(points, Carrier::kSpiral, job);
   const auto curve = joined_nurbs(contour);
   ASSERT_TRUE(curve);

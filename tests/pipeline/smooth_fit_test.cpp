@@ -201,11 +201,11 @@ TEST(SmoothFit, KeepsGivenHeadingsAndCurvatures) {
   ASSERT_TRUE(open);
   job.start_heading = open->contour.joints[0].element.theta + 1e-3;
   job.end_kappa = open->contour.joints[11].element.kappa * 1.01;
-  PointWish wish;
+  PointConstraint wish;
   wish.index = 5;
   wish.theta = open->contour.joints[5].element.theta - 1e-4;
   wish.kappa = open->contour.joints[5].element.kappa * 1.002;
-  job.wishes.push_back(wish);
+  job.constraints.push_back(wish);
   const auto made = fit(series, job);
   ASSERT_TRUE(made) << made.error().what;
   EXPECT_TRUE(made->certificate.proved) << made->certificate.reason;

@@ -164,7 +164,7 @@ TEST(SpaceChainTest, ASmoothCurveHasNoCornersAndOneIsMarked) {
   ASSERT_TRUE(smooth) << to_line(smooth.error());
   EXPECT_TRUE(smooth->corners.empty());
   EXPECT_EQ(smooth->parts.size(), 1U);
-  job.fit.wishes.push_back({5, std::nullopt, std::nullopt, true});
+  job.fit.constraints.push_back({5, std::nullopt, std::nullopt, true});
   const auto marked = fit_space_chain(helix, job);
   ASSERT_TRUE(marked) << to_line(marked.error());
   ASSERT_EQ(marked->corners.size(), 1U);
@@ -195,19 +195,19 @@ TEST(SpaceChainTest, DataAtPointsBelongToOnePart) {
   SpaceSeries late = rail();
   late.points.erase(late.points.begin(), late.points.begin() + 5);
   SpaceJob job = along_x();
-  PointWish wish;
+  PointConstraint wish;
   wish.index = 13;  // of the helix, the third behind the corner
   wish.theta = 0.0;
   job.fit.noise = 0.05;
   const double seen =
       fit_space_chain(late, along_x())->parts[1].plan.contour.joints[3].element.theta;
   wish.theta = seen + 0.01;
-  job.fit.wishes = {wish};
+  job.fit.constraints = {wish};
   const auto made = fit_space_chain(late, job);
   ASSERT_TRUE(made) << to_line(made.error());
   EXPECT_EQ(made->parts[1].plan.report.given.headings, 1);
   wish.index = made->corners[0].point;
-  job.fit.wishes = {wish};
+  job.fit.constraints = {wish};
   const auto refused = fit_space_chain(late, job);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kBadOption);

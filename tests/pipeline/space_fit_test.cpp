@@ -203,7 +203,7 @@ TEST(SpaceFitTest, WhatIsNotFormedIsRefusedByName) {
                      {5, 10, 1}, {0, 10, 0}, {0, 5, 1},  {0, 0, 0}};
   job = {};
   job.along = Vec3{0, 0, 1};
-  job.fit.wishes = {{2, {}, {}, true}};
+  job.fit.constraints = {{2, {}, {}, true}};
   made = fit_space(cornered, job);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, ErrorCode::kUnsupported);

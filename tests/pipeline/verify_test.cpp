@@ -569,7 +569,7 @@ TEST(Verify, AGivenCornerStandsWhereTheFileSays) {
   PointSeries series;
   series.points = {{0, 0}, {10, 1}, {20, 3}, {30, 7}, {30, 17}, {31, 27}, {34, 37}, {40, 46}};
   FitJob job;
-  job.wishes = {{3, {}, {}, true}};
+  job.constraints = {{3, {}, {}, true}};
   auto made = fit(series, job);
   ASSERT_TRUE(made);
   ASSERT_TRUE(made->certificate.proved);

@@ -58,15 +58,15 @@ PointSeries of_line() {
 
 constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
 
-PointWish heading_at(std::size_t i, double theta) {
-  PointWish out;
+PointConstraint heading_at(std::size_t i, double theta) {
+  PointConstraint out;
   out.index = i;
   out.theta = theta;
   return out;
 }
 
-PointWish curvature_beside(std::size_t i, double kappa) {
-  PointWish out;
+PointConstraint curvature_beside(std::size_t i, double kappa) {
+  PointConstraint out;
   out.index = i;
   out.kappa = kappa;
   return out;
@@ -76,7 +76,7 @@ TEST(WholeCircle, KeepsGivenDataThatItHas) {
   const PointSeries arc = of_circle(10, 0.1), around = of_circle(24, std::numbers::pi / 12.0);
   struct GivenOnCircle {
     const PointSeries& series;
-    PointWish wish;
+    PointConstraint wish;
     Closing closing;
   };
   const PointSeries line = of_line();
@@ -96,7 +96,7 @@ TEST(WholeCircle, KeepsGivenDataThatItHas) {
         job.closing = one.closing;
         job.carrier = carrier;
         job.noise = noise;
-        job.wishes = {one.wish};
+        job.constraints = {one.wish};
         const auto made = fit(one.series, job);
         ASSERT_TRUE(made) << to_line(made.error());
         EXPECT_TRUE(made->certificate.proved);
@@ -113,25 +113,25 @@ TEST(WholeCircle, KeepsGivenDataThatItHas) {
 
 TEST(WholeCircle, RefusesOtherDataAndNamesThePoint) {
   const PointSeries arc = of_circle(10, 0.1);
-  PointWish other_headings, other_curvatures, own;
+  PointConstraint other_headings, other_curvatures, own;
   other_headings.index = other_curvatures.index = own.index = 3;
   other_headings.thetas = ValueRange{kQuarterTurn + 0.31, kQuarterTurn + 0.4};
   other_curvatures.kappas = ValueRange{0.15, 0.2};
   own.thetas = ValueRange{kQuarterTurn + 0.29, kQuarterTurn + 0.31};
   own.kappas = ValueRange{0.14, 0.15};
-  for (const PointWish& wish :
+  for (const PointConstraint& wish :
        {heading_at(3, kQuarterTurn + 0.3 + 1e-5), heading_at(3, -kQuarterTurn + 0.3),
         curvature_beside(3, -1.0 / 7.0), curvature_beside(3, 1.0001 / 7.0), other_headings,
         other_curvatures}) {
     FitJob job;
-    job.wishes = {wish};
+    job.constraints = {wish};
     const auto made = fit(arc, job);
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().code, ErrorCode::kFixedDataContradict);
     EXPECT_EQ(made.error().where, "point 4");
   }
   FitJob job;
-  job.wishes = {own};
+  job.constraints = {own};
   const auto made = fit(arc, job);
   ASSERT_TRUE(made) << to_line(made.error());
   EXPECT_EQ(made->report.given.heading_ranges, 1);
@@ -141,14 +141,14 @@ TEST(WholeCircle, RefusesOtherDataAndNamesThePoint) {
 TEST(WholeCircle, ThreePointsKeepTheirCircleWhereItHasWhatIsGiven) {
   const PointSeries arc = of_circle(3, 0.5);
   FitJob job;
-  job.wishes = {heading_at(1, kQuarterTurn + 0.5)};
+  job.constraints = {heading_at(1, kQuarterTurn + 0.5)};
   const auto own = fit(arc, job);
   ASSERT_TRUE(own) << to_line(own.error());
   for (const Piece& piece : own->contour.pieces) {
     ASSERT_TRUE(std::holds_alternative<ArcPiece>(piece));
     EXPECT_NEAR(std::get<ArcPiece>(piece).kappa, 1.0 / 7.0, 1e-12);
   }
-  job.wishes = {heading_at(1, kQuarterTurn + 0.49)};  // another curve has that
+  job.constraints = {heading_at(1, kQuarterTurn + 0.49)};  // another curve has that
   const auto other = fit(arc, job);
   ASSERT_TRUE(other) << to_line(other.error());
   EXPECT_FALSE(std::holds_alternative<ArcPiece>(other->contour.pieces.front()));

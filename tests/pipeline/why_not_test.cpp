@@ -115,10 +115,10 @@ TEST(WhyNot, KeepsAFixedHeadingThatExactPointsRefuse) {
   }
   const PointSeries series = series_through(std::move(points));
   FitJob job;
-  PointWish wish;
+  PointConstraint wish;
   wish.index = 4;
   wish.theta = -0.3 * 4 - 0.35;  // the tangent there is near -1.2
-  job.wishes.push_back(wish);
+  job.constraints.push_back(wish);
   const auto why = why_not(series, job);
   ASSERT_TRUE(why);
   expect_sound(*why, series, job);
@@ -155,10 +155,10 @@ TEST(WhyNot, WhatIsNextToNothingIsAdvisedBesideTheWidthOfTheRegion) {
   const auto series = read_points(std::string(OBVID_TEST_DATA) + "/found/coil_85.csv");
   ASSERT_TRUE(series);
   FitJob job;
-  PointWish wish;
+  PointConstraint wish;
   wish.index = 1;
   wish.theta = 0.0;  // the tangent there is near 109 degrees
-  job.wishes.push_back(wish);
+  job.constraints.push_back(wish);
   const auto why = why_not(*series, job);
   ASSERT_TRUE(why);
   ASSERT_TRUE(why->next_to_nothing);

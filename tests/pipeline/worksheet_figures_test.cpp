@@ -216,7 +216,7 @@ TEST(WorksheetFigures, AHeadingInItsRangeHasAContourWhereAdjacentCirclesMislead)
   // headings of the other points with which spirals exist over every chord were found by the judge
   FitJob job;
   job.continuity = Continuity::kG2;
-  job.wishes.push_back({9, 247.33649875950192 * kOneDegree, {}, false});
+  job.constraints.push_back({9, 247.33649875950192 * kOneDegree, {}, false});
   const auto made = fit(places(points), job);
   ASSERT_TRUE(made) << made.error().what;
   EXPECT_TRUE(made->certificate.proved);

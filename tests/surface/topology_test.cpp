@@ -26,8 +26,7 @@ TEST(Topology, SidesAreTheSurfacesOwnBordersWithItsWeights) {
     ASSERT_TRUE(check(border));
     for (const double t : {0.0, 0.3, 1.0}) {
       const double end = is_far_end(side) ? 1.0 : 0.0;
-      const Vec3 there =
-          runs_along_u(side) ? evaluate(s, t, end).point : evaluate(s, end, t).point;
+      const Vec3 there = runs_along_u(side) ? evaluate(s, t, end).point : evaluate(s, end, t).point;
       EXPECT_LT(norm(evaluate(border, t).point - there), 1e-14) << side;
     }
     EXPECT_EQ(opposite(opposite(side)), side);
@@ -48,7 +47,7 @@ TEST(Topology, NeighboursShareAnEdgeWhicheverWayTheyRun) {
     const EdgeUse& use = edge.uses[1];
     EXPECT_EQ(&use, &t.use(1, use.side));
     EXPECT_EQ(use.patch, 1U);
-    EXPECT_FALSE(use.own_pace);
+    EXPECT_FALSE(use.other_parameters);
     const SpaceCurve side = border_of(other, use.side);
     EXPECT_EQ(use.along, side.points.front() == edge.curve.points.front());
   }
@@ -94,7 +93,7 @@ TEST(Topology, OneCurveAtAnotherPaceIsOneEdgeAndSaysSo) {
     const Topology t = topology_of({&kSquare, &other}, kNear);
     const TopologyEdge& edge = t.edges[t.edge_of[0][kUEnd]];
     ASSERT_EQ(edge.uses.size(), 2U);
-    EXPECT_TRUE(edge.uses[1].own_pace);
+    EXPECT_TRUE(edge.uses[1].other_parameters);
     EXPECT_EQ(edge.uses[1].along, along);
     EXPECT_LE(edge.uses[1].gap, 1e-12);
   }
@@ -116,8 +115,8 @@ TEST(Topology, GapsOfCornersAndBordersAreTold) {
 TEST(Topology, SeamsPolesAndClosedBorders) {
   // half a circle turned once: a sphere, seam along the meridian, two points
   const SpaceCurve meridian = arc_about({0, 0, -2}, {0, 0, 0}, {0, -1, 0}, std::acos(-1.0));
-  const auto sphere = to_nurbs(
-      RevolutionSurface{meridian, {0, 0, 0}, {0, 0, 1}, 2.0 * std::acos(-1.0)}, kNear);
+  const auto sphere =
+      to_nurbs(RevolutionSurface{meridian, {0, 0, 0}, {0, 0, 1}, 2.0 * std::acos(-1.0)}, kNear);
   ASSERT_TRUE(sphere);
   const Topology t = topology_of({{"sphere"}, {}, {{"ball", sphere->surface}}});
   ASSERT_EQ(t.edges.size(), 3U);
@@ -130,11 +129,10 @@ TEST(Topology, SeamsPolesAndClosedBorders) {
   }
   EXPECT_EQ(points, 2U);
   // a tube: both circles begin and end in one vertex each
-  const auto tube = to_nurbs(RevolutionSurface{line_between({1, 0, 0}, {1, 0, 3}),
-                                               {0, 0, 0},
-                                               {0, 0, 1},
-                                               2.0 * std::acos(-1.0)},
-                             kNear);
+  const auto tube = to_nurbs(
+      RevolutionSurface{
+          line_between({1, 0, 0}, {1, 0, 3}), {0, 0, 0}, {0, 0, 1}, 2.0 * std::acos(-1.0)},
+      kNear);
   const Topology round = topology_of({&tube->surface}, kNear);
   EXPECT_EQ(round.vertices.size(), 2U);
   EXPECT_EQ(round.edges.size(), 3U);
@@ -144,8 +142,7 @@ TEST(Topology, NothingDependsOnSizeAndPlace) {
   for (const double scale : {1e-9, 1.0, 1e9}) {
     for (const double away : {0.0, 1e5}) {
       SurfaceModel model{"two", {}, {}};
-      model.patches = {{"a", kSquare},
-                       {"b", plate({1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 0})}};
+      model.patches = {{"a", kSquare}, {"b", plate({1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 0})}};
       for (SurfacePatch& patch : model.patches) {
         for (Vec3& p : patch.surface.points) p = scale * (p + Vec3{away, -away, away});
       }

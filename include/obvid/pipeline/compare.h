@@ -27,7 +27,7 @@ struct ComparedCarrier {
   double seconds = 0.0;  ///< one call of `fit`, median of several
 };
 
-/// All carriers through the same points with the same wishes; the spirals come first.
+/// All carriers through the same points with the same constraints; the spirals come first.
 struct Comparison {
   std::vector<ComparedCarrier> carriers;
 };

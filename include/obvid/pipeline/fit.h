@@ -23,8 +23,8 @@ enum class Closing {
   kOpen,
 };
 
-/// What is wished at one point beyond what the series itself fixes.
-struct PointWish {
+/// What is given at one point beyond what the series itself fixes.
+struct PointConstraint {
   std::size_t index = 0;               ///< of the point as it was read, from 0
   std::optional<double> theta;         ///< heading, rad
   std::optional<double> kappa;         ///< signed curvature, 1/unit
@@ -71,10 +71,11 @@ struct FitJob {
   /// closed curve do; its last point is its first one so moved, and the contour is looked for with
   /// what lies beyond.
   std::optional<Vec2> period{};
-  bool find_corners = true;             ///< where the series turns at once; else only marked ones
-  std::optional<double> corner_angle;   ///< rad, what counts as a corner at least
-  bool primitives = false;              ///< exact lines and arcs where the points allow them
-  std::vector<PointWish> wishes;        ///< ascending, at most one per point; range not checked
+  bool find_corners = true;            ///< where the series turns at once; else only marked ones
+  std::optional<double> corner_angle;  ///< rad, what counts as a corner at least
+  bool primitives = false;             ///< exact lines and arcs where the points allow them
+  std::vector<PointConstraint>
+      constraints;                      ///< ascending, at most one per point; range not checked
   bool measure_against_spirals = true;  ///< other carriers: how far they are from the spirals
 };
 

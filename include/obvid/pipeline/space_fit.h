@@ -107,11 +107,11 @@ struct SpaceChain {
 };
 
 /// Cuts a series at its corners and forms each part as `fit_space` does, planar ones in the plane
-/// through both of their ends, two points as a line. Corners are those that are marked (`wishes`,
-/// `fixed`) and those of the series laid into a plane with its chords and turns, found there as in
-/// a contour. A planar series is one contour with its corners.
-/// Errors: those of `fit_space`, of a part with its points; E203 headings or radii at a corner, at
-/// the ends of a closed chain or of a line.
+/// through both of their ends, two points as a line. Corners are those that are marked
+/// (`constraints`, `fixed`) and those of the series laid into a plane with its chords and turns,
+/// found there as in a contour. A planar series is one contour with its corners. Errors: those of
+/// `fit_space`, of a part with its points; E203 headings or radii at a corner, at the ends of a
+/// closed chain or of a line.
 [[nodiscard]] Result<SpaceChain> fit_space_chain(const SpaceSeries& series, const SpaceJob& job,
                                                  const RunContext& run = {});
 

@@ -37,7 +37,7 @@ class Joiner {
         joint.gap = first.gap + second.gap;
         joint.uses = 2;
         out_.sides[second.patch][second.side] = {number, first.along == second.along,
-                                                 first.own_pace || second.own_pace};
+                                                 first.other_parameters || second.other_parameters};
         partners_[number] = second;
         placed[k] = true;
         break;

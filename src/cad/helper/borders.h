@@ -19,8 +19,8 @@ inline constexpr std::array<PatchSide, 4> kBoundary = {kVStart, kUEnd, kVEnd, kU
 /// Where a patch has an edge.
 struct JointUse {
   std::size_t edge = 0;
-  bool along = true;      ///< the edge runs as the side does
-  bool own_pace = false;  ///< the side has other parameters than the edge
+  bool along = true;              ///< the edge runs as the side does
+  bool other_parameters = false;  ///< the side has other parameters than the edge
 };
 
 struct JointEdge {

@@ -161,7 +161,7 @@ class Builder {
     }
     const Range range = domain(joint.curve);
     builder_.Range(edge, face, range.from, range.to);
-    if (!use.own_pace) return;
+    if (!use.other_parameters) return;
     builder_.SameParameter(edge, false);  // the line in the face gets the pace of the edge
     BRepLib::SameParameter(edge, tolerance);
   }

@@ -96,7 +96,7 @@ class RangeSearch {
     const std::size_t n = series_.points.size();
     std::vector<FixedData> all = series_.fixed;
     all.resize(n);
-    for (const PointWish& wish : job_.wishes) {
+    for (const PointConstraint& wish : job_.constraints) {
       if (wish.index >= n) continue;
       if (wish.theta) all[wish.index].theta = wish.theta;
       if (wish.kappa) all[wish.index].kappa = wish.kappa;
@@ -137,7 +137,7 @@ class RangeSearch {
       (heading ? data.thetas : data.kappas).reset();
     };
     if (given.point < series.fixed.size()) drop(series.fixed[given.point]);
-    for (PointWish& wish : job.wishes) {
+    for (PointConstraint& wish : job.constraints) {
       if (wish.index == given.point) drop(wish);
     }
     if (given.point == 0) {
@@ -229,21 +229,22 @@ class RangeSearch {
     }
     const auto analysis = analyse(series.points);
     if (!analysis) return std::nullopt;
-    const ChainWishes wishes{series.fixed, series.convex};
-    if (is_few_on_one_circle(series.points, *analysis)) return ranges_of_few(*analysis, wishes);
-    auto ranges = series_ranges(*analysis, wishes);
+    const ChainConstraints constraints{series.fixed, series.convex};
+    if (is_few_on_one_circle(series.points, *analysis))
+      return ranges_of_few(*analysis, constraints);
+    auto ranges = series_ranges(*analysis, constraints);
     if (!ranges) return std::nullopt;
     return std::move(*ranges);
   }
 
-  /// Two or three points do not say whether the curvature grows or falls: the way in which something
-  /// that is given has a range.
+  /// Two or three points do not say whether the curvature grows or falls: the way in which
+  /// something that is given has a range.
   [[nodiscard]] std::optional<std::vector<FeasibleData>> ranges_of_few(
-      Analysis analysis, const ChainWishes& wishes) const {
+      Analysis analysis, const ChainConstraints& constraints) const {
     analysis.stretches.clear();
     for (const std::int8_t direction : {std::int8_t{1}, std::int8_t{-1}}) {
       analysis.direction.assign(analysis.direction.size(), direction);
-      auto ranges = series_ranges(analysis, wishes);
+      auto ranges = series_ranges(analysis, constraints);
       if (!ranges) continue;
       const bool any = std::any_of(given_.begin(), given_.end(), [&](const Given& given) {
         const FeasibleData& here = (*ranges)[given.point];

@@ -44,8 +44,8 @@ constexpr std::array<SpiralForm, 2> kForms{SpiralForm::kEven, SpiralForm::kOneSi
 
 class EdgeChain {
  public:
-  EdgeChain(const ChainWishes& wishes, Directed series, Watch& watch)
-      : wishes_(wishes),
+  EdgeChain(const ChainConstraints& constraints, Directed series, Watch& watch)
+      : constraints_(constraints),
         series_(std::move(series)),
         chords_(measure_chords(series_.points)),
         watch_(watch) {}
@@ -124,8 +124,8 @@ class EdgeChain {
     std::vector<RangeNode> out;
     for (std::size_t i = 0; i < series_.count(); ++i) {
       RangeNode node{series_.own[i].theta, series_.own[i].kappa, series_.own[i].curvature_sign};
-      if (const auto source = series_.source[i]; source && *source < wishes_.fixed.size()) {
-        const FixedData& given = wishes_.fixed[*source];
+      if (const auto source = series_.source[i]; source && *source < constraints_.fixed.size()) {
+        const FixedData& given = constraints_.fixed[*source];
         if (!node.theta) node.theta = given.theta;
         if (!node.kappa) node.kappa = given.kappa;
         node.thetas = given.thetas;
@@ -213,13 +213,15 @@ class EdgeChain {
   [[nodiscard]] std::optional<double> nodes_theta(std::size_t i,
                                                   const std::vector<RangeNode>& data) const {
     const auto source = series_.source[i];
-    const bool given = source && *source < wishes_.fixed.size() && wishes_.fixed[*source].theta;
+    const bool given =
+        source && *source < constraints_.fixed.size() && constraints_.fixed[*source].theta;
     return given || series_.own[i].theta ? data[i].theta : std::nullopt;
   }
   [[nodiscard]] std::optional<double> nodes_kappa(std::size_t i,
                                                   const std::vector<RangeNode>& data) const {
     const auto source = series_.source[i];
-    const bool given = source && *source < wishes_.fixed.size() && wishes_.fixed[*source].kappa;
+    const bool given =
+        source && *source < constraints_.fixed.size() && constraints_.fixed[*source].kappa;
     return given || series_.own[i].kappa ? data[i].kappa : std::nullopt;
   }
 
@@ -238,7 +240,7 @@ class EdgeChain {
     return std::nullopt;
   }
 
-  const ChainWishes& wishes_;
+  const ChainConstraints& constraints_;
   Directed series_;
   std::vector<Chord> chords_;
   Watch& watch_;
@@ -246,8 +248,8 @@ class EdgeChain {
 
 /// The points with the directions of their adjacent circles.
 std::optional<Directed> as_circles(const std::vector<Vec2>& points, const Analysis& analysis,
-                                   const ChainWishes& wishes) {
-  const auto problem = chain_problem(analysis, wishes);
+                                   const ChainConstraints& constraints) {
+  const auto problem = chain_problem(analysis, constraints);
   if (!problem) return std::nullopt;
   Directed out;
   out.points = points;
@@ -260,16 +262,16 @@ std::optional<Directed> as_circles(const std::vector<Vec2>& points, const Analys
 /// Two or three points say neither how the curvature changes nor how the curve bends: both ways,
 /// without an inflection first.
 std::vector<Directed> both_ways(const std::vector<Vec2>& points, Analysis analysis,
-                                const ChainWishes& wishes) {
+                                const ChainConstraints& constraints) {
   analysis.stretches.clear();
   std::vector<Directed> out, bent;
   for (const std::int8_t direction : {std::int8_t{1}, std::int8_t{-1}}) {
     analysis.direction.assign(points.size() - 1, direction);
-    auto series = as_circles(points, analysis, wishes);
+    auto series = as_circles(points, analysis, constraints);
     if (!series) continue;
     out.push_back(*series);
     for (NodeData& node : series->own) node.curvature_sign = 0;
-    if (!wishes.convex) bent.push_back(std::move(*series));
+    if (!constraints.convex) bent.push_back(std::move(*series));
   }
   out.insert(out.end(), bent.begin(), bent.end());
   return out;
@@ -311,12 +313,12 @@ Directed as_chain(const SeriesChain& chain) {
 
 /// Arcs have their own headings and curvatures: where they go through a point at which others are
 /// given, there is no such chain.
-bool keeps_what_is_given(const SeriesChain& chain, const ChainWishes& wishes) {
+bool keeps_what_is_given(const SeriesChain& chain, const ChainConstraints& constraints) {
   constexpr double kSame = 1e-9;  ///< rad, and of a curvature
-  if (wishes.fixed.empty()) return true;
+  if (constraints.fixed.empty()) return true;
   for (std::size_t e = 0; e < chain.elements.size(); ++e) {
     if (!chain.source[e]) continue;
-    const FixedData& given = wishes.fixed[*chain.source[e]];
+    const FixedData& given = constraints.fixed[*chain.source[e]];
     const Element& at = chain.elements[e];
     if (given.theta && std::abs(std::remainder(at.theta - *given.theta, kFullTurn)) > kSame) {
       return false;
@@ -330,13 +332,13 @@ bool keeps_what_is_given(const SeriesChain& chain, const ChainWishes& wishes) {
 }
 
 /// With data that ask for an inflection where the adjacent circles show none.
-std::optional<SeriesChain> bent_as_needed(const Directed& series, const ChainWishes& wishes,
-                                          Watch& watch) {
-  if (EdgeChain(wishes, series, watch).has_data()) return std::nullopt;
+std::optional<SeriesChain> bent_as_needed(const Directed& series,
+                                          const ChainConstraints& constraints, Watch& watch) {
+  if (EdgeChain(constraints, series, watch).has_data()) return std::nullopt;
   Directed bent = series;
   for (NodeData& node : bent.own) node.curvature_sign = 0;
-  auto chain = EdgeChain(wishes, std::move(bent), watch).run();
-  if (!chain || !keeps_what_is_given(*chain, wishes)) return std::nullopt;
+  auto chain = EdgeChain(constraints, std::move(bent), watch).run();
+  if (!chain || !keeps_what_is_given(*chain, constraints)) return std::nullopt;
   for (std::size_t e = 0; e < chain->elements.size(); ++e) {
     const auto source = chain->source[e];
     if (!source) continue;
@@ -371,28 +373,28 @@ bool proved_as_stored(const std::vector<Vec2>& points, const SeriesChain& chain)
 }
 
 std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points, const Analysis& analysis,
-                                      const ChainWishes& wishes, const SeriesChain* free,
+                                      const ChainConstraints& constraints, const SeriesChain* free,
                                       Watch& watch) {
   std::vector<Directed> ways;
   if (is_few_on_one_circle(points, analysis)) {
-    ways = both_ways(points, analysis, wishes);
-  } else if (auto series = as_circles(points, analysis, wishes)) {
+    ways = both_ways(points, analysis, constraints);
+  } else if (auto series = as_circles(points, analysis, constraints)) {
     ways.push_back(std::move(*series));
   }
   for (const Directed& series : ways) {
-    auto chain = EdgeChain(wishes, series, watch).run();
-    if (chain && keeps_what_is_given(*chain, wishes)) return chain;
+    auto chain = EdgeChain(constraints, series, watch).run();
+    if (chain && keeps_what_is_given(*chain, constraints)) return chain;
   }
   if (free != nullptr) {
-    auto chain = EdgeChain(wishes, as_chain(*free), watch).run();
-    if (chain && keeps_what_is_given(*chain, wishes)) {
+    auto chain = EdgeChain(constraints, as_chain(*free), watch).run();
+    if (chain && keeps_what_is_given(*chain, constraints)) {
       chain->turned_directions = free->turned_directions;
       chain->unforced_inflection = free->unforced_inflection;
       return chain;
     }
   }
-  return wishes.convex || ways.size() != 1 ? std::nullopt
-                                           : bent_as_needed(ways.front(), wishes, watch);
+  return constraints.convex || ways.size() != 1 ? std::nullopt
+                                                : bent_as_needed(ways.front(), constraints, watch);
 }
 
 }  // namespace obvid::pipeline_detail

@@ -28,12 +28,12 @@ struct ChainTurns {
 /// A chain for given data that lie near an end of what the points leave, where no fair one was
 /// found or proved: headings and curvatures from what can be reached from both sides
 /// (`central_data`), one spiral of the form that exists wherever a spiral exists to each link, and
-/// the contour proved as it is stored. The directions are those of the analysis, else those of the chain
-/// `free` that the points have when nothing is given, with its vertices between points where they
-/// are. `free` may be nothing. Nothing when there is none, or the work is to end.
+/// the contour proved as it is stored. The directions are those of the analysis, else those of the
+/// chain `free` that the points have when nothing is given, with its vertices between points where
+/// they are. `free` may be nothing. Nothing when there is none, or the work is to end.
 [[nodiscard]] std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points,
                                                     const Analysis& analysis,
-                                                    const ChainWishes& wishes,
+                                                    const ChainConstraints& constraints,
                                                     const SeriesChain* free, Watch& watch);
 
 }  // namespace obvid::pipeline_detail

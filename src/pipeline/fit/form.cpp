@@ -77,14 +77,14 @@ bool wholly_circular(const std::vector<Vec2>& points, const Analysis& a) {
          a.stretches.front().last + 1 == points.size();
 }
 
-bool anything_fixed(const ChainWishes& wishes) {
-  return std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
+bool anything_fixed(const ChainConstraints& constraints) {
+  return std::any_of(constraints.fixed.begin(), constraints.fixed.end(),
                      [](const FixedData& f) { return f.says_how(); });
 }
 
 /// Values, not ranges: one circle may lie inside these.
-bool any_value_fixed(const ChainWishes& wishes) {
-  return std::any_of(wishes.fixed.begin(), wishes.fixed.end(),
+bool any_value_fixed(const ChainConstraints& constraints) {
+  return std::any_of(constraints.fixed.begin(), constraints.fixed.end(),
                      [](const FixedData& f) { return f.theta || f.kappa; });
 }
 
@@ -92,9 +92,9 @@ bool any_value_fixed(const ChainWishes& wishes) {
 /// curvature is given. Nothing where they are those of the adjacent circles, or where a vertex lies
 /// inside a chord.
 std::optional<Analysis> turned_as_when_free(const std::vector<Vec2>& points,
-                                            const Analysis& analysis, const ChainWishes& wishes,
-                                            Watch& watch) {
-  ChainWishes free = wishes;
+                                            const Analysis& analysis,
+                                            const ChainConstraints& constraints, Watch& watch) {
+  ChainConstraints free = constraints;
   free.fixed.clear();
   const auto chain = choose_elements(points, analysis, free, watch);
   if (!chain || chain->turned_directions == 0 || chain->unforced_inflection) return std::nullopt;
@@ -125,9 +125,9 @@ constexpr double kEven = 1e-3;
 /// The fairest elements; near the ends of what the points allow the search for them may miss the
 /// ones that the ranges of headings and curvatures tell of.
 Result<SeriesChain> chosen_elements(const std::vector<Vec2>& points, const Analysis& analysis,
-                                    const ChainWishes& wishes, Watch& watch) {
-  if (wishes.central) {
-    if (auto central = central_chain(points, analysis, wishes, ChoiceOrder::kAlong, watch)) {
+                                    const ChainConstraints& constraints, Watch& watch) {
+  if (constraints.central) {
+    if (auto central = central_chain(points, analysis, constraints, ChoiceOrder::kAlong, watch)) {
       return std::move(*central);
     }
     return error(ErrorCode::kFixedDataContradict,
@@ -136,20 +136,20 @@ Result<SeriesChain> chosen_elements(const std::vector<Vec2>& points, const Analy
         .hint("free some of it")
         .point(0);
   }
-  auto chosen = choose_elements(points, analysis, wishes, watch);
-  if (!wishes.to_the_edge || !anything_fixed(wishes)) return chosen;
+  auto chosen = choose_elements(points, analysis, constraints, watch);
+  if (!constraints.to_the_edge || !anything_fixed(constraints)) return chosen;
   const bool as_circles = chosen && chosen->turned_directions == 0 && !chosen->unforced_inflection;
   if (as_circles && least_evenness(*chosen) >= kEven) return chosen;
   const bool asked_too_much = !chosen && chosen.error().code == ErrorCode::kFixedDataContradict;
   if (!chosen && !asked_too_much && chosen.error().code != ErrorCode::kNoSpiral) return chosen;
   const auto central = [&](const Analysis& directed) {
-    return central_chain(points, directed, wishes, ChoiceOrder::kHalves, watch);
+    return central_chain(points, directed, constraints, ChoiceOrder::kHalves, watch);
   };
   auto found = central(analysis);
   if (as_circles && (!found || least_evenness(*found) < least_evenness(*chosen))) return chosen;
   if (found) return std::move(*found);
   if (chosen) return chosen;
-  if (const auto turned = turned_as_when_free(points, analysis, wishes, watch)) {
+  if (const auto turned = turned_as_when_free(points, analysis, constraints, watch)) {
     if (auto other = central(*turned)) return std::move(*other);
   }
   return chosen;
@@ -158,10 +158,10 @@ Result<SeriesChain> chosen_elements(const std::vector<Vec2>& points, const Analy
 /// Two points whose headings lie alike on both sides of their chord: the arc, or line, that has
 /// them. Nothing for other headings, and where a curvature is given that is not its own.
 std::optional<SeriesChain> arc_between(const std::vector<Vec2>& points, const Analysis& analysis,
-                                       const ChainWishes& wishes) {
+                                       const ChainConstraints& constraints) {
   constexpr double kArcHeading = 1e-12;    // rad: what typed degrees leave of their sum
   constexpr double kArcCurvature = 1e-12;  // of the arc's
-  const FixedData &first = wishes.fixed.front(), &last = wishes.fixed.back();
+  const FixedData &first = constraints.fixed.front(), &last = constraints.fixed.back();
   if (points.size() != 2 || !first.theta || !last.theta) return std::nullopt;
   const double omega = analysis.chords.front().omega, h = analysis.chords.front().length;
   const double alpha = nearest_angle(*first.theta, omega) - omega;
@@ -184,13 +184,13 @@ std::optional<SeriesChain> arc_between(const std::vector<Vec2>& points, const An
 /// Two or three points lie on one circle, but fixed data ask for another curve through them: it may
 /// increase or decrease its curvature. Where it may do both, it turns one way if it can.
 Result<SeriesChain> few_points_with_fixed_data(const std::vector<Vec2>& points, Analysis analysis,
-                                               const ChainWishes& wishes, Watch& watch) {
-  if (auto arc = arc_between(points, analysis, wishes)) return std::move(*arc);
+                                               const ChainConstraints& constraints, Watch& watch) {
+  if (auto arc = arc_between(points, analysis, constraints)) return std::move(*arc);
   analysis.stretches.clear();
   std::optional<Result<SeriesChain>> first;
   for (const int direction : {1, -1}) {
     analysis.direction.assign(points.size() - 1, static_cast<std::int8_t>(direction));
-    auto chain = chosen_elements(points, analysis, wishes, watch);
+    auto chain = chosen_elements(points, analysis, constraints, watch);
     if (chain && chain->turned_directions == 0 && !chain->unforced_inflection) return chain;
     const bool better = !first || (chain && !*first);
     if (better) first = std::move(chain);
@@ -199,9 +199,9 @@ Result<SeriesChain> few_points_with_fixed_data(const std::vector<Vec2>& points, 
 }
 
 /// Whether the circle or line of a wholly circular series has what is given.
-Result<void> has_wishes(const Analysis& analysis, const ChainWishes& wishes) {
-  if (!anything_fixed(wishes)) return {};
-  const auto problem = chain_problem(analysis, wishes);
+Result<void> has_wishes(const Analysis& analysis, const ChainConstraints& constraints) {
+  if (!anything_fixed(constraints)) return {};
+  const auto problem = chain_problem(analysis, constraints);
   OBVID_TRY(problem);
   return {};
 }
@@ -209,14 +209,15 @@ Result<void> has_wishes(const Analysis& analysis, const ChainWishes& wishes) {
 }  // namespace
 
 Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysis& analysis,
-                                  const ChainWishes& wishes, Watch& watch) {
-  if (!wholly_circular(points, analysis)) return chosen_elements(points, analysis, wishes, watch);
-  const auto has_them = has_wishes(analysis, wishes);
+                                  const ChainConstraints& constraints, Watch& watch) {
+  if (!wholly_circular(points, analysis))
+    return chosen_elements(points, analysis, constraints, watch);
+  const auto has_them = has_wishes(analysis, constraints);
   if (has_them) return one_circle(points, analysis);
   if (points.size() > kFewPoints) return fail(has_them.error());
   // fewer may be asked for another curve, but not by ranges: what holds in them is found first
-  if (!any_value_fixed(wishes)) return one_circle(points, analysis);
-  return few_points_with_fixed_data(points, analysis, wishes, watch);
+  if (!any_value_fixed(constraints)) return one_circle(points, analysis);
+  return few_points_with_fixed_data(points, analysis, constraints, watch);
 }
 
 bool is_few_on_one_circle(const std::vector<Vec2>& points, const Analysis& analysis) {
@@ -224,9 +225,9 @@ bool is_few_on_one_circle(const std::vector<Vec2>& points, const Analysis& analy
 }
 
 bool is_one_circle(const std::vector<Vec2>& points, const Analysis& analysis,
-                   const ChainWishes& wishes) {
+                   const ChainConstraints& constraints) {
   return points.size() > kFewPoints && wholly_circular(points, analysis) &&
-         has_wishes(analysis, wishes);
+         has_wishes(analysis, constraints);
 }
 
 }  // namespace obvid::pipeline_detail

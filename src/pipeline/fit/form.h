@@ -15,8 +15,8 @@ namespace obvid::pipeline_detail {
 /// Elements for every point: from the chain, or from the one circle or line that 2 or 3 points or
 /// a wholly circular series determine.
 [[nodiscard]] Result<SeriesChain> form_elements(const std::vector<Vec2>& points,
-                                                const Analysis& analysis, const ChainWishes& wishes,
-                                                Watch& watch);
+                                                const Analysis& analysis,
+                                                const ChainConstraints& constraints, Watch& watch);
 
 /// Two or three points, which lie on one circle or line whatever curve was meant.
 [[nodiscard]] bool is_few_on_one_circle(const std::vector<Vec2>& points, const Analysis& analysis);
@@ -24,7 +24,7 @@ namespace obvid::pipeline_detail {
 /// Whether more than 3 points lie on one circle or line that has all that is given: to 1e-6 rad and
 /// 1e-6 of the curvature, or to what the rounding of the coordinates leaves of it.
 [[nodiscard]] bool is_one_circle(const std::vector<Vec2>& points, const Analysis& analysis,
-                                 const ChainWishes& wishes);
+                                 const ChainConstraints& constraints);
 
 /// A piece of a drawing as it is, between two points of the series (`from`, `to`: their indices).
 [[nodiscard]] Contour form_kept(const Piece& piece, const std::vector<Vec2>& points,

@@ -207,23 +207,23 @@ Result<void> set_corners(const TypedValues& typed, FitJob& job) {
   return {};
 }
 
-PointWish& wish_at(std::vector<PointWish>& wishes, std::size_t index) {
+PointConstraint& wish_at(std::vector<PointConstraint>& constraints, std::size_t index) {
   const auto place =
-      std::lower_bound(wishes.begin(), wishes.end(), index,
-                       [](const PointWish& wish, std::size_t i) { return wish.index < i; });
-  if (place != wishes.end() && place->index == index) return *place;
-  PointWish wish;
+      std::lower_bound(constraints.begin(), constraints.end(), index,
+                       [](const PointConstraint& wish, std::size_t i) { return wish.index < i; });
+  if (place != constraints.end() && place->index == index) return *place;
+  PointConstraint wish;
   wish.index = index;
-  return *wishes.insert(place, wish);
+  return *constraints.insert(place, wish);
 }
 
 /// Where a value, and where a range belongs.
 struct WishField {
-  std::optional<double> PointWish::*value;
-  std::optional<ValueRange> PointWish::*range;
+  std::optional<double> PointConstraint::*value;
+  std::optional<ValueRange> PointConstraint::*range;
 };
-constexpr WishField kHeadingField{&PointWish::theta, &PointWish::thetas};
-constexpr WishField kCurvatureField{&PointWish::kappa, &PointWish::kappas};
+constexpr WishField kHeadingField{&PointConstraint::theta, &PointConstraint::thetas};
+constexpr WishField kCurvatureField{&PointConstraint::kappa, &PointConstraint::kappas};
 
 /// "I=VALUE" at each point; `read` makes a value or range of the text.
 template <class Read>
@@ -238,7 +238,7 @@ Result<void> set_at(const std::vector<std::string>& typed, const char* option, W
     }
     const Result<ValueOrRange> one = read(string_view(text).substr(equals + 1));
     OBVID_TRY(one);
-    PointWish& wish = wish_at(job.wishes, *index);
+    PointConstraint& wish = wish_at(job.constraints, *index);
     if (wish.*(field.value) || wish.*(field.range)) {
       return fail(bad_option("point " + std::to_string(*index + 1) + " is given twice", option,
                              "give each point one heading and one radius or curvature"));
@@ -268,7 +268,7 @@ Result<void> set_corner_at(const std::vector<std::string>& typed, FitJob& job) {
       return fail(bad_option(in_quotes(text) + " is no number of a point", "--corner-at",
                              "points count from 1"));
     }
-    wish_at(job.wishes, *index).corner = true;
+    wish_at(job.constraints, *index).corner = true;
   }
   return {};
 }
@@ -342,9 +342,10 @@ Result<void> set_continuity(const std::string& typed, FitJob& job) {
 
 bool has_both_headings(const FitJob& job) {
   const auto at = [&](std::size_t point) {
-    return std::any_of(job.wishes.begin(), job.wishes.end(), [&](const PointWish& wish) {
-      return wish.index == point && (wish.theta || wish.thetas);
-    });
+    return std::any_of(job.constraints.begin(), job.constraints.end(),
+                       [&](const PointConstraint& wish) {
+                         return wish.index == point && (wish.theta || wish.thetas);
+                       });
   };
   return (job.start_heading || job.start_thetas || at(0)) &&
          (job.end_heading || job.end_thetas || at(1));

@@ -120,13 +120,13 @@ int vertices_of(const SeriesChain& chain) {
 }
 
 Result<SeriesChain> attempt(const std::vector<Vec2>& points, const Analysis& analysis,
-                            const ChainWishes& wishes, Watch& watch) {
-  const auto problem = chain_problem(analysis, wishes);
+                            const ChainConstraints& constraints, Watch& watch) {
+  const auto problem = chain_problem(analysis, constraints);
   OBVID_TRY(problem);
-  Assembler usual(points, *problem, wishes.convex, false, watch);
+  Assembler usual(points, *problem, constraints.convex, false, watch);
   auto chain = usual.run();
   if (chain || !usual.assembled()) return chain;
-  return Assembler(points, *problem, wishes.convex, true, watch).run();
+  return Assembler(points, *problem, constraints.convex, true, watch).run();
 }
 
 /// The analysis without stretches of so few points; their links go the way of their neighbours.
@@ -149,12 +149,12 @@ Analysis without_short_stretches(Analysis a, std::size_t fewest) {
 }  // namespace
 
 Result<SeriesChain> with_more_vertices(const std::vector<Vec2>& points, const Analysis& analysis,
-                                       const ChainWishes& wishes, Watch& watch) {
+                                       const ChainConstraints& constraints, Watch& watch) {
   constexpr std::size_t kFewestOnStretch = 5;  // points; four are the least that make a stretch
-  auto chain = attempt(points, analysis, wishes, watch);
+  auto chain = attempt(points, analysis, constraints, watch);
   const Analysis loose = without_short_stretches(analysis, kFewestOnStretch);
   if (loose.stretches.size() == analysis.stretches.size()) return chain;
-  auto other = attempt(points, loose, wishes, watch);
+  auto other = attempt(points, loose, constraints, watch);
   if (other && (!chain || vertices_of(*other) < vertices_of(*chain))) return other;
   return chain;
 }

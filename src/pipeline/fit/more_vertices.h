@@ -16,6 +16,7 @@ namespace obvid::pipeline_detail {
 /// are let go. Errors as `follow_directions`.
 [[nodiscard]] Result<SeriesChain> with_more_vertices(const std::vector<Vec2>& points,
                                                      const Analysis& analysis,
-                                                     const ChainWishes& wishes, Watch& watch);
+                                                     const ChainConstraints& constraints,
+                                                     Watch& watch);
 
 }  // namespace obvid::pipeline_detail

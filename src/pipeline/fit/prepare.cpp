@@ -89,7 +89,7 @@ class Preparation {
 
   [[nodiscard]] Result<void> has_wished_points() const {
     const std::size_t n = series_.points.size();
-    for (const PointWish& wish : job_.wishes) {
+    for (const PointConstraint& wish : job_.constraints) {
       if (wish.index < n) continue;
       return error(ErrorCode::kBadOption, "there is no such point")
           .where(fmt::format("point {}", wish.index + 1))
@@ -107,7 +107,7 @@ class Preparation {
 
   /// `place`: of each point of the series among those that are left.
   Result<void> give_wishes(const std::vector<std::size_t>& place) {
-    for (const PointWish& wish : job_.wishes) {
+    for (const PointConstraint& wish : job_.constraints) {
       FixedOnce more = fixed_by(FixedBy::kPoint, wish.theta, wish.kappa);
       more.data.thetas = wish.thetas;
       more.data.kappas = wish.kappas;
@@ -175,7 +175,7 @@ class Preparation {
               "--drawing points")
           .point(point);
     };
-    for (const PointWish& wish : job_.wishes) {
+    for (const PointConstraint& wish : job_.constraints) {
       const bool says_how = wish.theta || wish.kappa || wish.thetas || wish.kappas;
       if (says_how && beside_kept(place[wish.index])) return refused(wish.index);
     }
@@ -355,9 +355,9 @@ class Preparation {
   }
 
   void cut() {
-    CornerWishes wishes;
-    wishes.find = job_.find_corners;
-    if (job_.corner_angle) wishes.angle = *job_.corner_angle;
+    CornerConstraints constraints;
+    constraints.find = job_.find_corners;
+    if (job_.corner_angle) constraints.angle = *job_.corner_angle;
     // points that are met exactly were rounded all the same, in print and as doubles
     const double printed = printed_blur();
     std::vector<double> blur = out_.tolerance;
@@ -365,9 +365,9 @@ class Preparation {
       blur[i] = std::max({blur[i], printed, least_move(out_.points[i])});
     }
     std::vector<std::size_t> corners =
-        out_.kept.empty() ? find_corners(out_.points, blur, out_.closed, out_.fixed, wishes)
-                          : cuts_of_drawing(blur, wishes);
-    if (out_.kept.empty() && wishes.find) look_for_polygon(blur, wishes.angle, corners);
+        out_.kept.empty() ? find_corners(out_.points, blur, out_.closed, out_.fixed, constraints)
+                          : cuts_of_drawing(blur, constraints);
+    if (out_.kept.empty() && constraints.find) look_for_polygon(blur, constraints.angle, corners);
     for (const double t : out_.tolerance) out_.reach.push_back(t);
     for (const std::size_t i : corners) out_.reach[i] = 0.0;  // both sides meet in the point itself
     out_.split = split_sections(out_.points.size(), corners, out_.closed);
@@ -416,8 +416,8 @@ class Preparation {
   }
 
   /// Both ends of what stays as it is, and the corners of the points between.
-  [[nodiscard]] std::vector<std::size_t> cuts_of_drawing(const std::vector<double>& blur,
-                                                         const CornerWishes& wishes) const {
+  [[nodiscard]] std::vector<std::size_t> cuts_of_drawing(
+      const std::vector<double>& blur, const CornerConstraints& constraints) const {
     const std::size_t n = out_.points.size();
     std::vector<std::size_t> cuts;
     const bool open = !out_.closed;
@@ -427,7 +427,7 @@ class Preparation {
     }
     for (std::size_t i = 0; i < n; ++i) {
       const bool begins = !out_.kept[i] && (beside_kept(i) || (open && i == 0));
-      if (begins) add_corners_from(i, blur, wishes, cuts);
+      if (begins) add_corners_from(i, blur, constraints, cuts);
     }
     std::sort(cuts.begin(), cuts.end());
     return cuts;
@@ -436,7 +436,8 @@ class Preparation {
   /// Corners inside the points from `first` to the next piece that stays, an open series of its
   /// own.
   void add_corners_from(std::size_t first, const std::vector<double>& blur,
-                        const CornerWishes& wishes, std::vector<std::size_t>& cuts) const {
+                        const CornerConstraints& constraints,
+                        std::vector<std::size_t>& cuts) const {
     const std::size_t n = out_.points.size();
     std::vector<std::size_t> index{first};
     while (!out_.kept[index.back()] && (out_.closed || index.back() + 1 < n)) {
@@ -451,7 +452,7 @@ class Preparation {
       tolerance.push_back(blur[i]);
       fixed.push_back(out_.fixed[i]);
     }
-    for (const std::size_t k : find_corners(points, tolerance, false, fixed, wishes)) {
+    for (const std::size_t k : find_corners(points, tolerance, false, fixed, constraints)) {
       cuts.push_back(index[k]);
     }
   }

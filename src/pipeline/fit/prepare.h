@@ -38,8 +38,8 @@ struct Prepared {
 
 /// Merges equal neighbours, gathers fixed data and tolerances from series and job, decides whether
 /// the series is closed, and finds its corners.
-/// Errors: E203 for wishes at points that do not exist, or where something else is fixed already;
-/// E303, E304; E403 where the series fixes two headings or curvatures at one point.
+/// Errors: E203 for constraints at points that do not exist, or where something else is fixed
+/// already; E303, E304; E403 where the series fixes two headings or curvatures at one point.
 [[nodiscard]] Result<Prepared> prepare(const PointSeries& series, const FitJob& job);
 
 /// E203 where the noise of points in space is to be estimated.

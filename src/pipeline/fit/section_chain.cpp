@@ -171,8 +171,8 @@ class SectionChooser {
     if (series_.prefer != Prefer::kLeastCurvature || cap_) return {};
     const auto analysis = analyse(points_);
     OBVID_TRY(analysis);
-    const auto least = loop_ ? least_largest_curvature_of_loop(points_, wishes(), watch_)
-                             : least_largest_curvature(*analysis, wishes(), watch_);
+    const auto least = loop_ ? least_largest_curvature_of_loop(points_, constraints(), watch_)
+                             : least_largest_curvature(*analysis, constraints(), watch_);
     if (!least) {
       return error(ErrorCode::kFixedDataContradict,
                    "what is given leaves no headings and curvatures with which a monotone contour "
@@ -239,10 +239,10 @@ class SectionChooser {
     out_ = {};
     moves_ = std::any_of(index_.begin(), index_.end(),
                          [&](std::size_t i) { return series_.reach[i] > 0.0; });
-    auto chain = moves_ && points_.size() >= kFewestForFairing && !lies_on_one_circle()
-                     ? within_tolerances()
-                 : loop_ || (goes_on_ && !central_) ? around_loop()
-                                                    : through_points(points_, wishes(), index_);
+    auto chain =
+        moves_ && points_.size() >= kFewestForFairing && !lies_on_one_circle() ? within_tolerances()
+        : loop_ || (goes_on_ && !central_)                                     ? around_loop()
+                                           : through_points(points_, constraints(), index_);
     if (!chain) chain = fail(in_whole_series(chain.error()));
     if (chain) {
       for (auto& source : chain->source) {
@@ -409,8 +409,8 @@ class SectionChooser {
     return !series_.fixed.empty() || !held_.empty() || cap_.has_value();
   }
 
-  [[nodiscard]] ChainWishes wishes() const {
-    ChainWishes out;
+  [[nodiscard]] ChainConstraints constraints() const {
+    ChainConstraints out;
     out.convex = series_.convex;
     out.least_change = series_.prefer == Prefer::kLeastChange;
     out.central = central_;
@@ -421,13 +421,14 @@ class SectionChooser {
   }
 
   /// `whole`: the numbers of the points in the whole series.
-  Result<SeriesChain> through_points(const std::vector<Vec2>& points, const ChainWishes& wishes,
+  Result<SeriesChain> through_points(const std::vector<Vec2>& points,
+                                     const ChainConstraints& constraints,
                                      const std::vector<std::size_t>& whole) {
     const auto analysis = analyse(points);
     OBVID_TRY(analysis);
-    auto chain = form_elements(points, *analysis, wishes, watch_);
-    if (!moves_ && wishes.to_the_edge && !wishes.central) {
-      if (auto found = at_the_edge(points, *analysis, wishes, chain)) {
+    auto chain = form_elements(points, *analysis, constraints, watch_);
+    if (!moves_ && constraints.to_the_edge && !constraints.central) {
+      if (auto found = at_the_edge(points, *analysis, constraints, chain)) {
         chain = std::move(*found);
         out_.at_the_edge = true;
       }
@@ -439,7 +440,7 @@ class SectionChooser {
     // where the points alone have a curve, it is the given data that are in the way: more vertices
     // are not what somebody who gives a heading asks for
     if (chain.error().code == ErrorCode::kFixedDataContradict) return chain;
-    auto mended = with_more_vertices(points, *analysis, wishes, watch_);
+    auto mended = with_more_vertices(points, *analysis, constraints, watch_);
     if (!mended || bends_back(*mended)) return chain;
     out_.warnings = warn(*analysis, *mended, whole);
     return mended;
@@ -449,11 +450,11 @@ class SectionChooser {
   /// one that was found is not, has more vertices or inflections than the points ask for, or where
   /// none was found. Nothing when there is none.
   std::optional<SeriesChain> at_the_edge(const std::vector<Vec2>& points, const Analysis& analysis,
-                                         const ChainWishes& wishes,
+                                         const ChainConstraints& constraints,
                                          const Result<SeriesChain>& found) {
     const bool proved = found && proved_as_stored(points, *found);
     if (proved && found->turned_directions == 0 && !found->unforced_inflection) return std::nullopt;
-    ChainWishes none = wishes;
+    ChainConstraints none = constraints;
     none.fixed.clear();
     none.to_the_edge = false;
     auto free = form_elements(points, analysis, none, watch_);
@@ -467,7 +468,7 @@ class SectionChooser {
     if (proved && (!free || !turns_of_chain(*found).more_than(turns_of_chain(*free)))) {
       return std::nullopt;
     }
-    auto edge = edge_chain(points, analysis, wishes, free ? &*free : nullptr, watch_);
+    auto edge = edge_chain(points, analysis, constraints, free ? &*free : nullptr, watch_);
     if (proved && edge && !turns_of_chain(*found).more_than(turns_of_chain(*edge))) {
       return std::nullopt;
     }
@@ -510,7 +511,7 @@ class SectionChooser {
     const std::size_t n = points_of_turn(), overlap = this->overlap();
     std::vector<Vec2> unrolled;
     std::vector<std::size_t> whole;
-    ChainWishes all = wishes(), more;
+    ChainConstraints all = constraints(), more;
     if (all.central) return central_turn(all);
     more.convex = all.convex;
     more.to_the_edge = all.to_the_edge;
@@ -560,7 +561,7 @@ class SectionChooser {
     return fail(std::move(error));
   }
 
-  Result<SeriesChain> central_turn(const ChainWishes& all) const {
+  Result<SeriesChain> central_turn(const ChainConstraints& all) const {
     if (auto central = central_chain_of_loop(points_, all, watch_)) return std::move(*central);
     return error(ErrorCode::kFixedDataContradict,
                  "no closed monotone contour has headings and curvatures in the middle of what is "
@@ -647,8 +648,8 @@ class SectionChooser {
   /// Whether the points, none of which need move then, lie on one circle or line that has what is
   /// given.
   [[nodiscard]] bool lies_on_one_circle() const {
-    const ChainWishes once = wishes();
-    ChainWishes all = once;
+    const ChainConstraints once = constraints();
+    ChainConstraints all = once;
     std::vector<Vec2> points = points_;
     if (loop_ || goes_on_) {
       points.clear();
@@ -806,7 +807,7 @@ class SectionChooser {
     std::vector<std::size_t> original;
     for (const std::size_t k : kept) original.push_back(whole[k]);
     index_ = original;
-    return loop_ ? around_loop() : through_points(points_, wishes(), index_);
+    return loop_ ? around_loop() : through_points(points_, constraints(), index_);
   }
 
   const Prepared& series_;

@@ -74,15 +74,16 @@ std::optional<double> least_possible(double high, const Possible& possible) {
 
 }  // namespace
 
-Result<LoopProblem> loop_problem(const std::vector<Vec2>& points, const ChainWishes& wishes) {
+Result<LoopProblem> loop_problem(const std::vector<Vec2>& points,
+                                 const ChainConstraints& constraints) {
   const std::size_t n = points.size(), overlap = std::min(n, kLoopOverlap);
   std::vector<Vec2> unrolled;
-  ChainWishes all = wishes;
+  ChainConstraints all = constraints;
   all.fixed.clear();
   for (std::size_t k = 0; k < n + 2 * overlap + 1; ++k) {
     const std::size_t i = (k + n - overlap) % n;
     unrolled.push_back(points[i]);
-    if (!wishes.fixed.empty()) all.fixed.push_back(wishes.fixed[i]);
+    if (!constraints.fixed.empty()) all.fixed.push_back(constraints.fixed[i]);
   }
   const auto analysis = analyse(unrolled);
   OBVID_TRY(analysis);
@@ -101,15 +102,15 @@ Result<LoopProblem> loop_problem(const std::vector<Vec2>& points, const ChainWis
 }
 
 Result<std::vector<FeasibleData>> series_ranges(const Analysis& analysis,
-                                                const ChainWishes& wishes) {
-  const auto problem = chain_problem(analysis, wishes);
+                                                const ChainConstraints& constraints) {
+  const auto problem = chain_problem(analysis, constraints);
   OBVID_TRY(problem);
-  const RangeProblem ranges = range_problem(analysis, *problem, wishes.fixed);
+  const RangeProblem ranges = range_problem(analysis, *problem, constraints.fixed);
   return feasible_data(ranges.links, ranges.nodes);
 }
 
-std::optional<double> least_largest_curvature(const Analysis& analysis, const ChainWishes& wishes,
-                                              Watch& watch) {
+std::optional<double> least_largest_curvature(const Analysis& analysis,
+                                              const ChainConstraints& constraints, Watch& watch) {
   const bool one_circle = std::all_of(analysis.direction.begin(), analysis.direction.end(),
                                       [](std::int8_t d) { return d == 0; });
   if (one_circle) {
@@ -119,15 +120,15 @@ std::optional<double> least_largest_curvature(const Analysis& analysis, const Ch
       Analysis one_way = analysis;
       one_way.stretches.clear();
       one_way.direction.assign(one_way.direction.size(), direction);
-      const auto found = least_largest_curvature(one_way, wishes, watch);
+      const auto found = least_largest_curvature(one_way, constraints, watch);
       if (found && (!least || *found < *least)) least = found;
     }
     return least;
   }
-  const auto problem = chain_problem(analysis, wishes);
+  const auto problem = chain_problem(analysis, constraints);
   if (!problem) return std::nullopt;
   const auto possible = [&](double most) {
-    RangeProblem ranges = range_problem(analysis, *problem, wishes.fixed);
+    RangeProblem ranges = range_problem(analysis, *problem, constraints.fixed);
     return cap_curvatures(ranges.nodes, most) &&
            central_data(ranges.links, ranges.nodes, {}, ChoiceOrder::kAlong,
                         SharpCurvature::kMiddle, &watch)
@@ -146,8 +147,9 @@ std::optional<double> least_largest_curvature(const Analysis& analysis, const Ch
 }
 
 std::optional<double> least_largest_curvature_of_loop(const std::vector<Vec2>& points,
-                                                      const ChainWishes& wishes, Watch& watch) {
-  const auto problem = loop_problem(points, wishes);
+                                                      const ChainConstraints& constraints,
+                                                      Watch& watch) {
+  const auto problem = loop_problem(points, constraints);
   if (!problem) return std::nullopt;
   double high = 0.0;
   for (const double kappa : problem->adjacent_kappa) high = std::max(high, std::abs(kappa));
@@ -159,11 +161,11 @@ std::optional<double> least_largest_curvature_of_loop(const std::vector<Vec2>& p
 }
 
 std::optional<SeriesChain> central_chain(const std::vector<Vec2>& points, const Analysis& analysis,
-                                         const ChainWishes& wishes, ChoiceOrder order,
+                                         const ChainConstraints& constraints, ChoiceOrder order,
                                          Watch& watch) {
-  const auto problem = chain_problem(analysis, wishes);
+  const auto problem = chain_problem(analysis, constraints);
   if (!problem) return std::nullopt;
-  const RangeProblem ranges = range_problem(analysis, *problem, wishes.fixed);
+  const RangeProblem ranges = range_problem(analysis, *problem, constraints.fixed);
   const auto central =
       central_data(ranges.links, ranges.nodes, {}, order, SharpCurvature::kMiddle, &watch);
   if (!central) return std::nullopt;
@@ -171,7 +173,7 @@ std::optional<SeriesChain> central_chain(const std::vector<Vec2>& points, const 
   series.points = points;
   series.direction = analysis.direction;
   series.nodes = problem->nodes;
-  series.to_the_edge = wishes.to_the_edge;
+  series.to_the_edge = constraints.to_the_edge;
   for (std::size_t i = 0; i < points.size(); ++i) {
     series.source.emplace_back(i);
     series.start.push_back({points[i], *(*central)[i].theta, *(*central)[i].kappa});
@@ -182,14 +184,15 @@ std::optional<SeriesChain> central_chain(const std::vector<Vec2>& points, const 
 }
 
 std::optional<SeriesChain> central_chain_of_loop(const std::vector<Vec2>& points,
-                                                 const ChainWishes& wishes, Watch& watch) {
-  const auto problem = loop_problem(points, wishes);
+                                                 const ChainConstraints& constraints,
+                                                 Watch& watch) {
+  const auto problem = loop_problem(points, constraints);
   if (!problem) return std::nullopt;
   const auto central = central_loop(problem->links, problem->range_nodes, {}, &watch);
   if (!central) return std::nullopt;
   DirectedSeries series;
   series.direction = problem->direction;
-  series.to_the_edge = wishes.to_the_edge;
+  series.to_the_edge = constraints.to_the_edge;
   for (std::size_t k = 0; k <= points.size(); ++k) {
     const std::size_t i = k % points.size();
     const RangeNode& node = (*central)[k];

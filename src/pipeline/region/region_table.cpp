@@ -9,11 +9,11 @@
 #include <tuple>
 #include <utility>
 
+#include "fit/form.h"
 #include "fit/parabola_room.h"
 #include "fit/prepare.h"
 #include "fit/section_chain.h"
 #include "fit/series_ranges.h"
-#include "fit/form.h"
 #include "obvid/contour/clothoids.h"
 #include "obvid/contour/common/internal/carry.h"
 #include "obvid/geom/internal/angle.h"
@@ -486,12 +486,12 @@ class SheetMaker {
       all_given = true;
     }
     if (!all_given && !central) return follow_chain(warnings);
-    ChainWishes wishes;
-    wishes.convex = series_.convex;
+    ChainConstraints constraints;
+    constraints.convex = series_.convex;
     for (const FixedData& f : sheet_.given) {
-      wishes.fixed.push_back(all_given ? FixedData{} : f);
+      constraints.fixed.push_back(all_given ? FixedData{} : f);
     }
-    OBVID_TRY(loop_ ? start_loop(std::move(wishes)) : start_open(wishes));
+    OBVID_TRY(loop_ ? start_loop(std::move(constraints)) : start_open(constraints));
     if (central && !all_given) {
       OBVID_TRY(take_centres());
     }
@@ -504,10 +504,10 @@ class SheetMaker {
   }
 
  private:
-  Result<void> start_open(const ChainWishes& wishes) {
+  Result<void> start_open(const ChainConstraints& constraints) {
     const auto analysis = analyse(sheet_.points);
     OBVID_TRY(analysis);
-    const auto problem = chain_problem(*analysis, wishes);
+    const auto problem = chain_problem(*analysis, constraints);
     OBVID_TRY(problem);
     for (const std::int8_t d : analysis->direction) sheet_.direction.emplace_back(d);
     for (std::size_t i = 0; i < sheet_.points.size(); ++i) {
@@ -516,11 +516,11 @@ class SheetMaker {
     return {};
   }
 
-  Result<void> start_loop(ChainWishes wishes) {
+  Result<void> start_loop(ChainConstraints constraints) {
     const std::size_t n = sheet_.points.size() - 1;
-    wishes.fixed.resize(n);
+    constraints.fixed.resize(n);
     const std::vector<Vec2> once(sheet_.points.begin(), sheet_.points.end() - 1);
-    const auto problem = loop_problem(once, wishes);
+    const auto problem = loop_problem(once, constraints);
     OBVID_TRY(problem);
     for (const std::int8_t d : problem->direction) sheet_.direction.emplace_back(d);
     for (std::size_t i = 0; i <= n; ++i) {
@@ -674,8 +674,7 @@ void append(RegionPart part, RegionPart& to) {
   to.loop = part.loop;  // a loop is the only part
 }
 
-Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& job,
-                                   Watch& watch) {
+Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& job, Watch& watch) {
   const auto prepared = prepare(series, job.job);
   OBVID_TRY(prepared);
   RegionTable table;

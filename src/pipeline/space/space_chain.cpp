@@ -155,19 +155,19 @@ class ChainForming {
   }
 
   void find() {
-    CornerWishes wishes;
-    wishes.find = job_.fit.find_corners;
-    if (job_.fit.corner_angle) wishes.angle = *job_.fit.corner_angle;
+    CornerConstraints constraints;
+    constraints.find = job_.fit.find_corners;
+    if (job_.fit.corner_angle) constraints.angle = *job_.fit.corner_angle;
     const std::size_t n = chain_.points.size();
     std::vector<std::size_t> marked;
-    for (const PointWish& wish : job_.fit.wishes) {
+    for (const PointConstraint& wish : job_.fit.constraints) {
       if (wish.corner) marked.push_back(wish.index % n);
     }
     for (std::size_t i = 0; i < job_.fixed.size(); ++i) {
       if (job_.fixed[i].corner) marked.push_back(i % n);
     }
-    const auto found =
-        corners_in_space(chain_.points, chain_.closed, blur_of(series_, job_.fit), marked, wishes);
+    const auto found = corners_in_space(chain_.points, chain_.closed, blur_of(series_, job_.fit),
+                                        marked, constraints);
     for (const std::size_t i : found) chain_.corners.push_back({i, 0.0});
   }
 
@@ -196,7 +196,7 @@ class ChainForming {
         (at_end && chain_part(chain_, chain_.corners.size()).size() == 2)) {
       return fail(chain_error("a line between two points has its heading", "leave it out"));
     }
-    for (const PointWish& wish : fit.wishes) {
+    for (const PointConstraint& wish : fit.constraints) {
       const bool more = wish.theta || wish.kappa || wish.thetas || wish.kappas;
       if (more && is_corner(wish.index)) return fail(at_corner(wish.index));
     }
@@ -224,13 +224,13 @@ class ChainForming {
     SpaceJob job = job_;
     job.fit.closing = Closing::kOpen;
     job.fit.find_corners = false;
-    job.fit.wishes.clear();
+    job.fit.constraints.clear();
     job.fixed.clear();
     for (std::size_t j = 0; j < at.size(); ++j) {
-      for (PointWish wish : job_.fit.wishes) {
+      for (PointConstraint wish : job_.fit.constraints) {
         if (wish.index != at[j] || wish.corner) continue;
         wish.index = j;
-        job.fit.wishes.push_back(wish);
+        job.fit.constraints.push_back(wish);
       }
       if (job_.fixed.empty()) continue;
       job.fixed.push_back(job_.fixed[at[j]]);

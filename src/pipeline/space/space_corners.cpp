@@ -26,7 +26,7 @@ std::vector<Vec2> developed(const std::vector<Vec3>& points) {
 
 std::vector<std::size_t> corners_in_space(const std::vector<Vec3>& points, bool closed, double blur,
                                           const std::vector<std::size_t>& marked,
-                                          const CornerWishes& wishes) {
+                                          const CornerConstraints& constraints) {
   const std::size_t n = points.size();
   std::vector<Vec3> all = points;
   // a polygon in space does not close when it is laid into a plane: a turn before and one behind
@@ -40,7 +40,7 @@ std::vector<std::size_t> corners_in_space(const std::vector<Vec3>& points, bool 
     fixed[k].corner = std::find(marked.begin(), marked.end(), k % n) != marked.end();
   }
   std::vector<std::size_t> out;
-  for (const std::size_t k : find_corners(flat, tolerance, false, fixed, wishes)) {
+  for (const std::size_t k : find_corners(flat, tolerance, false, fixed, constraints)) {
     if (!closed) out.push_back(k);
     if (closed && k >= n && k < 2 * n) out.push_back(k - n);
   }

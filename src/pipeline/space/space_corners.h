@@ -21,6 +21,6 @@ namespace obvid::pipeline_detail {
 [[nodiscard]] std::vector<std::size_t> corners_in_space(const std::vector<Vec3>& points,
                                                         bool closed, double blur,
                                                         const std::vector<std::size_t>& marked,
-                                                        const CornerWishes& wishes);
+                                                        const CornerConstraints& constraints);
 
 }  // namespace obvid::pipeline_detail

@@ -94,7 +94,7 @@ Frame plane_through_ends(const std::vector<Vec3>& points) {
 }
 
 /// More than a mark of a corner.
-bool fixes_more(const PointWish& wish) {
+bool fixes_more(const PointConstraint& wish) {
   return wish.theta || wish.kappa || wish.thetas || wish.kappas;
 }
 
@@ -106,7 +106,7 @@ bool fixes_columns(const SpaceJob& job) {
 bool fixes_data(const FitJob& job) {
   return job.start_heading || job.end_heading || job.start_kappa || job.end_kappa ||
          job.start_thetas || job.end_thetas || job.start_kappas || job.end_kappas ||
-         std::any_of(job.wishes.begin(), job.wishes.end(), fixes_more);
+         std::any_of(job.constraints.begin(), job.constraints.end(), fixes_more);
 }
 
 Error within_part(Error error, const char* part) {
@@ -354,7 +354,7 @@ class SpatialForming {
     job.end_thetas.reset();
     job.start_kappas.reset();
     job.end_kappas.reset();
-    job.wishes.clear();
+    job.constraints.clear();
     job.closing = Closing::kOpen;
     auto made = plan.closed ? one_turn(unrolled, path.length(), job) : fit(unrolled, job, run_);
     if (!made) {

@@ -11,7 +11,7 @@
 namespace obvid {
 
 /// What the designer asks of the whole chain, beyond the data at single points.
-struct ChainWishes {
+struct ChainConstraints {
   std::vector<FixedData> fixed;  ///< empty, or one entry per point
   bool convex = false;           ///< no inflection anywhere
   bool least_change = false;     ///< as `ChainProblem` has it
@@ -41,9 +41,10 @@ struct SeriesChain {
 };
 
 /// The problem that `choose_elements` solves first: directions and cones from the analysis, given
-/// data and the data of circular stretches fixed. Error E403 when wishes contradict the points.
+/// data and the data of circular stretches fixed. Error E403 when constraints contradict the
+/// points.
 [[nodiscard]] Result<ChainProblem> chain_problem(const Analysis& analysis,
-                                                 const ChainWishes& wishes);
+                                                 const ChainConstraints& constraints);
 
 /// Chooses headings and curvatures for a series of at least 4 points (fewer are one circle):
 /// first with the closed form's cones; where those have no solution, with the cones of mere
@@ -57,7 +58,8 @@ struct SeriesChain {
 /// points; the error says so.
 [[nodiscard]] Result<SeriesChain> choose_elements(const std::vector<Vec2>& points,
                                                   const Analysis& analysis,
-                                                  const ChainWishes& wishes, Watch& watch);
+                                                  const ChainConstraints& constraints,
+                                                  Watch& watch);
 
 /// Nodes with the direction of every link already chosen.
 struct DirectedSeries {
@@ -66,7 +68,7 @@ struct DirectedSeries {
   std::vector<std::int8_t> direction;              ///< n - 1; 0: arc or line, its ends given
   std::vector<NodeData> nodes;                     ///< n
   std::vector<Element> start;                      ///< n: headings and curvatures to begin with
-  bool to_the_edge = false;                        ///< as `ChainWishes` has it
+  bool to_the_edge = false;                        ///< as `ChainConstraints` has it
 };
 
 /// Elements for nodes whose directions are known (from a fairing, or one turn of a closed series).
@@ -79,8 +81,8 @@ struct DirectedSeries {
 [[nodiscard]] Element free_element(const LinkState& link, int direction, Vec2 start);
 
 /// A free element for a link over which the curvature leaps at one end and rests else, so sharply
-/// that doubles do not hold it in one piece: behind the leap, three times as far from that end as the
-/// first arc of the middle biarc is long. Behind it the link hardly changes its curvature.
+/// that doubles do not hold it in one piece: behind the leap, three times as far from that end as
+/// the first arc of the middle biarc is long. Behind it the link hardly changes its curvature.
 [[nodiscard]] Element element_beyond_leap(const LinkState& link, int direction, Vec2 start);
 
 }  // namespace obvid

@@ -13,7 +13,7 @@ namespace obvid {
 inline constexpr double kDefaultCornerAngle = std::numbers::pi / 9.0;
 
 /// Which corners are asked for.
-struct CornerWishes {
+struct CornerConstraints {
   bool find = true;                    ///< search them; else only those that are marked
   double angle = kDefaultCornerAngle;  ///< rad, least turn of a corner that is searched
 };
@@ -41,7 +41,7 @@ struct JoinedPoint {
                                                     const std::vector<double>& tolerance,
                                                     bool closed,
                                                     const std::vector<FixedData>& fixed,
-                                                    const CornerWishes& wishes);
+                                                    const CornerConstraints& constraints);
 
 /// Part of a series between two corners or ends: places first..last of `SplitSeries::order`, both
 /// included. In a closed series `last` may be the number of points: its first place again.

@@ -34,9 +34,9 @@ struct TopologyVertex {
 struct EdgeUse {
   std::size_t patch = 0;
   PatchSide side = kUStart;
-  bool along = true;      ///< the side runs as the edge does
-  bool own_pace = false;  ///< the same curve, parametrised differently
-  double gap = 0.0;       ///< units: largest distance of the side from the edge's curve
+  bool along = true;              ///< the side runs as the edge does
+  bool other_parameters = false;  ///< the same curve, parametrised differently
+  double gap = 0.0;               ///< units: largest distance of the side from the edge's curve
 };
 
 /// A border, of one patch or of several.
