@@ -28,7 +28,7 @@ struct SkinSection {
 /// What tells which places of neighbouring sections belong together.
 enum class SkinMatching {
   kAutomatic,  ///< by points when all sections have equally many, else by length; of skins that are
-               ///< fair across the one of all that forces the fewest changes of bending
+               ///< fair across what the others force is told
   kByPoints,   ///< point i of each section belongs to point i of the others
   kByLength,   ///< equal shares of arc length between corners, and between ends of runs where all
                ///< sections have the same runs
@@ -102,7 +102,7 @@ struct FairAcrossReport {
   double moved = 0.0;   ///< bound of the distance of any section from where the exact skin has it,
                         ///< units: of control points, by the convex hull; <= tolerance
   AcrossReport before;  ///< of the exact (or light) skin, by this tolerance
-  std::vector<MatchingTrial> tried;  ///< where the matching was chosen, in order
+  std::vector<MatchingTrial> tried;  ///< with `SkinMatching::kAutomatic`: the one used, then others
 };
 
 struct Skin {
