@@ -667,6 +667,7 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
 /// Waves that need not be: high ones, and shallow ones with them; and how many are forced.
 struct Waves {
   std::size_t beyond = 0, all_beyond = 0, forced = 0;
+  [[nodiscard]] bool high_ones_few() const { return few_of(beyond); }
   [[nodiscard]] bool few() const { return few_of(std::max(beyond, all_beyond)); }
   /// High ones first, until they are few.
   [[nodiscard]] bool less_than(const Waves& other) const {
@@ -711,6 +712,7 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
   Waves least = *given;
   constexpr double kParts = static_cast<double>(kAlong.size() * kRounds);
   for (std::size_t n = 0; n < kAlong.size() && !least.few(); ++n) {
+    if (n > 0 && least.high_ones_few()) break;  // more control points for high waves only
     Correction correction(stretch, wanted, kAlong[n]);
     int in_vain = 0;
     for (std::size_t round = 0; round < kRounds && in_vain < kMostInVain && !least.few(); ++round) {
@@ -726,6 +728,7 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
       in_vain = 0;
       least = *left;
       best = {correction.surface(), correction.moved()};
+      if (least.high_ones_few()) break;
     }
   }
   return best;

@@ -248,8 +248,8 @@ def summary(outcomes):
              f"{o['fine_before']} -> {o['fine_after']}", f"{o['moved'] / o['tolerance']:.3f}",
              f"{o['said'] / o['tolerance']:.3f}", f"{o['run_before']:.1e} -> {o['run']:.1e}",
              f"{o['plain']:.1f} -> {o['seconds']:.1f}"] for o in outcomes if "before" in o]
-    return tables.markdown(["body", "matchings: what each forces, the first was used", "changes", "forced", "beyond", "of the forced",
-                            "of bulges of EPS / 10", "changes, bulges of EPS / 10",
+    return tables.markdown(["body", "matchings: what each forces, the first was used", "changes", "forced", "beyond",
+                            "of the forced", "of bulges of EPS / 10", "changes, bulges of EPS / 10",
                             "moved / EPS", "bound said", "against runs", "s, one core"], rows)
 
 
