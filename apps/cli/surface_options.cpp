@@ -153,9 +153,11 @@ void add_surface_tolerance(CLI::App& app, RawSurface& raw, const char* what) {
 
 void add_skin_options(CLI::App& app, RawSurface& raw) {
   add_surface_tolerance(app, raw, "Largest distance of the surface from the section contours");
-  app.add_option("--match", raw.values.matching,
-                 "What belongs together in the sections: points, length or auto (points when all "
-                 "sections have equally many) [auto]")
+  app.add_option(
+         "--match", raw.values.matching,
+         "What belongs together in the sections: points, length, angle (half of it arc length), "
+         "optimised (lines across bend little) or auto (points when all sections have "
+         "equally many; with --fair-across what all of them force is told) [auto]")
       ->type_name("NAME");
   app.add_option("--spacing", raw.values.spacing,
                  "Distance of sections whose files have no z, input units [1]")
@@ -180,7 +182,8 @@ struct KindOptions {
     app.add_option("--fair-across", raw.values.fair_across,
                    "Each section may move by this, input units, where lines across then change "
                    "their bending less often; curvature along goes against its run by no more than "
-                   "0.1 % of the section's largest, or as much as before [sections stay]")
+                   "0.1 % of the section's largest, or as much as before; with --light, which is "
+                   "less, sections move by this all in all [sections stay]")
         ->type_name("EPS");
   }
   void operator()(const RuledKind&) const {

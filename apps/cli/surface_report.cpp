@@ -97,6 +97,29 @@ std::string lost_text(const std::vector<SkinSectionReport>& sections) {
       lost, sections.size(), significant(100.0 * worst, 2));
 }
 
+std::string matching_text(const Skin& skin) {
+  const auto named = [](SkinMatching matching) -> std::string {
+    switch (matching) {
+      case SkinMatching::kByPoints:
+        return "points";
+      case SkinMatching::kByAngle:
+        return "arc length and angle";
+      case SkinMatching::kOptimised:
+        return "lines across that bend little";
+      default:
+        return "arc length";
+    }
+  };
+  std::string text = named(skin.matching);
+  if (!skin.fair || skin.fair->tried.size() < 2) return text;
+  text += "; changes forced on lines of each: ";
+  for (const MatchingTrial& trial : skin.fair->tried) {
+    if (&trial != &skin.fair->tried.front()) text += ", ";
+    text += fmt::format("{} {} of {}", named(trial.matching), trial.forced, trial.isolines);
+  }
+  return text;
+}
+
 void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& facts) {
   const Skin& skin = fitted.skin;
   const std::size_t contours = skin.sections.size() - fitted.points;
@@ -105,9 +128,12 @@ void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& 
   if (fitted.plain > 0) text += fmt::format(", {} plain cubics", fitted.plain);
   if (fitted.points > 0) text += fmt::format(", {} points", fitted.points);
   facts.add("sections", text);
-  facts.add("matched by", skin.matching == SkinMatching::kByPoints ? "points" : "arc length");
+  facts.add("matched by", matching_text(skin));
   facts.add("tolerance", significant(fitted.tolerance, 3) + " " + units);
-  if (skin.light) facts.add("light", light_text(*skin.light, units));
+  if (skin.light) {
+    facts.add("light",
+              light_text(*skin.light, units) + (skin.fair ? ", before it was made fair" : ""));
+  }
   if (skin.fair) facts.add("fair across", fair_text(*skin.fair, skin.across, units));
   if (skin.light || skin.fair) facts.add("runs lost", lost_text(skin.sections));
   if (skin.across.isolines > 0) facts.add("across", across_text(skin.across));

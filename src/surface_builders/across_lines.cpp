@@ -9,10 +9,10 @@ namespace {
 
 constexpr int kPlacesPerSpan = 16;
 
-/// Changes of sign of bulges that are higher than a tolerance.
+/// Changes of sign of bulges that are higher than each of two tolerances.
 class WaveCounter {
  public:
-  explicit WaveCounter(double tolerance) : tolerance_(tolerance) {}
+  explicit WaveCounter(const std::array<double, 2>& tolerances) : tolerance_(tolerances) {}
 
   /// The next step along a line: curvature over a length.
   void add(double kappa, double length) {
@@ -24,7 +24,7 @@ class WaveCounter {
     length_ += length;
     largest_ = std::max(largest_, std::abs(kappa));
   }
-  [[nodiscard]] std::size_t changes() {
+  [[nodiscard]] std::array<std::size_t, 2> changes() {
     finish();
     return changes_;
   }
@@ -32,16 +32,20 @@ class WaveCounter {
  private:
   void finish() {
     // height of a shallow arc of this length and curvature
-    const bool counts = sign_ != 0 && largest_ * length_ * length_ / 8.0 > tolerance_;
-    if (counts && last_ != 0 && last_ != sign_) ++changes_;
-    if (counts) last_ = sign_;
+    const double height = largest_ * length_ * length_ / 8.0;
+    for (std::size_t k = 0; k < 2 && sign_ != 0; ++k) {
+      if (!(height > tolerance_[k])) continue;
+      if (last_[k] != 0 && last_[k] != sign_) ++changes_[k];
+      last_[k] = sign_;
+    }
     length_ = largest_ = 0.0;
   }
 
-  double tolerance_;
-  int sign_ = 0, last_ = 0;
+  std::array<double, 2> tolerance_;
+  int sign_ = 0;
+  std::array<int, 2> last_{};
   double length_ = 0.0, largest_ = 0.0;
-  std::size_t changes_ = 0;
+  std::array<std::size_t, 2> changes_{};
 };
 
 }  // namespace
@@ -103,8 +107,9 @@ AcrossPlaces places_across(const NurbsSurface& surface, const std::vector<double
   return places;
 }
 
-std::size_t waves_found(const Isoline& line, const AcrossPlaces& places, double tolerance) {
-  WaveCounter counter(tolerance);
+std::array<std::size_t, 2> waves_found(const Isoline& line, const AcrossPlaces& places,
+                                       const std::array<double, 2>& tolerances) {
+  WaveCounter counter(tolerances);
   for (std::size_t k = 0; k < places.between.size(); ++k) {
     const Isoline::Place here = line.at(places.between[k]);
     const Vec3 normal = unit(cross(here.du, here.dv));

@@ -2,6 +2,7 @@
 // Lines u = const of a skin, and how they bend.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -41,9 +42,11 @@ struct AcrossPlaces {
 /// `v`: parameters of the sections.
 [[nodiscard]] AcrossPlaces places_across(const NurbsSurface& surface, const std::vector<double>& v);
 
-/// Changes of sign of the normal curvature along a line, of bulges higher than a tolerance.
-[[nodiscard]] std::size_t waves_found(const Isoline& line, const AcrossPlaces& places,
-                                      double tolerance);
+/// Changes of sign of the normal curvature along a line, of bulges higher than each of two
+/// tolerances.
+[[nodiscard]] std::array<std::size_t, 2> waves_found(const Isoline& line,
+                                                     const AcrossPlaces& places,
+                                                     const std::array<double, 2>& tolerances);
 
 /// A line developed into a plane, with a tolerance to both sides of its heights.
 struct DevelopedLine {

@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "banded_halves.h"
+#include "obvid/core/internal/parallel.h"
+#include "obvid/numeric/internal/banded_cholesky.h"
 
 namespace obvid {
 namespace {
@@ -16,49 +21,10 @@ constexpr double kSolved = 1e-2;
 constexpr double kBegin = 1.0;
 /// A step goes this far towards the nearest bound.
 constexpr double kStep = 0.95;
-
-/// Symmetric positive definite, factored in place: entries right of the diagonal, row by row.
-class BandedSquare {
- public:
-  BandedSquare(std::size_t n, std::size_t beside)
-      : n_(n), width_(beside + 1), entry_(n * width_, 0.0) {}
-
-  void clear() { std::fill(entry_.begin(), entry_.end(), 0.0); }
-  /// Entries (i, i), (i, i + 1), ...
-  [[nodiscard]] double* row(std::size_t i) { return entry_.data() + i * width_; }
-
-  void factor() {
-    for (std::size_t k = 0; k < n_; ++k) {
-      const double* from = row(k);
-      const std::size_t last = std::min(width_, n_ - k);
-      for (std::size_t i = 1; i < last; ++i) {
-        const double share = from[i] / from[0];
-        if (share == 0.0) continue;
-        double* to = row(k + i);
-        for (std::size_t j = i; j < last; ++j) to[j - i] -= share * from[j];
-      }
-    }
-  }
-  void solve(std::vector<double>& x) {
-    for (std::size_t k = 0; k < n_; ++k) {
-      const double* from = row(k);
-      const std::size_t last = std::min(width_, n_ - k);
-      const double share = x[k] / from[0];
-      for (std::size_t j = 1; j < last; ++j) x[k + j] -= share * from[j];
-    }
-    for (std::size_t k = n_; k-- > 0;) {
-      const double* from = row(k);
-      const std::size_t last = std::min(width_, n_ - k);
-      double sum = x[k];
-      for (std::size_t j = 1; j < last; ++j) sum -= from[j] * x[k + j];
-      x[k] = sum / from[0];
-    }
-  }
-
- private:
-  std::size_t n_, width_;
-  std::vector<double> entry_;
-};
+/// Of a whole step: shorter ones move nothing that shows in a box of 1.
+constexpr double kShortestStep = 1e-6;
+/// Rows that a group sees.
+constexpr std::size_t kSeen = std::tuple_size_v<decltype(FormGroup::share)>;
 
 double value(const Form& form, const std::vector<double>& y) {
   double sum = 0.0;
@@ -79,94 +45,134 @@ struct State {
 struct BoxState {
   double upper = 0.0, lower = 0.0;
 };
+/// What the two products of a bound, or of a box, are aimed at: over and dual, missing and the rest
+/// of the dual; both distances in the box and their duals.
+using Aims = std::array<double, 2>;
 
 class Steps {
  public:
   explicit Steps(const BandedProgram& program)
       : p_(program),
         x_(p_.rows * p_.columns, 0.0),
-        matrix_(x_.size(), 3 * p_.columns + widest() - 1),
-        quadratic_(x_.size(), 3 * p_.columns + widest() - 1) {
-    for (const FormGroup& g : p_.groups) {
-      Square square = square_of();
-      for (const Form& f : g.near) add_square(f, f.weight, square);
-      if (!g.near.empty()) add_to(quadratic_, g, square);
-      auto& soft = soft_.emplace_back();
+        right_(x_.size(), 0.0),
+        width_(widths(p_)),
+        matrix_(x_.size(),
+                (kSeen - 1) * p_.columns + *std::max_element(width_.begin(), width_.end()) - 1),
+        quadratic_(matrix_),
+        seen_by_(p_.rows),
+        part_(p_.groups.size()),
+        length_(p_.groups.size()),
+        soft_(p_.groups.size()),
+        soft_step_(p_.groups.size()),
+        box_(p_.groups.size()),
+        box_step_(p_.groups.size()),
+        soft_aim_(p_.groups.size()),
+        box_aim_(p_.groups.size()) {
+    for (std::size_t k = 0; k < p_.groups.size(); ++k) {
+      const FormGroup& g = p_.groups[k];
+      for (std::size_t a = 0; a < seen(g); ++a) seen_by_[g.first_row + a].push_back(k);
       for (const Form& f : g.at_least) {
         const double root = std::hypot(f.wanted, 2.0 * kBegin);
         State s{(root - f.wanted) / 2.0, (root + f.wanted) / 2.0, 0.0};
         s.dual = f.weight * s.missing / (s.over + s.missing);
-        soft.push_back(s);
+        soft_[k].push_back(s);
       }
-      auto& box = box_.emplace_back();
-      for (const Form& f : g.box) box.push_back({kBegin / f.wanted, kBegin / f.wanted});
+      for (const Form& f : g.box) box_[k].push_back({kBegin / f.wanted, kBegin / f.wanted});
+      soft_aim_[k].resize(g.at_least.size());
+      soft_step_[k].resize(g.at_least.size());
+      box_aim_[k].resize(g.box.size());
+      box_step_[k].resize(g.box.size());
     }
   }
 
-  /// False: at the end.
-  bool step() {
-    const double mean = complementarity();
+  /// The squares of the aim, which stay. Error: E103.
+  [[nodiscard]] Result<void> begin(const RunContext& run) {
+    OBVID_TRY(in_parallel(part_.size(), 0, run, [&](std::size_t k) {
+      Part& part = part_[k];
+      part.square.assign(p_.groups[k].near.empty() ? 0 : p_.columns * width_[k], 0.0);
+      for (const Form& f : p_.groups[k].near) add_square(f, f.weight, width_[k], part.square);
+    }));
+    return in_parallel(p_.rows, 0, run, [&](std::size_t a) {
+      for (const std::size_t k : seen_by_[a]) add_to(quadratic_, k, a);
+    });
+  }
+
+  /// One step with a corrector (Mehrotra, SIAM J. Optim. 2 (1992)): how far a step towards no
+  /// complementarity at all would come says what to aim at, and what it leaves out of the products
+  /// is put right, with the same factors. False: at the end. Error: E103.
+  [[nodiscard]] Result<bool> step(const RunContext& run) {
+    const double mean = complementarity(0.0);
     if (!(mean > kSolved)) return false;
-    const double aim = 0.15 * mean;
-    assemble(aim);
-    matrix_.factor();
-    std::vector<double> dx = right_;
-    matrix_.solve(dx);
-    for (const double d : dx) {
+    aim_at(0.0, false);
+    OBVID_TRY(assemble(run));
+    BandedHalves factors(matrix_);
+    const auto factored = factors.factor(run);
+    OBVID_TRY(factored);
+    if (!*factored) return false;
+    auto length = steps_by(factors.solve(right_), run);
+    OBVID_TRY(length);
+    const double left = complementarity(*length) / mean;
+    aim_at(left * left * left * mean, true);
+    OBVID_TRY(pull(run));
+    length = steps_by(factors.solve(right_), run);
+    OBVID_TRY(length);
+    for (const double d : dx_) {
       if (!std::isfinite(d)) return false;
     }
-    const double length = move_duals(dx, aim);
-    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += length * dx[i];
-    return length > 1e-6;
+    move(*length);
+    return *length > kShortestStep;
   }
 
   [[nodiscard]] std::vector<double> take() { return std::move(x_); }
 
  private:
-  /// Symmetric band of one row of unknowns.
-  struct Square {
-    std::size_t width = 0;
-    std::vector<double> entry;  ///< [i][j - i]
+  /// What one group adds to Newton's step: a symmetric band over one row of unknowns, entries
+  /// [i][j - i], and the right side.
+  struct Part {
+    std::vector<double> square, pull;
   };
-  [[nodiscard]] std::size_t widest() const {
-    std::size_t most = 1;
-    for (const FormGroup& g : p_.groups) {
+  [[nodiscard]] static std::vector<std::size_t> widths(const BandedProgram& program) {
+    std::vector<std::size_t> out;
+    for (const FormGroup& g : program.groups) {
+      std::size_t most = 1;
       for (const auto* list : {&g.near, &g.at_least, &g.box}) {
         for (const Form& f : *list) most = std::max(most, f.coefficient.size());
       }
+      out.push_back(most);
     }
-    return most;
+    return out;
   }
-  [[nodiscard]] Square square_of() const {
-    const std::size_t width = widest();
-    return {width, std::vector<double>(p_.columns * width, 0.0)};
+  [[nodiscard]] std::size_t seen(const FormGroup& g) const {
+    return std::min<std::size_t>(kSeen, p_.rows - g.first_row);
   }
-  static void add_square(const Form& f, double weight, Square& s) {
+  static void add_square(const Form& f, double weight, std::size_t width,
+                         std::vector<double>& square) {
     const std::size_t n = f.coefficient.size();
     for (std::size_t i = 0; i < n; ++i) {
-      double* row = s.entry.data() + (f.first_column + i) * s.width;
+      double* row = square.data() + (f.first_column + i) * width;
       const double factor = weight * f.coefficient[i];
       for (std::size_t j = i; j < n; ++j) row[j - i] += factor * f.coefficient[j];
     }
   }
-  /// Into the rows that the group sees.
-  void add_to(BandedSquare& matrix, const FormGroup& g, const Square& s) const {
-    const std::size_t seen = std::min<std::size_t>(4, p_.rows - g.first_row);
-    for (std::size_t a = 0; a < seen; ++a) {
-      for (std::size_t b = a; b < seen; ++b) {
-        const double share = g.share[a] * g.share[b];
-        if (share == 0.0) continue;
-        const std::size_t offset = (b - a) * p_.columns;
-        for (std::size_t i = 0; i < p_.columns; ++i) {
-          double* row = matrix.row((g.first_row + a) * p_.columns + i) + offset;
-          const double* from = s.entry.data() + i * s.width;
-          const std::size_t many = std::min(s.width, p_.columns - i);
-          for (std::size_t d = 0; d < many; ++d) row[d] += share * from[d];
-          if (a == b) continue;
-          // the other half of the symmetric square stands left of its diagonal
-          for (std::size_t d = 1; d < many; ++d) {
-            matrix.row((g.first_row + a) * p_.columns + i + d)[offset - d] += share * from[d];
-          }
+  /// The square of group k into the entries of one of the rows it sees.
+  void add_to(BandedCholesky& matrix, std::size_t k, std::size_t a) const {
+    const FormGroup& g = p_.groups[k];
+    const std::vector<double>& square = part_[k].square;
+    if (square.empty()) return;
+    const std::size_t width = width_[k];
+    for (std::size_t b = a; b < g.first_row + seen(g); ++b) {
+      const double share = g.share[a - g.first_row] * g.share[b - g.first_row];
+      if (share == 0.0) continue;
+      const std::size_t offset = (b - a) * p_.columns;
+      for (std::size_t i = 0; i < p_.columns; ++i) {
+        double* row = matrix.row(a * p_.columns + i) + offset;
+        const double* from = square.data() + i * width;
+        const std::size_t many = std::min(width, p_.columns - i);
+        for (std::size_t d = 0; d < many; ++d) row[d] += share * from[d];
+        if (a == b) continue;
+        // the other half of the symmetric square stands left of its diagonal
+        for (std::size_t d = 1; d < many; ++d) {
+          matrix.row(a * p_.columns + i + d)[offset - d] += share * from[d];
         }
       }
     }
@@ -174,142 +180,195 @@ class Steps {
   [[nodiscard]] std::vector<double> combined(const FormGroup& g,
                                              const std::vector<double>& x) const {
     std::vector<double> y(p_.columns, 0.0);
-    const std::size_t seen = std::min<std::size_t>(4, p_.rows - g.first_row);
-    for (std::size_t a = 0; a < seen; ++a) {
+    for (std::size_t a = 0; a < seen(g); ++a) {
       const double* row = x.data() + (g.first_row + a) * p_.columns;
       for (std::size_t i = 0; i < p_.columns; ++i) y[i] += g.share[a] * row[i];
     }
     return y;
   }
-  void spread(const FormGroup& g, const std::vector<double>& y, std::vector<double>& x) const {
-    const std::size_t seen = std::min<std::size_t>(4, p_.rows - g.first_row);
-    for (std::size_t a = 0; a < seen; ++a) {
-      double* row = x.data() + (g.first_row + a) * p_.columns;
-      for (std::size_t i = 0; i < p_.columns; ++i) row[i] += g.share[a] * y[i];
-    }
-  }
 
-  [[nodiscard]] double complementarity() const {
+  /// Mean of all products when everything has gone so far along its step.
+  [[nodiscard]] double complementarity(double part) const {
     double sum = 0.0, many = 0.0;
     for (std::size_t k = 0; k < p_.groups.size(); ++k) {
       const FormGroup& g = p_.groups[k];
+      if (g.at_least.empty() && g.box.empty()) continue;
       const std::vector<double> y = combined(g, x_);
+      const std::vector<double> dy = part > 0.0 ? combined(g, dx_) : y;
       for (std::size_t i = 0; i < g.at_least.size(); ++i) {
-        const State& s = soft_[k][i];
-        sum += s.over * s.dual + s.missing * (g.at_least[i].weight - s.dual);
+        const State &s = soft_[k][i], &d = soft_step_[k][i];
+        const double dual = s.dual + part * d.dual;
+        sum += (s.over + part * d.over) * dual +
+               (s.missing + part * d.missing) * (g.at_least[i].weight - dual);
       }
       for (std::size_t i = 0; i < g.box.size(); ++i) {
-        const double q = value(g.box[i], y), half = g.box[i].wanted;
-        sum += (half - q) * box_[k][i].upper + (half + q) * box_[k][i].lower;
+        const double q = value(g.box[i], y) + part * value(g.box[i], dy), half = g.box[i].wanted;
+        const BoxState &s = box_[k][i], &d = box_step_[k][i];
+        sum += (half - q) * (s.upper + part * d.upper) + (half + q) * (s.lower + part * d.lower);
       }
       many += static_cast<double>(2 * (g.at_least.size() + g.box.size()));
     }
     return many > 0.0 ? sum / many : 0.0;
   }
 
-  /// Matrix and right side of Newton's step towards complementarity `aim`.
-  void assemble(double aim) {
-    matrix_ = quadratic_;
-    right_.assign(x_.size(), 0.0);
+  /// What all products are aimed at; less what the step at hand leaves out of them.
+  void aim_at(double aim, bool corrected) {
+    const double part = corrected ? 1.0 : 0.0;
     for (std::size_t k = 0; k < p_.groups.size(); ++k) {
       const FormGroup& g = p_.groups[k];
-      const std::vector<double> y = combined(g, x_);
-      std::vector<double> pull(p_.columns, 0.0);
-      for (const Form& f : g.near) add(f, -f.weight * (value(f, y) - f.wanted), pull);
-      if (!g.at_least.empty() || !g.box.empty()) {
-        Square square = square_of();
-        for (std::size_t i = 0; i < g.at_least.size(); ++i) {
-          const Form& f = g.at_least[i];
-          const State& s = soft_[k][i];
-          const auto [stiff, e] = newton(f, s, value(f, y), aim);
-          add_square(f, 1.0 / stiff, square);
-          add(f, s.dual + e / stiff, pull);
-        }
-        for (std::size_t i = 0; i < g.box.size(); ++i) {
-          const Form& f = g.box[i];
-          const BoxState& s = box_[k][i];
-          const double q = value(f, y), up = f.wanted - q, down = f.wanted + q;
-          add_square(f, s.upper / up + s.lower / down, square);
-          add(f, aim / down - aim / up, pull);
-        }
-        add_to(matrix_, g, square);
+      for (std::size_t i = 0; i < g.at_least.size(); ++i) {
+        const State& d = soft_step_[k][i];
+        soft_aim_[k][i] = {aim - part * d.over * d.dual, aim + part * d.missing * d.dual};
       }
-      spread(g, pull, right_);
+      if (g.box.empty()) continue;
+      const std::vector<double> dy = corrected ? combined(g, dx_) : std::vector<double>{};
+      for (std::size_t i = 0; i < g.box.size(); ++i) {
+        const double dq = corrected ? value(g.box[i], dy) : 0.0;
+        const BoxState& d = box_step_[k][i];
+        box_aim_[k][i] = {aim + dq * d.upper, aim - dq * d.lower};
+      }
     }
+  }
+
+  /// Matrix and right side of Newton's step towards the aims. Error: E103.
+  [[nodiscard]] Result<void> assemble(const RunContext& run) {
+    OBVID_TRY(in_parallel(part_.size(), 0, run, [&](std::size_t k) { square_of(k); }));
+    OBVID_TRY(in_parallel(p_.rows, 0, run, [&](std::size_t a) {
+      for (std::size_t i = 0; i < p_.columns; ++i) {
+        const std::size_t at = a * p_.columns + i;
+        std::copy_n(quadratic_.row(at), quadratic_.band() + 1, matrix_.row(at));
+      }
+      for (const std::size_t k : seen_by_[a]) add_to(matrix_, k, a);
+    }));
     double largest = 0.0;
     for (std::size_t i = 0; i < x_.size(); ++i) largest = std::max(largest, matrix_.row(i)[0]);
     constexpr double kRegular = 1e-13;  // of the largest entry: what no form sees stays where it is
     for (std::size_t i = 0; i < x_.size(); ++i) matrix_.row(i)[0] += kRegular * largest;
+    return pull(run);
   }
-  struct Newton {
-    double stiff, e;
-  };
-  static Newton newton(const Form& f, const State& s, double q, double aim) {
-    const double rest = f.weight - s.dual;
-    const double off = q - f.wanted - s.over + s.missing;
-    return {s.over / s.dual + s.missing / rest,
-            (aim / s.dual - s.over) - (aim / rest - s.missing) - off};
+  /// Right side alone. Error: E103.
+  [[nodiscard]] Result<void> pull(const RunContext& run) {
+    OBVID_TRY(in_parallel(part_.size(), 0, run, [&](std::size_t k) { pull_of(k); }));
+    std::fill(right_.begin(), right_.end(), 0.0);
+    for (std::size_t k = 0; k < part_.size(); ++k) {
+      const FormGroup& g = p_.groups[k];
+      for (std::size_t a = 0; a < seen(g); ++a) {
+        double* row = right_.data() + (g.first_row + a) * p_.columns;
+        for (std::size_t i = 0; i < p_.columns; ++i) row[i] += g.share[a] * part_[k].pull[i];
+      }
+    }
+    return {};
+  }
+  void square_of(std::size_t k) {
+    const FormGroup& g = p_.groups[k];
+    std::vector<double>& square = part_[k].square;
+    square.assign(g.at_least.empty() && g.box.empty() ? 0 : p_.columns * width_[k], 0.0);
+    const std::vector<double> y = combined(g, x_);
+    for (std::size_t i = 0; i < g.at_least.size(); ++i) {
+      const Form& f = g.at_least[i];
+      add_square(f, 1.0 / stiffness(f, soft_[k][i]), width_[k], square);
+    }
+    for (std::size_t i = 0; i < g.box.size(); ++i) {
+      const Form& f = g.box[i];
+      const double q = value(f, y);
+      add_square(f, box_[k][i].upper / (f.wanted - q) + box_[k][i].lower / (f.wanted + q),
+                 width_[k], square);
+    }
+  }
+  void pull_of(std::size_t k) {
+    const FormGroup& g = p_.groups[k];
+    const std::vector<double> y = combined(g, x_);
+    std::vector<double>& pull = part_[k].pull;
+    pull.assign(p_.columns, 0.0);
+    for (const Form& f : g.near) add(f, -f.weight * (value(f, y) - f.wanted), pull);
+    for (std::size_t i = 0; i < g.at_least.size(); ++i) {
+      const Form& f = g.at_least[i];
+      const State& s = soft_[k][i];
+      add(f, s.dual + off(f, s, value(f, y), soft_aim_[k][i]) / stiffness(f, s), pull);
+    }
+    for (std::size_t i = 0; i < g.box.size(); ++i) {
+      const Form& f = g.box[i];
+      const double q = value(f, y);
+      const Aims& aim = box_aim_[k][i];
+      add(f, aim[1] / (f.wanted + q) - aim[0] / (f.wanted - q), pull);
+    }
+  }
+  static double stiffness(const Form& f, const State& s) {
+    return s.over / s.dual + s.missing / (f.weight - s.dual);
+  }
+  static double off(const Form& f, const State& s, double q, const Aims& aim) {
+    return (aim[0] / s.dual - s.over) - (aim[1] / (f.weight - s.dual) - s.missing) -
+           (q - f.wanted - s.over + s.missing);
   }
 
-  /// Duals go along as far as they and all slacks stay positive; returns that length.
-  double move_duals(const std::vector<double>& dx, double aim) {
-    std::vector<std::vector<State>> soft_step(soft_.size());
-    std::vector<std::vector<BoxState>> box_step(box_.size());
+  /// Steps of everything by one of the unknowns; returns how far they may be gone such that all
+  /// that is positive stays so. Error: E103.
+  [[nodiscard]] Result<double> steps_by(std::vector<double> dx, const RunContext& run) {
+    dx_ = std::move(dx);
+    OBVID_TRY(in_parallel(part_.size(), 0, run, [&](std::size_t k) { step_of(k); }));
+    return *std::min_element(length_.begin(), length_.end());
+  }
+  void step_of(std::size_t k) {
+    const FormGroup& g = p_.groups[k];
     double length = 1.0;
     const auto limit = [&](double at, double by) {
       if (by < 0.0) length = std::min(length, -kStep * at / by);
     };
-    for (std::size_t k = 0; k < p_.groups.size(); ++k) {
-      const FormGroup& g = p_.groups[k];
-      if (g.at_least.empty() && g.box.empty()) continue;
-      const std::vector<double> y = combined(g, x_), dy = combined(g, dx);
-      for (std::size_t i = 0; i < g.at_least.size(); ++i) {
-        const Form& f = g.at_least[i];
-        const State& s = soft_[k][i];
-        const auto [stiff, e] = newton(f, s, value(f, y), aim);
-        const double rest = f.weight - s.dual;
-        State d;
-        d.dual = (e - value(f, dy)) / stiff;
-        d.over = aim / s.dual - s.over - s.over / s.dual * d.dual;
-        d.missing = aim / rest - s.missing + s.missing / rest * d.dual;
-        limit(s.over, d.over);
-        limit(s.missing, d.missing);
-        limit(s.dual, d.dual);
-        limit(rest, -d.dual);
-        soft_step[k].push_back(d);
+    const std::vector<double> y = combined(g, x_), dy = combined(g, dx_);
+    for (std::size_t i = 0; i < g.at_least.size(); ++i) {
+      const Form& f = g.at_least[i];
+      const State& s = soft_[k][i];
+      const Aims& aim = soft_aim_[k][i];
+      const double rest = f.weight - s.dual;
+      State& d = soft_step_[k][i];
+      d.dual = (off(f, s, value(f, y), aim) - value(f, dy)) / stiffness(f, s);
+      d.over = aim[0] / s.dual - s.over - s.over / s.dual * d.dual;
+      d.missing = aim[1] / rest - s.missing + s.missing / rest * d.dual;
+      limit(s.over, d.over);
+      limit(s.missing, d.missing);
+      limit(s.dual, d.dual);
+      limit(rest, -d.dual);
+    }
+    for (std::size_t i = 0; i < g.box.size(); ++i) {
+      const Form& f = g.box[i];
+      const BoxState& s = box_[k][i];
+      const Aims& aim = box_aim_[k][i];
+      const double q = value(f, y), dq = value(f, dy), up = f.wanted - q, down = f.wanted + q;
+      BoxState& d = box_step_[k][i];
+      d = {aim[0] / up - s.upper + s.upper / up * dq,
+           aim[1] / down - s.lower - s.lower / down * dq};
+      limit(up, -dq);
+      limit(down, dq);
+      limit(s.upper, d.upper);
+      limit(s.lower, d.lower);
+    }
+    length_[k] = length;
+  }
+  void move(double length) {
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += length * dx_[i];
+    for (std::size_t k = 0; k < part_.size(); ++k) {
+      for (std::size_t i = 0; i < soft_[k].size(); ++i) {
+        soft_[k][i].over += length * soft_step_[k][i].over;
+        soft_[k][i].missing += length * soft_step_[k][i].missing;
+        soft_[k][i].dual += length * soft_step_[k][i].dual;
       }
-      for (std::size_t i = 0; i < g.box.size(); ++i) {
-        const Form& f = g.box[i];
-        const BoxState& s = box_[k][i];
-        const double q = value(f, y), dq = value(f, dy), up = f.wanted - q, down = f.wanted + q;
-        const BoxState d{aim / up - s.upper + s.upper / up * dq,
-                         aim / down - s.lower - s.lower / down * dq};
-        limit(up, -dq);
-        limit(down, dq);
-        limit(s.upper, d.upper);
-        limit(s.lower, d.lower);
-        box_step[k].push_back(d);
+      for (std::size_t i = 0; i < box_[k].size(); ++i) {
+        box_[k][i].upper += length * box_step_[k][i].upper;
+        box_[k][i].lower += length * box_step_[k][i].lower;
       }
     }
-    for (std::size_t k = 0; k < p_.groups.size(); ++k) {
-      for (std::size_t i = 0; i < soft_step[k].size(); ++i) {
-        soft_[k][i].over += length * soft_step[k][i].over;
-        soft_[k][i].missing += length * soft_step[k][i].missing;
-        soft_[k][i].dual += length * soft_step[k][i].dual;
-      }
-      for (std::size_t i = 0; i < box_step[k].size(); ++i) {
-        box_[k][i].upper += length * box_step[k][i].upper;
-        box_[k][i].lower += length * box_step[k][i].lower;
-      }
-    }
-    return length;
   }
 
   const BandedProgram& p_;
-  std::vector<double> x_, right_;
-  BandedSquare matrix_, quadratic_;
-  std::vector<std::vector<State>> soft_;
-  std::vector<std::vector<BoxState>> box_;
+  std::vector<double> x_, right_, dx_;
+  std::vector<std::size_t> width_;  ///< of each group: the longest of its forms
+  BandedCholesky matrix_, quadratic_;
+  std::vector<std::vector<std::size_t>> seen_by_;  ///< of each row: the groups that see it
+  std::vector<Part> part_;
+  std::vector<double> length_;  ///< of each group: how far its step may be gone
+  std::vector<std::vector<State>> soft_, soft_step_;
+  std::vector<std::vector<BoxState>> box_, box_step_;
+  std::vector<std::vector<Aims>> soft_aim_, box_aim_;
 };
 
 }  // namespace
@@ -317,9 +376,12 @@ class Steps {
 Result<std::vector<double>> solved(const BandedProgram& program, const RunContext& run, double from,
                                    double to) {
   Steps steps(program);
+  OBVID_TRY(steps.begin(run));
   for (int k = 0; k < kMostIterations; ++k) {
     OBVID_TRY(tell(run, "fairing across", from + (to - from) * k / kMostIterations));
-    if (!steps.step()) break;
+    const auto goes_on = steps.step(run);
+    OBVID_TRY(goes_on);
+    if (!*goes_on) break;
   }
   return steps.take();
 }

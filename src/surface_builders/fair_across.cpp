@@ -4,38 +4,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "across_lines.h"
 #include "banded_program.h"
+#include "obvid/core/internal/parallel.h"
 #include "ripple_meter.h"
 #include "skin_breaks.h"
 
 namespace obvid {
 namespace {
 
-/// Control points along of the correction: the second number where the first leaves too many waves.
+/// Control points along of the correction: the next number where those before leave too many waves.
 constexpr std::array<std::size_t, 2> kAlong = {12, 24};
-constexpr int kRounds = 3;
+/// Normals, signs and runs anew so often; fewer where that is in vain this often in a row.
+constexpr std::size_t kRounds = 4;
+constexpr int kMostInVain = 2;
 /// Waves beyond the forced ones that are few enough.
 constexpr double kFew = 0.01;
 /// Half widths of the boxes: normal, along, across. Their corners lie in the ball of 1.
-constexpr std::array<double, 3> kBox = {0.95, 0.2, 0.2};
+constexpr std::array<double, 3> kBox = {0.95, 0.2, 0.2}, kEvenBox = {0.55, 0.55, 0.55};
 /// The string keeps away from the bounds by what smoothness needs.
 constexpr double kStringShare = 0.87;
 /// Of a section's length: what is left of its shape.
 constexpr double kMostOfLength = 0.01;
 /// Of the section's largest curvature: what may be lost against its run.
 constexpr double kMostAgainstRun = 0.95e-3;
-/// Of a box: where nothing may move, until it is set to 0.
-constexpr double kHeld = 1e-3;
+/// Of a box: where nothing may move, until it is set to 0; and half widths are this at least.
+constexpr double kHeld = 1e-3, kLeastHalf = 1e-9;
 constexpr double kSmoothAlong = 1e-2;
 constexpr double kSoft = 1e3, kSoftRuns = 1e3;
 /// Lines of the program at least, and places of a section at which its run is kept.
 constexpr std::size_t kLeastLines = 40, kLinesPerSpan = 3, kRunPlaces = 300;
-constexpr std::size_t kMostMeterPlaces = 16000;
+constexpr std::size_t kMostMeterPlaces = 32000;
 constexpr double kMovedRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 /// Coefficients of one derivative along: for points with three coordinates side by side.
@@ -79,9 +83,14 @@ class Density {
 
 /// The knots of the correction along: simple, at breaks of the surface.
 std::vector<double> knots_along(const std::vector<double>& breaks, std::size_t count) {
-  const Density density(breaks);
   std::vector<double> knots(kSkinDegree + 1, breaks.front());
   const std::size_t inner = count > kSkinDegree + 1 ? count - kSkinDegree - 1 : 0;
+  if (inner + 2 >= breaks.size()) {
+    knots.insert(knots.end(), breaks.begin() + 1, breaks.end() - 1);
+    knots.insert(knots.end(), kSkinDegree + 1, breaks.back());
+    return knots;
+  }
+  const Density density(breaks);
   for (std::size_t k = 1; k <= inner; ++k) {
     const double at = density.at(static_cast<double>(k) / static_cast<double>(inner + 1));
     const auto above = std::lower_bound(breaks.begin() + 1, breaks.end() - 1, at);
@@ -112,7 +121,8 @@ class Correction {
       : stretch_(stretch),
         given_(stretch.surface),
         how_(wanted),
-        knots_(knots_along(stretch.breaks, along)),
+        breaks_(distinct(given_.knots_u)),
+        knots_(knots_along(breaks_, along)),
         count_(knots_.size() - kSkinDegree - 1),
         degree_(static_cast<std::size_t>(given_.degree_v)),
         at_sections_(bases_across(given_, wanted.v, 2)),
@@ -136,7 +146,7 @@ class Correction {
     const auto solution = solved(program, run, from, to);
     OBVID_TRY(solution);
     take(*solution);
-    keep_runs(runs, meter_at, allowed);
+    OBVID_TRY(keep_runs(runs, meter_at, allowed, run));
     rebuild();
     return {};
   }
@@ -185,7 +195,7 @@ class Correction {
   void place_lines() {
     const std::vector<double> breaks = distinct(knots_);
     const std::size_t spans = breaks.size() - 1;
-    const Density density(stretch_.breaks);
+    const Density density(breaks_);
     const std::size_t lines = std::max(kLeastLines, kLinesPerSpan * spans);
     for (std::size_t l = 0; l < lines; ++l) {
       line_at_.push_back(density.at((static_cast<double>(l) + 0.5) / static_cast<double>(lines)));
@@ -233,7 +243,7 @@ class Correction {
         Axes axes{{normal, along, cross(normal, along)}, kBox};
         if (!(norm(normal) > 0.5) || !(norm(along) > 0.5)) {
           axes.direction = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-          axes.half = {0.55, 0.55, 0.55};
+          axes.half = kEvenBox;
         }
         axes_.push_back(axes);
       }
@@ -271,7 +281,7 @@ class Correction {
           const std::size_t at = k * count_ + (side == 0 ? 0 : count_ - 1);
           held_[at][c] = true;
           axes_[at].direction = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-          axes_[at].half = {0.55, 0.55, 0.55};
+          axes_[at].half = kEvenBox;
         }
       }
     }
@@ -426,7 +436,7 @@ class Correction {
   /// Boxes of control points along, and runs of curvature.
   void add_sections(BandedProgram& program) const {
     std::vector<double> at;
-    const std::vector<double>& breaks = stretch_.breaks;
+    const std::vector<double>& breaks = stretch_.breaks;  // where the contours have joints, too
     const std::size_t spans = breaks.size() - 1;
     const std::size_t each = std::max<std::size_t>(1, std::min<std::size_t>(6, kRunPlaces / spans));
     const std::size_t stride = std::max<std::size_t>(1, spans * each / kRunPlaces);
@@ -447,7 +457,7 @@ class Correction {
         for (std::size_t c = 0; c < 3; ++c) {
           const Vec3 d = axes.direction[c];
           const double half = held(k * count_ + i, d) ? kHeld * box_[k] : box_[k] * axes.half[c];
-          g.box.push_back({3 * i, {d.x, d.y, d.z}, std::max(half, 1e-9), 0.0});
+          g.box.push_back({3 * i, {d.x, d.y, d.z}, std::max(half, kLeastHalf), 0.0});
         }
       }
       if (!still_[k]) add_runs(k, at, basis, g);
@@ -541,12 +551,13 @@ class Correction {
 
   /// A section whose curvature goes against its run takes a share of its correction that does not:
   /// none never does.
-  void keep_runs(const std::vector<RunPlaces>& runs, const std::vector<double>& meter_at,
-                 const std::vector<double>& allowed) {
+  [[nodiscard]] Result<void> keep_runs(const std::vector<RunPlaces>& runs,
+                                       const std::vector<double>& meter_at,
+                                       const std::vector<double>& allowed, const RunContext& run) {
     std::vector<BasisValues> basis;
     for (const double u : meter_at) basis.push_back(basis_at(kSkinDegree, knots_, u, 2));
-    for (std::size_t k = 0; k < how_.v.size(); ++k) {
-      if (still_[k]) continue;
+    return in_parallel(how_.v.size(), 0, run, [&](std::size_t k) {
+      if (still_[k]) return;
       const Frame& frame = stretch_.sections[k].frame();
       std::vector<Vec2> d1, d2;
       for (const BasisValues& b : basis) {
@@ -567,7 +578,7 @@ class Correction {
         }
         return meter.ripple();
       };
-      if (against(1.0) <= allowed[k]) continue;
+      if (against(1.0) <= allowed[k]) return;
       double low = 0.0, high = 1.0;
       for (int step = 0; step < 10; ++step) {
         const double middle = (low + high) / 2.0;
@@ -576,39 +587,30 @@ class Correction {
       for (std::size_t i = 0; i < count_; ++i) {
         moved_[k * count_ + i] = low * moved_[k * count_ + i];
       }
-      box_[k] *= std::max(low, 0.2);  // the next round knows
-    }
+      constexpr double kLeastShare = 0.2;
+      box_[k] *= std::max(low, kLeastShare);  // the next round knows
+    });
   }
 
-  /// The sum on the breaks of the given surface, among which the knots of the correction are.
+  /// The sum on the knots of the given surface, among which those of the correction are.
   void rebuild() {
     std::vector<Vec3> rows = moved_;
     how_.across.matrix.solve_rows(rows, count_);
-    std::vector<BasisValues> basis;
-    for (const double u : stretch_.breaks) basis.push_back(basis_at(kSkinDegree, knots_, u, 2));
+    std::vector<double> missing;
+    std::set_difference(given_.knots_u.begin(), given_.knots_u.end(), knots_.begin(), knots_.end(),
+                        std::back_inserter(missing));
+    const NurbsSurface added = with_knots_u(
+        {kSkinDegree, given_.degree_v, knots_, given_.knots_v, std::move(rows), {}}, missing);
     current_ = given_;
-    const std::size_t width = given_.count_u();
-    std::vector<Hermite> data(basis.size());
-    for (std::size_t j = 0; j < given_.count_v(); ++j) {
-      for (std::size_t b = 0; b < basis.size(); ++b) {
-        std::array<Vec3, 3> sum{};
-        for (std::size_t i = 0; i <= kSkinDegree; ++i) {
-          const Vec3 p = rows[j * count_ + basis[b].first + i];
-          for (std::size_t d = 0; d < 3; ++d) sum[d] = sum[d] + basis[b].value[d][i] * p;
-        }
-        data[b] = {sum[0], sum[1], sum[2]};
-      }
-      const std::vector<Vec3> added = quintic_points(stretch_.breaks, data);
-      for (std::size_t i = 0; i < width; ++i) {
-        Vec3& p = current_.points[j * width + i];
-        p = p + how_.tolerance * added[i];
-      }
+    for (std::size_t i = 0; i < current_.points.size(); ++i) {
+      current_.points[i] = current_.points[i] + how_.tolerance * added.points[i];
     }
   }
 
   const SkinStretch& stretch_;
   const NurbsSurface& given_;
   const FairAcross& how_;
+  std::vector<double> breaks_;  ///< of the given surface along
   std::vector<double> knots_;
   std::size_t count_, degree_;
   std::vector<BasisValues> at_sections_;
@@ -666,9 +668,11 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
 struct Waves {
   std::size_t beyond = 0, all_beyond = 0, forced = 0;
   [[nodiscard]] bool high_ones_few() const { return few_of(beyond); }
-  [[nodiscard]] bool few() const { return few_of(std::max(beyond, all_beyond)); }
+  /// High ones first, until they are few.
   [[nodiscard]] bool less_than(const Waves& other) const {
-    return beyond < other.beyond || (beyond == other.beyond && all_beyond < other.all_beyond);
+    const std::size_t high = few_of(beyond) ? 0 : beyond;
+    const std::size_t others = few_of(other.beyond) ? 0 : other.beyond;
+    return high < others || (high == others && all_beyond < other.all_beyond);
   }
 
  private:
@@ -677,11 +681,11 @@ struct Waves {
   }
 };
 
-Waves waves_of(const SkinStretch& stretch, const NurbsSurface& surface, const FairAcross& how) {
-  const SkinStretch trial{{}, stretch.breaks, surface};
+Result<Waves> waves_of(const SkinStretch& stretch, const NurbsSurface& surface,
+                       const FairAcross& how, const RunContext& run) {
   AcrossReport report;
-  add_across_report(trial, stretch.surface, how.v, how.tolerance, how.fine, report);
-  return {report.beyond, report.all_beyond, report.forced};
+  OBVID_TRY(add_across_report(surface, stretch.breaks, how.v, how.forced, how.fine, run, report));
+  return Waves{report.beyond, report.all_beyond, report.forced};
 }
 
 }  // namespace
@@ -692,34 +696,37 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
   FairedStretch best{stretch.surface, std::vector<double>(sections, 0.0)};
   if (stretch.surface.degree_v < 2 || stretch.breaks.size() < 2) return best;
   const std::vector<double> at = meter_places(stretch.breaks);
-  std::vector<RunPlaces> runs;
-  std::vector<double> allowed;
-  for (std::size_t k = 0; k < sections; ++k) {
-    OBVID_TRY(may_go_on(run));
-    runs.push_back(run_places(stretch, k, wanted.v[k], at));
+  std::vector<RunPlaces> runs(sections);
+  std::vector<double> allowed(sections);
+  OBVID_TRY(in_parallel(sections, 0, run, [&](std::size_t k) {
+    runs[k] = run_places(stretch, k, wanted.v[k], at);
     RippleMeter meter;
     for (std::size_t i = 0; i < runs[k].wanted.size(); ++i) {
       meter.add(runs[k].wanted[i], curvature_of(runs[k].d1[i], runs[k].d2[i]));
     }
-    allowed.push_back(std::max(meter.ripple(), kMostAgainstRun));
-  }
-  const Waves given = waves_of(stretch, best.surface, wanted);
-  Waves least = given;
+    allowed[k] = std::max(meter.ripple(), kMostAgainstRun);
+  }));
+  const auto given = waves_of(stretch, best.surface, wanted, run);
+  OBVID_TRY(given);
+  Waves least = *given;
   constexpr double kParts = static_cast<double>(kAlong.size() * kRounds);
-  double done = 0.0;
-  for (const std::size_t along : kAlong) {
-    // more control points for high waves only
-    if (least.few() || (along != kAlong.front() && least.high_ones_few())) break;
-    Correction correction(stretch, wanted, along);
-    for (int round = 0; round < kRounds; ++round, ++done) {
-      const double start = from + (to - from) * done / kParts;
+  for (std::size_t n = 0; n < kAlong.size() && !least.high_ones_few(); ++n) {
+    Correction correction(stretch, wanted, kAlong[n]);
+    int in_vain = 0;
+    for (std::size_t round = 0; round < kRounds && in_vain < kMostInVain && !least.high_ones_few();
+         ++round) {
+      const double start = from + (to - from) * static_cast<double>(n * kRounds + round) / kParts;
       OBVID_TRY(correction.improve(runs, at, allowed, run, start, start + (to - from) / kParts));
-      const Waves left = waves_of(stretch, correction.surface(), wanted);
-      if (left.all_beyond > given.all_beyond) continue;  // shallow waves are waves, too
-      if (!left.less_than(least)) break;
-      least = left;
+      const auto left = waves_of(stretch, correction.surface(), wanted, run);
+      OBVID_TRY(left);
+      // shallow waves are waves, too
+      if (left->all_beyond > given->all_beyond || !left->less_than(least)) {
+        ++in_vain;
+        continue;
+      }
+      in_vain = 0;
+      least = *left;
       best = {correction.surface(), correction.moved()};
-      if (least.high_ones_few()) break;
     }
   }
   return best;

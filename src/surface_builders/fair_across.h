@@ -16,6 +16,7 @@ struct FairAcross {
   double tolerance = 0.0;        ///< units, > 0: how far each section may move
   const std::vector<double>& v;  ///< parameters of the sections
   const Collocation& across;     ///< of the sections: its own cubic
+  const ForcedAcross& forced;    ///< what the given points force, on the lines of the breaks
   std::array<bool, 2> fixed{};   ///< the border at u = 0, at u = 1 stays where it is
   std::array<bool, 2> smooth{};  ///< and its first and second derivatives by u: a seam
 };
@@ -29,7 +30,7 @@ struct FairedStretch {
 
 /// The surface of a stretch with a correction that keeps every section within the tolerance of
 /// where it was, such that lines across change their bending seldom and curvature along the
-/// sections keeps to the runs of the contours: docs/methods/skin.md. The net keeps its size. Where
+/// sections keeps to the runs of the contours: docs/methods/skin.md. The net keeps its knots. Where
 /// no correction makes less waves than the given surface has, that stays. `from`, `to`: part of the
 /// work that is told. Error: E103.
 [[nodiscard]] Result<FairedStretch> faired_across(const SkinStretch& stretch,

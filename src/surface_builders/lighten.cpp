@@ -292,7 +292,7 @@ void take_across(const Spline& across, std::vector<NurbsSurface>& surfaces) {
 }  // namespace
 
 Result<LightSurfaces> lightened(const std::vector<NurbsSurface>& given, double tolerance,
-                                const RunContext& run) {
+                                const RunContext& run, LightWhere where) {
   OBVID_TRY(check_given(given, tolerance));
   Watch watch(run);
   const auto told = [&watch](double part) -> Result<void> {
@@ -313,6 +313,7 @@ Result<LightSurfaces> lightened(const std::vector<NurbsSurface>& given, double t
   }
   // along first, with a share of the tolerance; with all of it where across nothing is lighter
   for (const double share : {kShareAlong, 1.0}) {
+    if (where == LightWhere::kAlong && share != 1.0) continue;
     out = {given, 0.0};
     for (std::size_t k = 0; k < given.size(); ++k) {
       OBVID_TRY(told(static_cast<double>(k) / parts));

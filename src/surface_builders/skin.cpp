@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "fair_across.h"
 #include "loop_start.h"
+#include "obvid/core/internal/parallel.h"
 #include "obvid/surface/internal/collocation.h"
 #include "obvid/surface_builders/internal/grid.h"
 #include "obvid/surface_builders/internal/lighten.h"
@@ -28,11 +30,14 @@ Result<void> check_sections(const std::vector<SkinSection>& sections, const Skin
     if (!within || (*within > 0.0 && std::isfinite(*within))) continue;
     return error(ErrorCode::kBadOption, "a tolerance must be greater than 0").value(*within);
   }
-  if (options.fair_across && (options.light || options.straight_across)) {
-    return error(ErrorCode::kBadOption,
-                 options.light ? "a skin is either light or fair across"
-                               : "ruled strips have no bending across that could be fair")
+  if (options.fair_across && options.straight_across) {
+    return error(ErrorCode::kBadOption, "ruled strips have no bending across that could be fair")
         .hint("leave one of the two out");
+  }
+  if (options.fair_across && options.light && !(*options.light < *options.fair_across)) {
+    return error(ErrorCode::kBadOption,
+                 "light and fair across: the first tolerance is a part of the second")
+        .value(*options.light);
   }
   if (sections.size() < 2) {
     return error(ErrorCode::kTooFewCurves, "a skin needs at least two sections")
@@ -69,6 +74,19 @@ struct Net {
   std::size_t width = 0;
 };
 
+/// Control points over breaks.
+void form(Net& net, std::vector<double> breaks) {
+  net.breaks = std::move(breaks);
+  for (const SectionCurve& curve : net.curves) {
+    std::vector<Hermite> data;
+    for (const double u : net.breaks) data.push_back(curve.at(u));
+    for (const Hermite& h : data) net.at_breaks.points.push_back(h.point);
+    const std::vector<Vec3> row = quintic_points(net.breaks, data);
+    net.width = row.size();
+    net.points.insert(net.points.end(), row.begin(), row.end());
+  }
+}
+
 Result<Net> net_of(const std::vector<MeasuredSection>& sections, const MatchedStretch& stretch,
                    const SkinOptions& options, const RunContext& run) {
   Net net;
@@ -80,15 +98,7 @@ Result<Net> net_of(const std::vector<MeasuredSection>& sections, const MatchedSt
   }
   auto breaks = breaks_for(net.curves, stretch.at, {options.tolerance}, run);
   OBVID_TRY(breaks);
-  net.breaks = std::move(*breaks);
-  for (const SectionCurve& curve : net.curves) {
-    std::vector<Hermite> data;
-    for (const double u : net.breaks) data.push_back(curve.at(u));
-    for (const Hermite& h : data) net.at_breaks.points.push_back(h.point);
-    const std::vector<Vec3> row = quintic_points(net.breaks, data);
-    net.width = row.size();
-    net.points.insert(net.points.end(), row.begin(), row.end());
-  }
+  form(net, std::move(*breaks));
   return net;
 }
 
@@ -127,16 +137,73 @@ NurbsSurface surface_of(const Net& net, const Collocation& across) {
           across.knots, std::move(points), {}};
 }
 
+/// What a matching forces within a tolerance: on lines in equal steps of the common parameter, of a
+/// skin that takes over the contours there.
+Result<MatchingTrial> tried(const std::vector<MeasuredSection>& sections, const Matched& match,
+                            double tolerance, const RunContext& run) {
+  constexpr std::size_t kLines = 97;  // of each stretch
+  std::vector<double> lines;
+  for (std::size_t i = 0; i < kLines; ++i) {
+    lines.push_back(static_cast<double>(i) / static_cast<double>(kLines - 1));
+  }
+  std::vector<Net> nets;
+  for (const MatchedStretch& stretch : match.stretches) {
+    Net net;
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+      OBVID_TRY(may_go_on(run));
+      auto curve = SectionCurve::make(sections[k], stretch.marks[k], stretch.at);
+      OBVID_TRY(curve);
+      net.curves.push_back(std::move(*curve));
+    }
+    form(net, lines);
+    nets.push_back(std::move(net));
+  }
+  const auto v = parameters_across(nets, sections.size());
+  OBVID_TRY(v);
+  const auto across = cubic_collocation(*v);
+  OBVID_TRY(across);
+  MatchingTrial out{match.matching, 0, 0};
+  for (const Net& net : nets) {
+    const auto forced = forced_across(surface_of(net, *across), lines, *v, tolerance, run);
+    OBVID_TRY(forced);
+    out.isolines += lines.size();
+    out.forced += std::accumulate(forced->forced.begin(), forced->forced.end(), std::size_t{0});
+  }
+  return out;
+}
+
+/// What each matching forces, the one at hand first. Those that these sections do not have are left
+/// out: points where their numbers differ, the others where numbers of corners do.
+Result<std::vector<MatchingTrial>> all_tried(const std::vector<MeasuredSection>& sections,
+                                             const Matched& given, double tolerance,
+                                             const RunContext& run) {
+  const auto first = tried(sections, given, tolerance, run);
+  OBVID_TRY(first);
+  std::vector<MatchingTrial> trials = {*first};
+  for (const SkinMatching matching :
+       {SkinMatching::kByLength, SkinMatching::kByAngle, SkinMatching::kOptimised}) {
+    if (matching == given.matching) continue;
+    OBVID_TRY(tell(run, "matching sections", static_cast<double>(trials.size()) / 4.0));
+    const auto match = matched(sections, matching);
+    if (!match) continue;
+    const auto trial = tried(sections, *match, tolerance, run);
+    if (!trial && trial.error().code != ErrorCode::kCancelled) continue;
+    OBVID_TRY(trial);
+    trials.push_back(*trial);
+  }
+  return trials;
+}
+
 /// Puts surfaces with few control points in the place of the exact ones.
 Result<LightSkinReport> lighten(std::vector<SkinStretch>& stretches, double tolerance,
-                                const RunContext& run) {
+                                LightWhere where, const RunContext& run) {
   LightSkinReport report{tolerance, 0.0, 0, 0};
   std::vector<NurbsSurface> exact;
   for (const SkinStretch& stretch : stretches) {
     report.points_before += stretch.surface.points.size();
     exact.push_back(stretch.surface);
   }
-  auto light = lightened(exact, tolerance, run);
+  auto light = lightened(exact, tolerance, run, where);
   OBVID_TRY(light);
   report.moved = light->moved;
   for (std::size_t n = 0; n < stretches.size(); ++n) {
@@ -171,20 +238,24 @@ Seam seam_at(const std::vector<SkinStretch>& stretches, std::size_t n, bool end)
   return {};
 }
 
-/// Puts surfaces that are fair across in the place of the exact ones, which are returned.
-Result<std::vector<NurbsSurface>> fair_across(std::vector<SkinStretch>& stretches, double tolerance,
+/// Puts surfaces that are fair across in the place of the given ones, whose sections lie within
+/// `moved` of the exact ones; returns what those force.
+Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretches, double moved,
                                               double fine, const std::vector<double>& v,
                                               const Collocation& across, const RunContext& run,
                                               FairAcrossReport& report) {
-  report.tolerance = tolerance;
-  std::vector<NurbsSurface> exact;
+  std::vector<ForcedAcross> forced;
+  report.moved = moved;
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const auto part = [&](std::size_t k) {
       return static_cast<double>(k) / static_cast<double>(stretches.size());
     };
     SkinStretch& stretch = stretches[n];
-    add_across_report(stretch, stretch.surface, v, tolerance, fine, report.before);
-    FairAcross how{fine, tolerance, v, across, {}, {}};
+    auto least = forced_across(stretch.surface, stretch.breaks, v, report.tolerance, run);
+    OBVID_TRY(least);
+    OBVID_TRY(
+        add_across_report(stretch.surface, stretch.breaks, v, *least, fine, run, report.before));
+    FairAcross how{fine, report.tolerance - moved, v, across, *least, {}, {}};
     for (const std::size_t side : {0u, 1u}) {
       const Seam seam = seam_at(stretches, n, side == 1);
       how.fixed[side] = seam.shared;
@@ -192,11 +263,11 @@ Result<std::vector<NurbsSurface>> fair_across(std::vector<SkinStretch>& stretche
     }
     auto fair = faired_across(stretch, how, run, part(n), part(n + 1));
     OBVID_TRY(fair);
-    for (const double moved : fair->moved) report.moved = std::max(report.moved, moved);
-    exact.push_back(std::move(stretch.surface));
+    for (const double by : fair->moved) report.moved = std::max(report.moved, moved + by);
     stretch.surface = std::move(fair->surface);
+    forced.push_back(std::move(*least));
   }
-  return exact;
+  return forced;
 }
 
 }  // namespace
@@ -218,6 +289,12 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
   }
   auto match = matched(measured_sections, options.matching);
   OBVID_TRY(match);
+  std::vector<MatchingTrial> trials;
+  if (options.fair_across && options.matching == SkinMatching::kAutomatic) {
+    auto all = all_tried(measured_sections, *match, *options.fair_across, run);
+    OBVID_TRY(all);
+    trials = std::move(*all);
+  }
   std::vector<Net> nets;
   for (const MatchedStretch& stretch : match->stretches) {
     const double part =
@@ -245,29 +322,37 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     stretches.push_back({std::move(net.curves), std::move(net.breaks), std::move(surface)});
   }
   if (options.light) {
-    auto light = lighten(stretches, *options.light, run);
+    const LightWhere where = options.fair_across ? LightWhere::kAlong : LightWhere::kBoth;
+    auto light = lighten(stretches, *options.light, where, run);
     OBVID_TRY(light);
     result.light = *light;
   }
-  std::vector<NurbsSurface> exact;
-  const double fine = std::min(options.tolerance, options.fair_across.value_or(options.tolerance));
+  std::vector<ForcedAcross> forced;
+  const double bulge = options.fair_across.value_or(options.tolerance);
+  const double fine = std::min(options.tolerance, bulge);
   if (options.fair_across) {
-    auto given_surfaces =
-        fair_across(stretches, *options.fair_across, fine, *v, *across, run, result.fair.emplace());
-    OBVID_TRY(given_surfaces);
-    exact = std::move(*given_surfaces);
+    result.fair.emplace().tolerance = *options.fair_across;
+    result.fair->tried = std::move(trials);
+    auto least = fair_across(stretches, result.light ? result.light->moved : 0.0, fine, *v, *across,
+                             run, *result.fair);
+    OBVID_TRY(least);
+    forced = std::move(*least);
   }
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const double part = static_cast<double>(n) / static_cast<double>(stretches.size());
     OBVID_TRY(tell(run, "checking", part));
     SkinStretch& stretch = stretches[n];
-    for (std::size_t k = 0; k < sections.size(); ++k) {
-      OBVID_TRY(may_go_on(run));
+    OBVID_TRY(in_parallel(sections.size(), 0, run, [&](std::size_t k) {
       add_section_report(stretch, measured_sections[k], k, (*v)[k], result.sections[k]);
-    }
+    }));
     if (!options.straight_across) {
-      add_across_report(stretch, exact.empty() ? stretch.surface : exact[n], *v,
-                        options.fair_across.value_or(options.tolerance), fine, result.across);
+      if (!options.fair_across) {
+        auto least = forced_across(stretch.surface, stretch.breaks, *v, bulge, run);
+        OBVID_TRY(least);
+        forced.push_back(std::move(*least));
+      }
+      OBVID_TRY(add_across_report(stretch.surface, stretch.breaks, *v, forced[n], fine, run,
+                                  result.across));
     }
     result.patches.push_back({fmt::format("part {}", n + 1), std::move(stretch.surface)});
   }

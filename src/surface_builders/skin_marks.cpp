@@ -8,6 +8,8 @@
 #include <limits>
 #include <set>
 
+#include "skin_shares.h"
+
 namespace obvid {
 namespace {
 
@@ -200,6 +202,30 @@ Result<Matched> by_length(const std::vector<MeasuredSection>& sections) {
   return result;
 }
 
+/// Between corners by angle, or optimised.
+Result<Matched> by_shape(const std::vector<MeasuredSection>& sections, SkinMatching matching) {
+  const auto fences = fences_by_length(sections);
+  OBVID_TRY(fences);
+  std::size_t stretches = 0;
+  for (const auto& list : *fences) stretches = std::max(stretches, list.size());
+  Matched result;
+  for (std::size_t f = 0; f + 1 < stretches; ++f) {
+    std::vector<std::vector<double>> marks(sections.size());
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+      const std::vector<double>& fence = (*fences)[k];
+      if (fence.empty()) continue;
+      marks[k] = matching == SkinMatching::kByAngle
+                     ? marks_by_angle(sections[k], fence[f], fence[f + 1])
+                     : std::vector<double>{fence[f], fence[f + 1]};
+    }
+    if (matching == SkinMatching::kOptimised) marks = marks_of_least_bending(sections, marks);
+    if (auto stretch = stretch_of(std::move(marks))) {
+      result.stretches.push_back(std::move(*stretch));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 Result<MeasuredSection> measured(const SkinSection& section) {
@@ -235,9 +261,12 @@ Result<Matched> matched(const std::vector<MeasuredSection>& sections, SkinMatchi
   }
   const bool points =
       matching == SkinMatching::kByPoints || (matching == SkinMatching::kAutomatic && equal);
-  Result<Matched> result = points ? by_points(sections, count) : by_length(sections);
+  const bool shape = matching == SkinMatching::kByAngle || matching == SkinMatching::kOptimised;
+  Result<Matched> result = points  ? by_points(sections, count)
+                           : shape ? by_shape(sections, matching)
+                                   : by_length(sections);
   if (!result) return result;
-  result->matching = points ? SkinMatching::kByPoints : SkinMatching::kByLength;
+  result->matching = points ? SkinMatching::kByPoints : shape ? matching : SkinMatching::kByLength;
   if (result->stretches.empty()) {
     return error(ErrorCode::kNothingThere, "no section has a length");
   }

@@ -2,13 +2,16 @@
 #include "skin_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "across_lines.h"
+#include "obvid/core/internal/parallel.h"
 #include "ripple_meter.h"
 #include "skin_breaks.h"
 
 namespace obvid {
+
 void add_section_report(const SkinStretch& stretch, const MeasuredSection& measured, std::size_t k,
                         double v, SkinSectionReport& report) {
   const SectionCurve& section = stretch.sections[k];
@@ -36,28 +39,42 @@ void add_section_report(const SkinStretch& stretch, const MeasuredSection& measu
   }
 }
 
-void add_across_report(const SkinStretch& stretch, const NurbsSurface& given,
-                       const std::vector<double>& v, double tolerance, double fine,
-                       AcrossReport& report) {
-  const AcrossPlaces places = places_across(given, v);
-  report.tolerance = tolerance;
+Result<ForcedAcross> forced_across(const NurbsSurface& surface, const std::vector<double>& lines,
+                                   const std::vector<double>& v, double tolerance,
+                                   const RunContext& run) {
+  ForcedAcross out{tolerance, std::vector<std::size_t>(lines.size()),
+                   std::vector<std::size_t>(lines.size())};
+  const AcrossPlaces places = places_across(surface, v);
+  OBVID_TRY(in_parallel(lines.size(), 0, run, [&](std::size_t l) {
+    const Tube tube = developed(Isoline(surface, lines[l]), places, tolerance).tube;
+    out.forced[l] = changes_of(taut_string(tube));
+    out.proved[l] = changes_certified(tube);
+  }));
+  return out;
+}
+
+Result<void> add_across_report(const NurbsSurface& surface, const std::vector<double>& lines,
+                               const std::vector<double>& v, const ForcedAcross& forced,
+                               double fine, const RunContext& run, AcrossReport& report) {
+  const AcrossPlaces places = places_across(surface, v);
+  std::vector<std::array<std::size_t, 2>> found(lines.size());
+  OBVID_TRY(in_parallel(lines.size(), 0, run, [&](std::size_t l) {
+    found[l] = waves_found(Isoline(surface, lines[l]), places, {forced.tolerance, fine});
+  }));
+  report.tolerance = forced.tolerance;
   report.fine = fine;
-  for (const double u : stretch.breaks) {
-    const Tube tube = developed(Isoline(given, u), places, tolerance).tube;
-    const std::size_t forced = changes_of(taut_string(tube));
-    const Isoline line(stretch.surface, u);
-    const std::size_t found = waves_found(line, places, tolerance);
-    const std::size_t all = fine == tolerance ? found : waves_found(line, places, fine);
-    const std::size_t beyond = found - std::min(found, forced);
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    const auto beyond = [&](std::size_t many) { return many - std::min(many, forced.forced[l]); };
     ++report.isolines;
-    report.found += found;
-    report.forced += forced;
-    report.proved += changes_certified(tube);
-    report.beyond += beyond;
-    report.worst = std::max(report.worst, beyond);
-    report.all += all;
-    report.all_beyond += all - std::min(all, forced);
+    report.found += found[l][0];
+    report.forced += forced.forced[l];
+    report.proved += forced.proved[l];
+    report.beyond += beyond(found[l][0]);
+    report.worst = std::max(report.worst, beyond(found[l][0]));
+    report.all += found[l][1];
+    report.all_beyond += beyond(found[l][1]);
   }
+  return {};
 }
 
 }  // namespace obvid

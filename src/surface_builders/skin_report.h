@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/surface_builders/internal/skin.h"
 #include "section_curve.h"
 
@@ -22,11 +24,25 @@ struct SkinStretch {
 void add_section_report(const SkinStretch& stretch, const MeasuredSection& measured, std::size_t k,
                         double v, SkinSectionReport& report);
 
-/// Adds the waves across this stretch against what the points of `given` force, a surface over the
-/// same knots across (the stretch's own where nothing was moved); `v` are the sections' parameters,
-/// `fine` the height of bulges that `AcrossReport::all` counts.
-void add_across_report(const SkinStretch& stretch, const NurbsSurface& given,
-                       const std::vector<double>& v, double tolerance, double fine,
-                       AcrossReport& report);
+/// Fewest changes of bending on each isoline, and how many of them are certified.
+struct ForcedAcross {
+  double tolerance = 0.0;  ///< units: how far points may move
+  std::vector<std::size_t> forced, proved;
+};
+
+/// Those that the points of a surface at the sections force, on the lines u = `lines`; `v` are the
+/// sections' parameters. Error: E103.
+[[nodiscard]] Result<ForcedAcross> forced_across(const NurbsSurface& surface,
+                                                 const std::vector<double>& lines,
+                                                 const std::vector<double>& v, double tolerance,
+                                                 const RunContext& run);
+
+/// Adds the waves of a surface against what is forced on the same lines, by bulges higher than the
+/// tolerance of that; `fine` is the height of bulges that `AcrossReport::all` counts. Error: E103.
+[[nodiscard]] Result<void> add_across_report(const NurbsSurface& surface,
+                                             const std::vector<double>& lines,
+                                             const std::vector<double>& v,
+                                             const ForcedAcross& forced, double fine,
+                                             const RunContext& run, AcrossReport& report);
 
 }  // namespace obvid

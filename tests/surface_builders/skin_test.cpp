@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "obvid/curve/internal/clothoid.h"
+#include "skin_shares.h"
 
 namespace obvid {
 namespace {
@@ -365,6 +366,102 @@ TEST(SkinFairAcross, IsTheSameInOtherUnitsAndEachTime) {
     EXPECT_NEAR(static_cast<double>(other->across.all), static_cast<double>(once->across.all),
                 0.05 * static_cast<double>(once->fair->before.all));
   }
+}
+
+/// What each matching forces is told; the matching stays.
+TEST(SkinFairAcross, TellsWhatEachMatchingForces) {
+  std::vector<SkinSection> sections;
+  for (int k = 0; k < 9; ++k) {
+    sections.push_back(section_of(clothoid(0.1 + 0.2 * (k % 3), 0.8, 2.0), at_height(k)));
+  }
+  const auto made = skin(sections, fair_options(1e-5, 1e-3));
+  ASSERT_TRUE(made) << made.error().what;
+  const std::vector<MatchingTrial>& tried = made->fair->tried;
+  ASSERT_EQ(tried.size(), 4u);
+  EXPECT_EQ(made->matching, SkinMatching::kByPoints);
+  EXPECT_EQ(tried.front().matching, SkinMatching::kByPoints);
+  for (const MatchingTrial& trial : tried) {
+    EXPECT_EQ(trial.isolines, tried.front().isolines);
+    SkinOptions options{1e-5};
+    options.matching = trial.matching;
+    const auto plain = skin(sections, options);
+    ASSERT_TRUE(plain) << plain.error().what;
+    EXPECT_EQ(plain->matching, trial.matching);
+    for (const SkinSectionReport& section : plain->sections) EXPECT_LE(section.deviation, 1e-5);
+  }
+  SkinOptions options = fair_options(1e-5, 1e-3);
+  options.matching = SkinMatching::kByPoints;
+  const auto wanted = skin(sections, options);
+  ASSERT_TRUE(wanted);
+  EXPECT_TRUE(wanted->fair->tried.empty());
+}
+
+/// A line and a quarter of a circle, one touching the other: half of the steps are of the length,
+/// half of the turn, which the arc alone has.
+TEST(SkinShares, OfAnAngleFollowLengthAndTurn) {
+  const double line = 3.0, arc = kPi / 2 * 0.5, whole = line + arc;
+  Contour contour;
+  contour.points = {{-line, 0}, {0, 0}, {0.5, 0.5}};
+  contour.pieces = {LinePiece{{-line, 0}, {0, 0}}, ArcPiece{{0, 0}, {0.5, 0.5}, 0.0, 2.0, arc}};
+  contour.joints = {{{{-line, 0}, 0.0, 0.0}, 0, {}},
+                    {{{0, 0}, 0.0, 0.0}, 1, {}},
+                    {{{0.5, 0.5}, kPi / 2, 2.0}, 2, {}}};
+  contour.runs = {{0, 1, 1}};
+  const SkinSection section = section_of(contour, at_height(0));
+  const auto along = measured(section);
+  ASSERT_TRUE(along);
+  const std::vector<double> marks = marks_by_angle(*along, 0.0, along->path->length());
+  ASSERT_EQ(marks.size(), kFreeMarks + 2);
+  for (std::size_t j = 0; j < marks.size(); ++j) {
+    const double s = marks[j], turn = std::max(0.0, s - line) / arc;
+    EXPECT_NEAR(0.5 * s / whole + 0.5 * turn, static_cast<double>(j) / (kFreeMarks + 1), 1e-3);
+  }
+}
+
+/// Points on a cylinder in different places of each section: lines that bend least are its rulings.
+TEST(SkinShares, OfLeastBendingAreRulingsOfACylinder) {
+  std::vector<SkinSection> sections(6, section_of(clothoid(0.2, 1.0, 2.0), at_height(0)));
+  std::vector<MeasuredSection> along;
+  std::vector<std::vector<double>> ends;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    sections[k].frame.origin.z = static_cast<double>(k * k);
+    auto one = measured(sections[k]);
+    ASSERT_TRUE(one);
+    along.push_back(std::move(*one));
+    ends.push_back({0.0, along.back().path->length()});
+  }
+  for (const std::vector<double>& marks : marks_of_least_bending(along, ends)) {
+    for (std::size_t j = 0; j < marks.size(); ++j) {
+      EXPECT_NEAR(marks[j], 2.0 * static_cast<double>(j) / (kFreeMarks + 1), 1e-9);
+    }
+  }
+}
+
+/// Light and fair are one: few control points, sections within the tolerance all in all.
+TEST(SkinFairAcross, IsLightBesides) {
+  constexpr double kShift = 2e-3;
+  SkinOptions options = fair_options(1e-5, 2 * kShift);
+  options.light = 1e-4;
+  const auto exact = skin(scattered(kShift), {1e-5});
+  const auto both = skin(scattered(kShift), options);
+  ASSERT_TRUE(exact && both) << both.error().what;
+  ASSERT_TRUE(both->light && both->fair);
+  EXPECT_LE(both->light->moved, 1e-4);
+  EXPECT_LE(both->fair->moved, 2 * kShift);
+  EXPECT_GE(both->fair->moved, both->light->moved);
+  EXPECT_LT(both->light->points, both->light->points_before);
+  EXPECT_EQ(both->patches[0].surface.points.size(), both->light->points);
+  EXPECT_LT(both->across.all, both->fair->before.all);
+  for (const SkinSectionReport& section : both->sections) {
+    for (int i = 0; i <= 200; ++i) {
+      const double u = i / 200.0, v = section.parameter;
+      EXPECT_LE(norm(evaluate(exact->patches[0].surface, u, v).point -
+                     evaluate(both->patches[0].surface, u, v).point),
+                both->fair->moved);
+    }
+  }
+  options.light = 2 * kShift;
+  EXPECT_EQ(skin(scattered(kShift), options).error().code, ErrorCode::kBadOption);
 }
 
 /// The seam of a closed body stays, and is as smooth as it was.

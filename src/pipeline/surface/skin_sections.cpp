@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <optional>
+#include <thread>
 #include <utility>
 
+#include "obvid/core/internal/parallel.h"
 #include "obvid/geom/internal/box.h"
 #include "surface/align_sections.h"
 #include "surface/surface_kinds.h"
@@ -90,11 +94,10 @@ bool has_continuous_slopes(const Fit& fit) {
 }
 
 /// The contour of one section (`moved` grows to what its points were allowed to move), plain where
-/// that is allowed and nothing better exists.
+/// that is allowed and nothing better exists. Tells nothing.
 Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number, double& moved,
                         std::vector<std::string>& warnings, const RunContext& run) {
-  const RunContext silent({}, run.cancelled);
-  Result<Fit> made = fit(flat.series, job.sections, silent);
+  Result<Fit> made = fit(flat.series, job.sections, run);
   // circles in full precision, and sections turned into their plane: below the last digits of the
   // coordinates nothing is known, so points may move there
   for (double share = kDenseRounding; !made && share < kMostRounding && !job.sections.noise &&
@@ -102,7 +105,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
        share *= 10.0) {
     FitJob within_rounding = job.sections;
     within_rounding.noise = share * flat.extent;
-    made = fit(flat.series, within_rounding, silent);
+    made = fit(flat.series, within_rounding, run);
     moved = std::max(moved, share * flat.extent);
   }
   const std::string name = fmt::format("section {} ({})", number, flat.section.name);
@@ -116,7 +119,7 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
     warnings.push_back(
         fmt::format("{}: no fair contour ({}), the C2 cubic through its points stands for it", name,
                     made.error().what));
-    made = fit(flat.series, plain, silent);
+    made = fit(flat.series, plain, run);
   }
   if (!made && made.error().code == ErrorCode::kCancelled) return made;
   if (!made) {
@@ -152,26 +155,53 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
     close_slits(sections, result.tolerance, result.warnings);
   }
   align_sections(sections, result.warnings);
+  struct Formed {
+    Flat flat;
+    std::optional<Result<Fit>> contour;  ///< none of a section that is a point
+    double moved = 0.0;
+    std::vector<std::string> warnings;
+  };
+  std::vector<Formed> formed(sections.size());
+  // only the calling thread tells and asks; the others hear from it
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<bool> stopped{false};
+  std::atomic<std::size_t> done{0};
+  in_parallel(sections.size(), 0, [&](std::size_t k) {
+    const bool asks = std::this_thread::get_id() == caller;
+    const RunContext part({}, [&, asks] {
+      if (asks && !stopped && !may_go_on(run)) stopped = true;
+      return stopped.load();
+    });
+    if (asks && run.progress && !stopped) {
+      run.progress("forming sections",
+                   static_cast<double>(done) / static_cast<double>(sections.size()));
+    }
+    if (part.cancelled()) return;
+    Formed& one = formed[k];
+    one.flat = flat(sections[k], job.units);
+    if (one.flat.series.points.size() > 1) {
+      one.contour = fit_section(one.flat, job, k + 1, one.moved, one.warnings, part);
+    }
+    ++done;
+  });
+  if (stopped) return fail(cancelled_error());
   std::vector<SkinSection> made;
   double moved = 0.0;
-  for (std::size_t k = 0; k < sections.size(); ++k) {
-    if (run.progress) {
-      run.progress("forming sections",
-                   static_cast<double>(k) / static_cast<double>(sections.size()));
-    }
-    Flat section = flat(sections[k], job.units);
-    if (section.series.points.size() > 1) {
-      auto contour = fit_section(section, job, k + 1, moved, result.warnings, run);
+  for (Formed& one : formed) {
+    if (one.contour) {
+      Result<Fit>& contour = *one.contour;
       OBVID_TRY(contour);
+      moved = std::max(moved, one.moved);
+      result.warnings.insert(result.warnings.end(), one.warnings.begin(), one.warnings.end());
       result.proved += contour->certificate.proved ? 1 : 0;
       result.smooth += has_continuous_slopes(*contour) ? 1 : 0;
       result.plain += promises_monotone(contour->contour.carrier) ? 0 : 1;
-      section.section.contour = std::move(contour->contour);
-      close(section.section);
+      one.flat.section.contour = std::move(contour->contour);
+      close(one.flat.section);
     } else {
       ++result.points;
     }
-    made.push_back(std::move(section.section));
+    made.push_back(std::move(one.flat.section));
   }
   if (moved > 0.0) {
     result.warnings.push_back(fmt::format(

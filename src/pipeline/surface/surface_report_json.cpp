@@ -36,6 +36,19 @@ void add_across(JsonText& json, const char* name, const AcrossReport& across) {
   json.pair("all_beyond", across.all_beyond).end_object();
 }
 
+const char* matching_name(SkinMatching matching) {
+  switch (matching) {
+    case SkinMatching::kByPoints:
+      return "points";
+    case SkinMatching::kByAngle:
+      return "angle";
+    case SkinMatching::kOptimised:
+      return "optimised";
+    default:
+      return "length";
+  }
+}
+
 void add_skin_report(const FittedSkin& fitted, JsonText& json) {
   json.key("skin").begin_object();
   json.pair("proved", fitted.proved)
@@ -43,7 +56,7 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
       .pair("plain", fitted.plain)
       .pair("points", fitted.points);
   json.pair("tolerance", fitted.tolerance);
-  json.pair("matched_by", fitted.skin.matching == SkinMatching::kByPoints ? "points" : "length");
+  json.pair("matched_by", matching_name(fitted.skin.matching));
   if (const auto& light = fitted.skin.light) {
     json.key("light").begin_object().pair("tolerance", light->tolerance);
     json.pair("moved", light->moved).pair("control_points", light->points);
@@ -52,6 +65,12 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
   if (const auto& fair = fitted.skin.fair) {
     json.key("fair_across").begin_object().pair("tolerance", fair->tolerance);
     json.pair("moved", fair->moved);
+    json.key("tried").begin_array();
+    for (const MatchingTrial& trial : fair->tried) {
+      json.begin_object().pair("matched_by", matching_name(trial.matching));
+      json.pair("isolines", trial.isolines).pair("forced", trial.forced).end_object();
+    }
+    json.end_array();
     add_across(json, "before", fair->before);
     json.end_object();
   }

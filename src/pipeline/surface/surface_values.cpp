@@ -50,7 +50,9 @@ Result<void> positive(const std::optional<double>& value, const char* option) {
 Result<void> set_kind(const SurfaceValues& raw, SkinKind& kind) {
   const auto matching = value_named<SkinMatching>({{"auto", SkinMatching::kAutomatic},
                                                    {"points", SkinMatching::kByPoints},
-                                                   {"length", SkinMatching::kByLength}},
+                                                   {"length", SkinMatching::kByLength},
+                                                   {"angle", SkinMatching::kByAngle},
+                                                   {"optimised", SkinMatching::kOptimised}},
                                                   raw.matching, "--match");
   OBVID_TRY(matching);
   kind.matching = *matching;
@@ -59,9 +61,9 @@ Result<void> set_kind(const SurfaceValues& raw, SkinKind& kind) {
   OBVID_TRY(positive(raw.light, "--light"));
   kind.light = raw.light;
   OBVID_TRY(positive(raw.fair_across, "--fair-across"));
-  if (raw.fair_across && raw.light) {
-    return fail(bad_option("a skin is either light or fair across", "--fair-across",
-                           "leave out --light or --fair-across"));
+  if (raw.fair_across && raw.light && !(*raw.light < *raw.fair_across)) {
+    return fail(bad_option("light and fair across: the light skin takes a part of the tolerance",
+                           "--light", "give --light less than --fair-across"));
   }
   if (raw.fair_across && kind.straight_across) {
     return fail(bad_option("ruled strips have no bending across that could be fair",

@@ -18,24 +18,38 @@ class BandedCholesky {
       : n_(n), band_(band), width_(band + 1), entry_(n * width_, 0.0) {}
 
   [[nodiscard]] std::size_t size() const { return n_; }
+  [[nodiscard]] std::size_t band() const { return band_; }
 
   /// Entry in row i, column j >= i, within the band.
-  [[nodiscard]] double& at(std::size_t i, std::size_t j) { return entry_[i * width_ + (j - i)]; }
+  [[nodiscard]] double& at(std::size_t i, std::size_t j) { return row(i)[j - i]; }
+  /// Entries (i, i), (i, i + 1), ..., (i, i + band); those beyond the last column stay 0.
+  [[nodiscard]] double* row(std::size_t i) { return entry_.data() + i * width_; }
+  [[nodiscard]] const double* row(std::size_t i) const { return entry_.data() + i * width_; }
 
   /// Replaces the entries by the factor. False when the matrix is not positive definite in double
   /// precision, or when `go_on()`, asked every few rows, is false.
   template <class GoOn>
   [[nodiscard]] bool factor(const GoOn& go_on) {
-    for (std::size_t k = 0; k < n_; k += kAtOnce) {
+    return factor_first(n_, go_on);
+  }
+
+  /// The same for the first `count` rows: the others keep what is left of the matrix when the first
+  /// unknowns are eliminated.
+  template <class GoOn>
+  [[nodiscard]] bool factor_first(std::size_t count, const GoOn& go_on) {
+    for (std::size_t k = 0; k < count; k += kAtOnce) {
       if (k % (16 * kAtOnce) == 0 && !go_on()) return false;
-      const std::size_t rows = std::min(kAtOnce, n_ - k);
+      const std::size_t rows = std::min(kAtOnce, count - k);
       for (std::size_t p = 0; p < rows; ++p) {
         for (std::size_t q = 0; q < p; ++q) subtract(k + q, k + p);
         if (!scale(k + p)) return false;
       }
-      if (rows < kAtOnce) break;
-      for (std::size_t i = k + kAtOnce; i < std::min(n_, k + kAtOnce + band_); ++i) {
-        subtract_all(k, i);
+      for (std::size_t i = k + rows; i < std::min(n_, k + rows + band_); ++i) {
+        if (rows == kAtOnce) {
+          subtract_all(k, i);
+        } else {
+          for (std::size_t q = 0; q < rows; ++q) subtract(k + q, i);
+        }
       }
     }
     return true;
@@ -43,18 +57,26 @@ class BandedCholesky {
 
   /// Solution for a right side, of the factored matrix.
   [[nodiscard]] std::vector<double> solve(std::vector<double> x) const {
-    for (std::size_t k = 0; k < n_; ++k) {
-      const double* row = entry_.data() + k * width_;
-      const double value = x[k] /= row[0];
-      for (std::size_t t = 1; t <= reach(k); ++t) x[k + t] -= row[t] * value;
-    }
-    for (std::size_t k = n_; k-- > 0;) {
-      const double* row = entry_.data() + k * width_;
-      double sum = x[k];
-      for (std::size_t t = 1; t <= reach(k); ++t) sum -= row[t] * x[k + t];
-      x[k] = sum / row[0];
-    }
+    forward_first(n_, x);
+    back_first(n_, x);
     return x;
+  }
+  /// The two halves of it for the first `count` unknowns: what they take from the right side, all
+  /// the others included; and their values when those behind them are known.
+  void forward_first(std::size_t count, std::vector<double>& x) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      const double* from = row(k);
+      const double value = x[k] /= from[0];
+      for (std::size_t t = 1; t <= reach(k); ++t) x[k + t] -= from[t] * value;
+    }
+  }
+  void back_first(std::size_t count, std::vector<double>& x) const {
+    for (std::size_t k = count; k-- > 0;) {
+      const double* from = row(k);
+      double sum = x[k];
+      for (std::size_t t = 1; t <= reach(k); ++t) sum -= from[t] * x[k + t];
+      x[k] = sum / from[0];
+    }
   }
 
  private:
@@ -63,10 +85,10 @@ class BandedCholesky {
   [[nodiscard]] std::size_t reach(std::size_t k) const { return std::min(band_, n_ - 1 - k); }
 
   bool scale(std::size_t k) {
-    double* row = entry_.data() + k * width_;
-    if (!(row[0] > 0.0) || !std::isfinite(row[0])) return false;
-    const double root = std::sqrt(row[0]);
-    for (std::size_t t = 0; t <= band_; ++t) row[t] /= root;
+    double* entries = row(k);
+    if (!(entries[0] > 0.0) || !std::isfinite(entries[0])) return false;
+    const double root = std::sqrt(entries[0]);
+    for (std::size_t t = 0; t <= band_; ++t) entries[t] /= root;
     return true;
   }
 

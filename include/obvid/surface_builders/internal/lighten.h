@@ -16,6 +16,8 @@ struct LightSurfaces {
   double moved = 0.0;
 };
 
+enum class LightWhere { kBoth, kAlong };
+
 /// The same surfaces with few control points: least squares along u and then along v, knots where
 /// they are needed, as few as were found; `moved` <= tolerance. Degrees stay; inner knots become
 /// single, so along u the surface is C4 where it was C2. Points, first and second derivatives by u
@@ -24,9 +26,12 @@ struct LightSurfaces {
 ///
 /// Not guaranteed: curvature, which a tolerance of positions does not bound; the fewest knots.
 ///
+/// With `LightWhere::kAlong` knots along v stay as they are.
+///
 /// `given`: polynomial, with one degree and one row of knots along v in common, as neighbours
 /// have. Errors: E203 tolerance not > 0 and finite, rational surfaces or other knots.
 [[nodiscard]] Result<LightSurfaces> lightened(const std::vector<NurbsSurface>& given,
-                                              double tolerance, const RunContext& run = {});
+                                              double tolerance, const RunContext& run = {},
+                                              LightWhere where = LightWhere::kBoth);
 
 }  // namespace obvid

@@ -27,10 +27,20 @@ struct SkinSection {
 
 /// What tells which places of neighbouring sections belong together.
 enum class SkinMatching {
-  kAutomatic,  ///< by points when all sections have equally many, else by length
+  kAutomatic,  ///< by points when all sections have equally many, else by length; of skins that are
+               ///< fair across what the others force is told
   kByPoints,   ///< point i of each section belongs to point i of the others
   kByLength,   ///< equal shares of arc length between corners, and between ends of runs where all
                ///< sections have the same runs
+  kByAngle,    ///< between corners equal steps of half arc length and half turned angle
+  kOptimised   ///< between corners such that the lines across bend little, by least squares
+};
+
+/// What one matching forces, on lines of its own.
+struct MatchingTrial {
+  SkinMatching matching = SkinMatching::kByPoints;
+  std::size_t isolines = 0;
+  std::size_t forced = 0;  ///< fewest changes of bending within the tolerance, all lines together
 };
 
 struct SkinOptions {
@@ -42,7 +52,8 @@ struct SkinOptions {
   /// it lay.
   std::optional<double> light{};
   /// Units, > 0: each section may move by as much where lines across then change their bending less
-  /// often. Not with `light` or `straight_across`.
+  /// often. Not with `straight_across`; with `light`, which has to be less, sections stay within
+  /// this of the contours' exact skin all in all.
   std::optional<double> fair_across{};
 };
 
@@ -90,7 +101,8 @@ struct FairAcrossReport {
   double tolerance = 0.0;  ///< as it was asked for, units
   double moved = 0.0;   ///< bound of the distance of any section from where the exact skin has it,
                         ///< units: of control points, by the convex hull; <= tolerance
-  AcrossReport before;  ///< of the exact skin, by this tolerance
+  AcrossReport before;  ///< of the exact (or light) skin, by this tolerance
+  std::vector<MatchingTrial> tried;  ///< with `SkinMatching::kAutomatic`: the one used, then others
 };
 
 struct Skin {
@@ -121,7 +133,8 @@ struct Skin {
 /// within it (proved, `FairAcrossReport::moved`), borders between patches stay as they are, borders
 /// in a coordinate plane stay in it, and curvature along falls against the contour's run by no more
 /// than 1e-3 of the section's largest (as measured in `ripple`), or as much as before. Where no
-/// correction with less waves is found, the skin stays as it was.
+/// correction with less waves is found, the skin stays as it was. With `light` besides, the net has
+/// few control points along and the sections' own across, and the correction its knots.
 ///
 /// Not guaranteed: what happens between sections beyond being C2; `across` counts the waves there;
 /// with `fair_across`, that only forced changes of bending are left: `across` tells.
