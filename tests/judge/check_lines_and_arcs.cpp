@@ -35,12 +35,12 @@ bool is_line_or_arc(const Piece& piece) {
   return std::holds_alternative<Line>(piece) || std::holds_alternative<Arc>(piece);
 }
 
-Real curvature_of(const Piece& piece) {
+Real turning_rate(const Piece& piece) {
   const auto* arc = std::get_if<Arc>(&piece);
   return arc == nullptr ? 0.0L : Real{arc->kappa};
 }
 
-Real length_of(const Piece& piece) {
+Real whole_length(const Piece& piece) {
   if (const auto* arc = std::get_if<Arc>(&piece)) return arc->length;
   const Line& line = std::get<Line>(piece);
   return norm(seen(line.end, line.start));
@@ -59,7 +59,7 @@ bool goes_on(const ContourFile& file, std::size_t piece) {
   if (!is_line_or_arc(a) || !is_line_or_arc(b) || a.index() != b.index()) return false;
   const FileElement* joint = before(file, piece);
   if (joint == nullptr || joint->parted()) return false;
-  const Real ka = curvature_of(a), kb = curvature_of(b);
+  const Real ka = turning_rate(a), kb = turning_rate(b);
   return std::abs(ka - kb) <= kSameCircle * std::abs(ka);
 }
 
@@ -88,9 +88,9 @@ std::vector<Stretch> stretches(const ContourFile& file) {
     do {
       const std::size_t k = (one.first + one.pieces) % count;
       if (!is_line_or_arc(file.pieces[k])) break;
-      const Real length = length_of(file.pieces[k]);
+      const Real length = whole_length(file.pieces[k]);
       one.length += length;
-      if (length > length_of(file.pieces[one.longest])) one.longest = k;
+      if (length > whole_length(file.pieces[one.longest])) one.longest = k;
       ++one.pieces;
     } while (done + one.pieces < count && goes_on(file, (one.first + one.pieces) % count));
     done += std::max<std::size_t>(one.pieces, 1);
