@@ -2,6 +2,7 @@
 // What the launcher's first program does not hold: it goes on in the whole one, which is built when
 // it is first needed. cmake/ObvidFirst.cmake says which sources it is made of.
 #include "commands.h"
+#include "obvid/alignment/profile.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/exchange/internal/dxf/read.h"
 #include "obvid/exchange/internal/geo/geojson.h"
@@ -92,6 +93,7 @@ OBVID_LATER(Result<std::string> opendrive_text(const Contour&, const OpenDriveOp
 OBVID_LATER(Result<SvgDrawing> svg_drawing(const Contour&, const SvgDrawingOptions&))
 OBVID_LATER(Result<std::string> samples_csv(const Contour&, const SampleOptions&))
 OBVID_LATER(Result<AirfoilText> airfoil_text(const Contour&, const AirfoilOptions&))
+OBVID_LATER(Vec2 grades_meet(const ProfileElement&, ProfileCurves))
 OBVID_LATER(std::optional<AirfoilPointFigures> airfoil_point_figures(std::span<const Vec2>,
                                                                      const AirfoilFigures&))
 OBVID_LATER(Result<std::string> obj_text(const Contour&, const SampleOptions&))

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "files/cad_of_text.h"
-#include "obvid/cad/internal/cad.h"
 #include "obvid/core/files.h"
 #include "obvid/exchange/mesh_read.h"
+#include "obvid/io/internal/file_kind.h"
+#include "obvid/pipeline/import.h"
 
 namespace obvid::pipeline_detail {
 
@@ -32,10 +32,9 @@ Result<PointCloud> cloud_of(const SurfaceInput& input) {
 
 bool holds_surface(const std::string& text, const std::string& name) {
   if (is_mesh(text, name)) return false;
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first != std::string::npos && text[first] == '{') return true;
+  if (is_json_text(text)) return true;
   const std::string ending = std::filesystem::path(name).extension().string();
-  return is_cad_text(text) || ending == ".cpt" || ending == ".cptw";
+  return needs_cad(text) || ending == ".cpt" || ending == ".cptw";
 }
 
 }  // namespace obvid::pipeline_detail
