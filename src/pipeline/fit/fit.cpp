@@ -534,9 +534,10 @@ Result<Formed> form_within(Prepared& series, const FitJob& job, double tolerance
   }
   if (formed && halvings > 0) {
     formed->warnings.push_back(
-        fmt::format("within the whole of their tolerances points would change places, or the "
-                    "contour swing out between them: 1/{} of each tolerance was used",
-                    1 << halvings));
+        fmt::format("within {} of their tolerances points would change places, or the contour "
+                    "swing out between them: {:g} of each tolerance was used",
+                    series.part < 1.0 ? fmt::format("{}", series.part) : "the whole",
+                    series.part / (1 << halvings)));
   }
   return formed;
 }
@@ -733,7 +734,6 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   auto prepared = prepare(series, job);
   OBVID_TRY(prepared);
   if (watch.cancelled()) return fail(cancelled_error());
-  for (double& one : prepared->reach) one *= reach.part;
   if (reach.part == 0.0) {
     prepared->reach.assign(prepared->points.size(), 0.0);
     prepared->tolerance.clear();
@@ -743,6 +743,8 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   OBVID_TRY(asked);
   const double tolerance =
       info_of(job.carrier).between_joints ? share_tolerance(*prepared, *asked, least) : *asked;
+  for (double& one : prepared->reach) one *= reach.part;
+  prepared->part = reach.part;
   auto measured =
       form_and_measure(*prepared, job, series.units, {tolerance, *asked}, kept, chains, watch);
   // what rounding makes of arcs shows in their regions only
@@ -876,6 +878,10 @@ class NearerContours {
       if (!watch_.may_go_on()) break;
       FoundChains chains;  // of narrower ranges
       auto made = within(job_, Reach{part}, chains);
+      if (!made && is_made_g3(job_) && !job_.continuity) {
+        made = within(plain_, Reach{part}, chains);
+        if (made) made->report.chain.g2_because = kNoSlopesNearer;
+      }
       if (!made) continue;
       made->warnings.push_back(
           fmt::format("no contour was found that makes use of the whole of the tolerances: it was "
@@ -909,6 +915,9 @@ class NearerContours {
   }
 
  private:
+  static constexpr const char* kNoSlopesNearer =
+      "within that part of the tolerances none with continuous slopes of the curvature was proved";
+
   std::optional<Fit> within(const FitJob& job, Reach reach, FoundChains& chains) {
     auto made = formed_and_proved(series_, job, chains, watch_, {}, reach);
     if (!made || !made->certificate.proved) return std::nullopt;

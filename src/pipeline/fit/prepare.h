@@ -27,6 +27,7 @@ struct Prepared {
   bool central = false;      ///< each in the middle of what is left to it, when ranges ask for it
   bool primitives = false;
   bool thin = true;  ///< fewer joints than points where points with tolerances are dense
+  double part = 1.0;  ///< of the tolerances that `reach` uses
   bool closed = false;
   std::optional<Vec2> period{};  ///< as in the job
   SplitSeries split;
