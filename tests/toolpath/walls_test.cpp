@@ -38,7 +38,7 @@ SimulationReport report_of(const SurfaceModel& model, const std::vector<Sweep>& 
   std::vector<Nearest> reach(cells.cells().size());
   Simulation simulation(*part, cells, reach, 1);
   EXPECT_TRUE(simulation.cut(sweeps, {}));
-  const auto report = simulation.rough_report(kTolerance, stock, {});
+  const auto report = simulation.rough_report(1.0, stock, {});
   EXPECT_TRUE(report);
   return *report;
 }
