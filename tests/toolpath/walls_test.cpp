@@ -14,7 +14,7 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kAllowance = 0.4, kHeight = 3.0, kHalf = 4.0, kTolerance = 0.01;
+constexpr double kAllowance = 0.4, kHeight = 3.0, kHalf = 4.0, kWallTolerance = 0.01;
 
 /// A box without a bottom, 8 x 8 x 3, with du x dv of its walls outwards or inwards.
 SurfaceModel box(bool outwards) {
@@ -32,7 +32,7 @@ SurfaceModel box(bool outwards) {
 SimulationReport report_of(const SurfaceModel& model, const std::vector<Sweep>& sweeps,
                            const std::array<Vec3, 2>& stock) {
   const CutterShape cutter{1.5, 0.0};
-  const auto part = Part::make(model, cutter, kTolerance, kAllowance, {});
+  const auto part = Part::make(model, cutter, kWallTolerance, kAllowance, {});
   EXPECT_TRUE(part);
   const SurfaceCells cells(*part, 0.2, cutter.radius, 1);
   std::vector<Nearest> reach(cells.cells().size());
