@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.h"
@@ -232,7 +233,7 @@ int run(const SurfaceCheckOptions& options) {
     bar.clear();
     return report(model.error());
   }
-  const auto checked = check_surface(*model, options.job, bar.progress());
+  auto checked = check_surface(*model, options.job, bar.progress());
   if (!checked) {
     bar.clear();
     return report(checked.error());
@@ -246,6 +247,7 @@ int run(const SurfaceCheckOptions& options) {
   bar.clear();
   if (!written) return report(written.error());
   warn(warnings);
+  checked->warnings = std::move(warnings);  // those of reading and writing, too
   if (options.quiet && !options.json) return 0;
   const std::string text = options.json ? surface_check_json(*model, *checked, *written)
                                         : surface_check_text(*model, *checked, *written);

@@ -67,10 +67,10 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"view", text(f.view)},
                 {"step", text(f.step)}});
   }
-  if (known.check || known.formats) all.insert({{"against", text(w.check.against)}});
-  if (known.check) {
-    all.insert({{"samples", count(w.check.samples)}, {"meeting", number(w.check.meeting)}});
+  if (known.check || known.formats) {
+    all.insert({{"against", text(w.check.against)}, {"samples", count(w.check.samples)}});
   }
+  if (known.check) all.insert({{"meeting", number(w.check.meeting)}});
   if (known.cut) {
     SurfaceCutValues& c = w.cut;
     all.insert({{"plane", texts(c.planes)},

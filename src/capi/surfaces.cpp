@@ -117,7 +117,10 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
     const RunContext context = context_of(run);
     OBVID_TRY(may_go_on(context));
     auto out = std::make_unique<obvid_files>();
-    if (request->check.against) {
+    const bool shows = *format == FileFormat::kPicture || *format == FileFormat::kPage;
+    if (request->check.against && !shows) {
+      out->remarks.push_back("against: not used, only .svg and .html show distances");
+    } else if (request->check.against) {
       auto measured = measured_against(surface->model, *request->check.against,
                                        request->check.check.samples, out->remarks, context);
       OBVID_TRY(measured);

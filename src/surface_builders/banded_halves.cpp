@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <thread>
 #include <utility>
 
 #include "obvid/core/internal/parallel.h"
@@ -30,17 +28,11 @@ BandedHalves::BandedHalves(const BandedCholesky& matrix)
 }
 
 Result<bool> BandedHalves::factor(const RunContext& run) {
-  const std::thread::id caller = std::this_thread::get_id();
-  std::atomic<bool> stopped{false};
-  const auto go_on = [&] {
-    if (std::this_thread::get_id() == caller && !may_go_on(run)) stopped = true;
-    return !stopped;
-  };
   std::array<bool, 2> factored{};
-  in_parallel(2, 0, [&](std::size_t side) {
+  OBVID_TRY(in_parallel(2, 0, run, [&](std::size_t side, const RunContext& part) {
+    const auto go_on = [&] { return may_go_on(part).has_value(); };
     factored[side] = side == 0 ? down_.factor_first(first_, go_on) : up_.factor_first(last_, go_on);
-  });
-  if (stopped) return fail(cancelled_error());
+  }));
   if (!factored[0] || !factored[1]) return false;
   for (std::size_t i = 0; i < between_; ++i) {
     for (std::size_t j = i; j < between_; ++j) {
@@ -48,7 +40,11 @@ Result<bool> BandedHalves::factor(const RunContext& run) {
                          up_.at(last_ + between_ - 1 - j, last_ + between_ - 1 - i);
     }
   }
-  const bool whole = middle_.factor(go_on);
+  bool stopped = false;  // `run` is not asked again once it said so
+  const bool whole = middle_.factor([&] {
+    stopped = !may_go_on(run);
+    return !stopped;
+  });
   if (stopped) return fail(cancelled_error());
   return whole;
 }

@@ -14,6 +14,8 @@ namespace {
 
 /// Searches between two questions whether to go on: some ms.
 constexpr std::size_t kBlock = 64;
+/// Of a surface's raster: whole rows of them, about.
+constexpr std::size_t kPlacesTogether = 65'536;
 
 /// Sums over places in their order: the same for any number of threads.
 class Sums {
@@ -80,11 +82,16 @@ Result<Deviation> deviation_of(const std::vector<Vec3>& points, const NearestOnM
   const auto nearest = nearest_of(points, from, run);
   OBVID_TRY(nearest);
   Sums sums;
+  std::vector<double> offs;
+  offs.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const NearestPlace& there = (*nearest)[i];
     sums.add({there.off, points[i], i, 0.0, 0.0, there}, 1.0);
+    offs.push_back(there.off);
   }
-  return sums.taken();
+  Deviation out = sums.taken();
+  out.offs = std::move(offs);
+  return out;
 }
 
 Result<Deviation> deviation_of(const SurfaceModel& model, const NearestOnModel& from,
@@ -96,25 +103,28 @@ Result<Deviation> deviation_of(const SurfaceModel& model, const NearestOnModel& 
     const NurbsSurface& s = model.patches[patch].surface;
     const auto us = even_or_by_spans(s.knots_u, domain_u(s), samples);
     const auto vs = even_or_by_spans(s.knots_v, domain_v(s), samples);
-    std::vector<Vec3> points;
-    std::vector<double> areas;
-    for (const Node& v : vs) {
-      OBVID_TRY(may_go_on(run));
-      for (const Node& u : us) {
-        const SurfaceJet jet = evaluate(s, u.at, v.at);
-        points.push_back(jet.point);
-        areas.push_back(norm(cross(jet.du, jet.dv)) * u.weight * v.weight);
-      }
-    }
-    const auto nearest = nearest_of(points, from, run);
-    OBVID_TRY(nearest);
     std::array<Peaks, 2> peaks{Peaks(us.size(), vs.size()), Peaks(us.size(), vs.size())};
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const std::size_t i = k % us.size(), j = k / us.size();
-      const NearestPlace& there = (*nearest)[k];
-      sums.add({there.off, points[k], patch, us[i].at, vs[j].at, there}, areas[k]);
-      for (std::size_t side = 0; side < 2; ++side) {
-        peaks[side].look_at(kSigns[side] * there.off, i, j, us[i], vs[j]);
+    const std::size_t rows = std::max<std::size_t>(1, kPlacesTogether / us.size());
+    for (std::size_t first = 0; first < vs.size(); first += rows) {
+      std::vector<Vec3> points;
+      std::vector<double> areas;
+      for (std::size_t j = first; j < std::min(vs.size(), first + rows); ++j) {
+        OBVID_TRY(may_go_on(run));
+        for (const Node& u : us) {
+          const SurfaceJet jet = evaluate(s, u.at, vs[j].at);
+          points.push_back(jet.point);
+          areas.push_back(norm(cross(jet.du, jet.dv)) * u.weight * vs[j].weight);
+        }
+      }
+      const auto nearest = nearest_of(points, from, run);
+      OBVID_TRY(nearest);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const std::size_t i = k % us.size(), j = first + k / us.size();
+        const NearestPlace& there = (*nearest)[k];
+        sums.add({there.off, points[k], patch, us[i].at, vs[j].at, there}, areas[k]);
+        for (std::size_t side = 0; side < 2; ++side) {
+          peaks[side].look_at(kSigns[side] * there.off, i, j, us[i], vs[j]);
+        }
       }
     }
     for (std::size_t side = 0; side < 2; ++side) keep_best(starts[side], patch, peaks[side]);

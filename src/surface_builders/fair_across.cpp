@@ -667,17 +667,12 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
 /// Waves that need not be: high ones, and shallow ones with them; and how many are forced.
 struct Waves {
   std::size_t beyond = 0, all_beyond = 0, forced = 0;
-  [[nodiscard]] bool high_ones_few() const { return few_of(beyond); }
-  /// High ones first, until they are few.
-  [[nodiscard]] bool less_than(const Waves& other) const {
-    const std::size_t high = few_of(beyond) ? 0 : beyond;
-    const std::size_t others = few_of(other.beyond) ? 0 : other.beyond;
-    return high < others || (high == others && all_beyond < other.all_beyond);
+  [[nodiscard]] bool high_ones_few() const {
+    return static_cast<double>(beyond) <= kFew * static_cast<double>(forced);
   }
-
- private:
-  [[nodiscard]] bool few_of(std::size_t waves) const {
-    return static_cast<double>(waves) <= kFew * static_cast<double>(forced);
+  /// High ones first.
+  [[nodiscard]] bool less_than(const Waves& other) const {
+    return beyond < other.beyond || (beyond == other.beyond && all_beyond < other.all_beyond);
   }
 };
 

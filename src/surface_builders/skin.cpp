@@ -184,7 +184,7 @@ Result<std::vector<MatchingTrial>> all_tried(const std::vector<MeasuredSection>&
        {SkinMatching::kByLength, SkinMatching::kByAngle, SkinMatching::kOptimised}) {
     if (matching == given.matching) continue;
     OBVID_TRY(tell(run, "matching sections", static_cast<double>(trials.size()) / 4.0));
-    const auto match = matched(sections, matching);
+    const auto match = matched(sections, matching, run);
     if (!match) continue;
     const auto trial = tried(sections, *match, tolerance, run);
     if (!trial && trial.error().code != ErrorCode::kCancelled) continue;
@@ -287,7 +287,7 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     if (!section) return fail(of_section(section.error(), sections, k));
     measured_sections.push_back(std::move(*section));
   }
-  auto match = matched(measured_sections, options.matching);
+  auto match = matched(measured_sections, options.matching, run);
   OBVID_TRY(match);
   std::vector<MatchingTrial> trials;
   if (options.fair_across && options.matching == SkinMatching::kAutomatic) {

@@ -203,7 +203,8 @@ Result<Matched> by_length(const std::vector<MeasuredSection>& sections) {
 }
 
 /// Between corners by angle, or optimised.
-Result<Matched> by_shape(const std::vector<MeasuredSection>& sections, SkinMatching matching) {
+Result<Matched> by_shape(const std::vector<MeasuredSection>& sections, SkinMatching matching,
+                         const RunContext& run) {
   const auto fences = fences_by_length(sections);
   OBVID_TRY(fences);
   std::size_t stretches = 0;
@@ -218,7 +219,12 @@ Result<Matched> by_shape(const std::vector<MeasuredSection>& sections, SkinMatch
                      ? marks_by_angle(sections[k], fence[f], fence[f + 1])
                      : std::vector<double>{fence[f], fence[f + 1]};
     }
-    if (matching == SkinMatching::kOptimised) marks = marks_of_least_bending(sections, marks);
+    OBVID_TRY(may_go_on(run));
+    if (matching == SkinMatching::kOptimised) {
+      auto least = marks_of_least_bending(sections, marks, run);
+      OBVID_TRY(least);
+      marks = std::move(*least);
+    }
     if (auto stretch = stretch_of(std::move(marks))) {
       result.stretches.push_back(std::move(*stretch));
     }
@@ -242,7 +248,8 @@ Result<MeasuredSection> measured(const SkinSection& section) {
   return result;
 }
 
-Result<Matched> matched(const std::vector<MeasuredSection>& sections, SkinMatching matching) {
+Result<Matched> matched(const std::vector<MeasuredSection>& sections, SkinMatching matching,
+                        const RunContext& run) {
   bool equal = true;
   const std::size_t count = sections.front().section->points.size();
   std::size_t odd = 0;
@@ -263,7 +270,7 @@ Result<Matched> matched(const std::vector<MeasuredSection>& sections, SkinMatchi
       matching == SkinMatching::kByPoints || (matching == SkinMatching::kAutomatic && equal);
   const bool shape = matching == SkinMatching::kByAngle || matching == SkinMatching::kOptimised;
   Result<Matched> result = points  ? by_points(sections, count)
-                           : shape ? by_shape(sections, matching)
+                           : shape ? by_shape(sections, matching, run)
                                    : by_length(sections);
   if (!result) return result;
   result->matching = points ? SkinMatching::kByPoints : shape ? matching : SkinMatching::kByLength;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/surface_builders/internal/skin.h"
 
@@ -36,6 +37,6 @@ struct MeasuredSection {
 [[nodiscard]] Result<MeasuredSection> measured(const SkinSection& section);
 
 [[nodiscard]] Result<Matched> matched(const std::vector<MeasuredSection>& sections,
-                                      SkinMatching matching);
+                                      SkinMatching matching, const RunContext& run);
 
 }  // namespace obvid

@@ -39,28 +39,31 @@ class SharedLines {
     }
   }
 
-  void least(std::size_t order, double smooth) {
-    if (sections_.size() < order + 1) return;
+  Result<void> least(std::size_t order, double smooth, const RunContext& run) {
+    if (sections_.size() < order + 1) return {};
     points_ = placed(shares_);
     for (int step = 0; step < kMostNewtonSteps; ++step) {
       const std::vector<Stencil> rows = stencils(order);
       const double sum = sum_of(rows, points_.at, shares_, smooth);
-      const auto by = newton(rows, smooth);
-      if (by.empty()) return;
+      const auto by = newton(rows, smooth, run);
+      OBVID_TRY(by);
+      if (by->empty()) return {};
       double length = 1.0;
       bool fell = false;
       for (int k = 0; k < kMostHalvings && !fell; ++k, length /= 2.0) {
-        const Shares trial = moved(by, length);
+        OBVID_TRY(may_go_on(run));
+        const Shares trial = moved(*by, length);
         Placed there = placed(trial);
         const double now = sum_of(rows, there.at, trial, smooth);
         if (!(now < sum)) continue;
         fell = now < (1.0 - kLeastFall) * sum;
         shares_ = trial;
         points_ = std::move(there);
-        if (!fell) return;
+        if (!fell) return {};
       }
-      if (!fell) return;
+      if (!fell) return {};
     }
+    return {};
   }
 
   [[nodiscard]] std::vector<std::vector<double>> marks() const {
@@ -164,7 +167,8 @@ class SharedLines {
   }
 
   /// Step of the inner shares, section after section; empty where there is none.
-  [[nodiscard]] std::vector<double> newton(const std::vector<Stencil>& rows, double smooth) const {
+  [[nodiscard]] Result<std::vector<double>> newton(const std::vector<Stencil>& rows,
+                                                   double smooth, const RunContext& run) const {
     const std::size_t n = sections_.size();
     BandedCholesky matrix(n * kFreeMarks, 2 * kFreeMarks);
     std::vector<double> right(n * kFreeMarks, 0.0);
@@ -204,7 +208,13 @@ class SharedLines {
       mean += matrix.row(i)[0] / static_cast<double>(matrix.size());
     }
     for (std::size_t i = 0; i < matrix.size(); ++i) matrix.row(i)[0] += kAnchor * mean;
-    if (!matrix.factor([] { return true; })) return {};
+    bool stopped = false;
+    const bool factored = matrix.factor([&] {
+      stopped = !may_go_on(run);
+      return !stopped;
+    });
+    if (stopped) return fail(cancelled_error());
+    if (!factored) return std::vector<double>{};
     return matrix.solve(std::move(right));
   }
 
@@ -264,11 +274,12 @@ std::vector<double> marks_by_angle(const MeasuredSection& section, double from, 
   return out;
 }
 
-std::vector<std::vector<double>> marks_of_least_bending(
-    const std::vector<MeasuredSection>& sections, const std::vector<std::vector<double>>& ends) {
+Result<std::vector<std::vector<double>>> marks_of_least_bending(
+    const std::vector<MeasuredSection>& sections, const std::vector<std::vector<double>>& ends,
+    const RunContext& run) {
   SharedLines lines(sections, ends);
-  lines.least(1, kSmoothTwist);
-  lines.least(2, kSmoothBending);
+  OBVID_TRY(lines.least(1, kSmoothTwist, run));
+  OBVID_TRY(lines.least(2, kSmoothBending, run));
   return lines.marks();
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "obvid/core/run_context.h"
 #include "skin_marks.h"
 
 namespace obvid {
@@ -22,8 +23,9 @@ inline constexpr std::size_t kFreeMarks = 31;
 /// little: least squares of chords between neighbouring sections first, then of second divided
 /// differences over the chords, both with second differences of the shares of length along (Gauss
 /// and Newton's steps, shortened until the sum falls; shares stay apart). Empty for sections that
-/// are a point. The least sum that was found, not the least there is.
-[[nodiscard]] std::vector<std::vector<double>> marks_of_least_bending(
-    const std::vector<MeasuredSection>& sections, const std::vector<std::vector<double>>& ends);
+/// are a point. The least sum that was found, not the least there is. Error: E103.
+[[nodiscard]] Result<std::vector<std::vector<double>>> marks_of_least_bending(
+    const std::vector<MeasuredSection>& sections, const std::vector<std::vector<double>>& ends,
+    const RunContext& run);
 
 }  // namespace obvid

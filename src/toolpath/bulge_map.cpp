@@ -74,7 +74,7 @@ std::vector<double> bulges(const Part& part, const std::optional<Vec2>& directio
 
 BulgeMap::BulgeMap(const Part& part, std::optional<Vec2> direction)
     : longest_(kLongestOfRadius * part.cutter().radius) {
-  const double r = part.cutter().radius;
+  const double r = part.cutter().radius + part.allowance();  // of what rests on the part
   const Vec3 low = part.field().low(), high = part.field().high();
   const double over = 2.0 * r + longest_;
   const double dx = high.x - low.x + 2.0 * over, dy = high.y - low.y + 2.0 * over;

@@ -24,6 +24,7 @@ constexpr int kMostAttempts = 3;
 constexpr double kLowerShare = 0.96;
 constexpr double kCellOfRadius = 1.0 / 8.0, kCellOfStep = 0.25;
 constexpr double kDefaultSafe = 0.5;    // diameters above the highest point
+constexpr double kLeastSpindle = 0.5;   // revolutions a minute: printed as a whole number
 constexpr double kSteepestRamp = 90.0;  // degrees
 constexpr double kMostAngle = 1e6;      // degrees: beyond, the angle is lost in rounding
 
@@ -34,12 +35,6 @@ Result<void> refuse(std::string what, double value, std::string hint = "") {
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 Result<void> check_roughing(const ToolpathOptions& o) {
-  if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {
-    return refuse("the allowance must not be less than 0", o.allowance);
-  }
-  if (o.spindle && !(std::isfinite(*o.spindle) && *o.spindle >= 0.0)) {
-    return refuse("the spindle's speed must not be less than 0", *o.spindle);
-  }
   if (o.strategy != ToolpathStrategy::kRough) {
     if (!o.step_down && !o.stock && !o.ramp_deg) return {};
     return refuse("step down, stock and ramp are for roughing", 0.0, "add --strategy rough");
@@ -71,6 +66,13 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   }
   for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
     if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
+  }
+  if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {
+    return refuse("the allowance must not be less than 0", o.allowance);
+  }
+  if (o.spindle && !(std::isfinite(*o.spindle) && *o.spindle > kLeastSpindle)) {
+    return refuse("the spindle's speed must be more than 0.5 revolutions a minute", *o.spindle,
+                  "programs hold whole numbers");
   }
   OBVID_TRY(check_roughing(o));
   if (!o.scallop && !o.step_over) {

@@ -76,7 +76,7 @@ class Simulation {
   [[nodiscard]] Result<SimulationReport> report(double allowed, double within,
                                                 const RunContext& run);
   /// Depth of gouges as above; of what stays of a box of stock the most over the middles of cells,
-  /// with no bound beside.
+  /// with no bound beside. What is hidden or held is not looked for: no numbers.
   [[nodiscard]] Result<SimulationReport> rough_report(double allowed,
                                                       const std::array<Vec3, 2>& stock,
                                                       const RunContext& run);

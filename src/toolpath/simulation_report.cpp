@@ -23,6 +23,7 @@ double out_of_box(const std::array<Vec3, 2>& box, const Cell& cell) {
   double way = std::numeric_limits<double>::infinity();
   const auto leave = [&](double at, double along, double low, double high) {
     if (along != 0.0) way = std::min(way, ((along > 0.0 ? high : low) - at) / along);
+    if (at < low || at > high) way = std::min(way, 0.0);
   };
   leave(cell.point.x, cell.normal.x, box[0].x, box[1].x);
   leave(cell.point.y, cell.normal.y, box[0].y, box[1].y);
@@ -144,15 +145,22 @@ Result<SimulationReport> Simulation::rough_report(double allowed, const std::arr
                                                   const RunContext& run) {
   SimulationReport out;
   OBVID_TRY(report_depth(allowed, out, run));
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Cell& cell = cells_.cells()[i];
-    out.area += cell.area;
-    if (cell.normal == Vec3{}) continue;
-    const double left = std::min(nodes_[i].left, out_of_box(stock, cell));
-    if (left > out.left.found && !hidden(part_, cell.point, cell.normal)) {
-      raise_extreme(out.left, left, cell.point);
+  for (const Cell& cell : cells_.cells()) out.area += cell.area;
+  std::vector<Extreme> found((nodes_.size() + kCellsTogether - 1) / kCellsTogether);
+  OBVID_TRY(in_parallel(found.size(), threads_, run, [&](std::size_t k) {
+    const std::size_t end = std::min(nodes_.size(), (k + 1) * kCellsTogether);
+    for (std::size_t i = k * kCellsTogether; i < end; ++i) {
+      const Cell& cell = cells_.cells()[i];
+      if (cell.normal == Vec3{}) continue;
+      const double left = std::min(nodes_[i].left, out_of_box(stock, cell));
+      if (left > found[k].found && !hidden(part_, cell.point, cell.normal)) {
+        raise_extreme(found[k], left, cell.point);
+      }
     }
-  }
+  }));
+  for (const Extreme& e : found) raise_extreme(out.left, e.found, e.place);
+  constexpr double kNotLookedFor = std::numeric_limits<double>::quiet_NaN();
+  out.hidden_area = out.held_area = out.held = kNotLookedFor;
   out.left.most = std::numeric_limits<double>::infinity();
   return out;
 }

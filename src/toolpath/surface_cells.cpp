@@ -171,8 +171,10 @@ void SurfaceCells::fill(const Part& part, std::size_t threads) {
     for (std::uint32_t i = 0; i + 1 < grids_[row.patch].us.size(); ++i) {
       const Origin origin{row.patch, i, row.j};
       Cell& cell = cells_[row.first + i];
-      cell = cell_at(part.model(), place(origin), {0.0, 0.0, 1.0}, part.allowance());
-      cell.normal = open_side(part, cell);
+      // the allowance lies on the open side, which is looked for from the surface itself
+      cell = cell_at(part.model(), place(origin), {0.0, 0.0, 1.0}, 0.0);
+      const Vec3 side = open_side(part, cell);
+      cell = cell_at(part.model(), place(origin), side, part.allowance());
       origins_[row.first + i] = origin;
     }
   });

@@ -33,7 +33,7 @@ PassFrame pass_frame(const Part& part, double angle_deg) {
       frame.b1 = std::max(frame.b1, b);
     }
   }
-  const double out = 2.0 * part.cutter().radius;
+  const double out = 2.0 * part.cutter().radius + part.allowance();
   frame.a0 -= out;
   frame.a1 += out;
   frame.b0 -= out;

@@ -115,7 +115,10 @@ def program(binary, folder, *options):
                           "--motion", "lines", "-o", "part.nc", "--json", *options], cwd=folder, capture_output=True,
                          text=True)
     assert out.returncode == 0, out.stderr
-    return json.loads(out.stdout), (folder / "part.nc").read_text()
+    told = json.loads(out.stdout)
+    for name in ("hidden_area", "unreached_area", "unreached_depth"):
+        assert (told[name] is None) == ("rough" in options), f"only roughing does not look for {name}: {told[name]}"
+    return told, (folder / "part.nc").read_text()
 
 
 def surface_points(step):

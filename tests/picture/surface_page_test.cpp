@@ -311,6 +311,11 @@ TEST(SurfacePage, RefusesWhatItCannotShow) {
   PageOptions stripes;
   stripes.zebra_stripes = 0;
   EXPECT_EQ(error_of(model, meshes, stripes), ErrorCode::kBadOption);
+  PageOptions deviation;
+  deviation.deviation = ShownDeviation{};  // of nothing
+  EXPECT_EQ(error_of(model, meshes, deviation), ErrorCode::kBadOption);
+  deviation.deviation->dots = {{{0, 0, std::numeric_limits<double>::infinity()}, 1.0}};
+  EXPECT_EQ(error_of(model, meshes, deviation), ErrorCode::kNotFinite);
   auto wrong = model;
   wrong.patches[0].surface.points.pop_back();
   EXPECT_EQ(error_of(wrong, meshes), ErrorCode::kBadOption);

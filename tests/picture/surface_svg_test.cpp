@@ -315,6 +315,13 @@ TEST(SurfacePicture, RefusesWhatItCannotDraw) {
   options.range = Range{1.0, 1.0};
   EXPECT_EQ(picture_error(model, options), ErrorCode::kBadOption);
   options = {};
+  options.colouring = SurfaceColouring::kDeviation;
+  EXPECT_EQ(picture_error(model, options), ErrorCode::kBadOption);
+  options.deviation = ShownDeviation{};  // of nothing
+  EXPECT_EQ(picture_error(model, options), ErrorCode::kBadOption);
+  options.deviation->dots = {{{0, 0, 1}, std::numeric_limits<double>::quiet_NaN()}};
+  EXPECT_EQ(picture_error(model, options), ErrorCode::kNotFinite);
+  options = {};
   options.lines = {{{{0, 0, std::numeric_limits<double>::quiet_NaN()}}, "section"}};
   EXPECT_EQ(picture_error(model, options), ErrorCode::kNotFinite);
   options.lines = {{{}, "section"}};

@@ -430,7 +430,13 @@ TEST(SkinShares, OfLeastBendingAreRulingsOfACylinder) {
     along.push_back(std::move(*one));
     ends.push_back({0.0, along.back().path->length()});
   }
-  for (const std::vector<double>& marks : marks_of_least_bending(along, ends)) {
+  const RunContext stopped({}, [] { return true; });
+  const auto none = marks_of_least_bending(along, ends, stopped);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kCancelled);
+  const auto all = marks_of_least_bending(along, ends, {});
+  ASSERT_TRUE(all);
+  for (const std::vector<double>& marks : *all) {
     for (std::size_t j = 0; j < marks.size(); ++j) {
       EXPECT_NEAR(marks[j], 2.0 * static_cast<double>(j) / (kFreeMarks + 1), 1e-9);
     }

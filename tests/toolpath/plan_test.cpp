@@ -100,6 +100,9 @@ TEST(Toolpath, RefusesSizesThatMakeNoSense) {
   EXPECT_EQ(code([](ToolpathOptions& o) { o.feed = -1.0; }), 203);
   EXPECT_EQ(code([](ToolpathOptions& o) { o.scallop.reset(); }), 203);
   EXPECT_EQ(code([](ToolpathOptions& o) { o.safe_z = -1.0; }), 203);
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.spindle = 0.5; }), 203);  // would be printed as S0
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.spindle = 0.6; }), 0);
+  EXPECT_EQ(code([](ToolpathOptions& o) { o.allowance = -0.1; }), 203);
   EXPECT_EQ(code([](ToolpathOptions& o) { o.most_points = 10; }), 502);
   EXPECT_FALSE(plan(SurfaceModel{}, ball(6.0)));
 }

@@ -80,6 +80,7 @@ function samplePoints() {
   };
   const shown = model.patches.filter(p => p.shown);
   for (const patch of shown.length ? shown : model.patches) add(patch.position, Math.max(40, 6000 / model.patches.length));
+  if (state.mode === "deviation" && model.dots) add(model.dotPosition, 2000);
   for (const line of model.lines) if (line.shown) add(line.position, Math.max(20, 2000 / model.lines.length));
   return points;
 }

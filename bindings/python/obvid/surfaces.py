@@ -175,9 +175,9 @@ class Surface:
         return SurfaceCut(sections, report, by_ending, remarks, failed)
 
     def toolpath(self, **options: Any) -> Toolpath:
-        """A program for a three-axis mill. Options as of `obvid toolpath`: cutter, diameter, strategy,
-        scallop, step_over, angle, tolerance, allowance, step_down, stock, ramp, spindle, feed, controller,
-        motion, ..."""
+        """A program for a three-axis mill. Options as of `obvid toolpath`: cutter, diameter, corner_radius,
+        strategy, scallop, step_over, angle, along_v, one_way, tolerance, safe_z, allowance, step_down, stock,
+        ramp, spindle, feed, plunge_feed, rapid_feed, controller, motion."""
         made, report, remarks, failed = self._made(lib.obvid_surface_toolpath, options)
         return Toolpath(made[0][1].decode(), report, remarks, failed)
 

@@ -59,7 +59,8 @@ struct SceneDot {
 /// coloured points.
 struct ShownDeviation {
   std::string title;                     ///< of the legend
-  std::function<double(Vec3)> of_place;  ///< units, of a place of the surface; empty: points alone
+  std::function<double(Vec3)> of_place;  ///< units, of a place of the surface; empty: points alone;
+                                         ///< called on several threads at a time
   std::vector<SceneDot> dots;
   Range told;  ///< least and greatest deviation, as the report has them
 };

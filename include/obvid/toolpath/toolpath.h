@@ -105,8 +105,9 @@ struct ToolpathReport {
   /// another place than it was meant to touch (isoparametric): gouges that were avoided.
   std::size_t lifted_points = 0;
   double surface_area = 0.0;  ///< of the model
-  double hidden_area = 0.0;   ///< not seen from above: not cut
-  /// Not of roughing.
+  /// Not seen from above: not cut. Roughing does not look for this, nor for what is not reached:
+  /// the three figures are not numbers (NaN) then.
+  double hidden_area = 0.0;
   /// Seen, but no place of the cutter comes within the tolerance without cutting elsewhere. Told by
   /// the middles of places `spacing` apart, as is the hidden area.
   double unreached_area = 0.0;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "obvid/core/internal/parallel.h"
 #include "obvid/geom/internal/box.h"
 
 namespace obvid::picture {
@@ -82,8 +83,7 @@ void put_indices(Bytes& out, const Mesh& mesh) {
 
 std::vector<PrincipalCurvatures> put_patch(Bytes& out, const NurbsSurface& surface,
                                            const Mesh& mesh, Vec3 centre,
-                                           const std::function<double(Vec3)>* off,
-                                           std::vector<double>& offs) {
+                                           const std::vector<double>& offs) {
   for (const MeshVertex& v : mesh.vertices) out.vector(v.point - centre);
   for (const MeshVertex& v : mesh.vertices) put_direction(out, v.normal);
   const Range us = domain_u(surface), vs = domain_v(surface);
@@ -99,13 +99,26 @@ std::vector<PrincipalCurvatures> put_patch(Bytes& out, const NurbsSurface& surfa
     out.real(curvatures.back().k1);
     out.real(curvatures.back().k2);
   }
-  for (const MeshVertex& v : mesh.vertices) {
-    if (off == nullptr) break;
-    offs.push_back((*off)(v.point));
-    out.real(offs.back());
-  }
+  for (const double off : offs) out.real(off);
   put_indices(out, mesh);
   return curvatures;
+}
+
+/// Deviation at each vertex, on all processors; empty where it is of points alone.
+Result<std::vector<double>> offs_of(const Mesh& mesh,
+                                    const std::optional<ShownDeviation>& deviation,
+                                    const RunContext& run) {
+  std::vector<double> out;
+  if (!deviation || !deviation->of_place) return out;
+  constexpr std::size_t kBlock = 64;  // searches between two questions whether to go on: some ms
+  out.resize(mesh.vertices.size());
+  OBVID_TRY(in_parallel((out.size() + kBlock - 1) / kBlock, 0, run, [&](std::size_t block) {
+    const std::size_t end = std::min(out.size(), (block + 1) * kBlock);
+    for (std::size_t i = block * kBlock; i < end; ++i) {
+      out[i] = deviation->of_place(mesh.vertices[i].point);
+    }
+  }));
+  return out;
 }
 
 /// Third of the area of the triangles around each vertex.
@@ -132,8 +145,8 @@ ValueScale scale_of(const std::vector<Measured>& measured, SurfaceColouring colo
   return value_scale(std::move(values), resolution_of(colouring, size));
 }
 
-void place(PageData& data, const std::vector<Mesh>& meshes,
-           const std::vector<ScenePolyline>& lines) {
+void place(PageData& data, const std::vector<Mesh>& meshes, const std::vector<ScenePolyline>& lines,
+           const std::vector<SceneDot>& dots) {
   Box3 box;
   for (const Mesh& mesh : meshes) {
     for (const MeshVertex& v : mesh.vertices) box.add(v.point);
@@ -148,6 +161,7 @@ void place(PageData& data, const std::vector<Mesh>& meshes,
   for (const ScenePolyline& line : lines) {
     for (const Vec3 p : line.points) radius = std::max(radius, norm(p - data.centre));
   }
+  for (const SceneDot& dot : dots) radius = std::max(radius, norm(dot.point - data.centre));
   data.radius = radius;
 }
 
@@ -156,18 +170,20 @@ void place(PageData& data, const std::vector<Mesh>& meshes,
 Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& meshes,
                            const std::vector<ScenePolyline>& lines,
                            const std::optional<ShownDeviation>& deviation, const RunContext& run) {
-  const std::function<double(Vec3)>* off =
-      deviation && deviation->of_place ? &deviation->of_place : nullptr;
+  constexpr std::size_t kMostDots = 200'000;
+  const auto dots = deviation ? shown_dots(deviation->dots, kMostDots) : std::vector<SceneDot>{};
   std::vector<WeighedValue> offs;
   PageData data;
-  place(data, meshes, lines);
+  place(data, meshes, lines, dots);
+  const double size = norm(data.size);
   Bytes out;
   std::vector<Measured> measured;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    std::vector<double> own;
-    const auto k = put_patch(out, model.patches[i].surface, meshes[i], data.centre, off, own);
+    const auto own = offs_of(meshes[i], deviation, run);
+    OBVID_TRY(own);
+    const auto k = put_patch(out, model.patches[i].surface, meshes[i], data.centre, *own);
     const auto area = areas(meshes[i]);
-    for (std::size_t v = 0; v < own.size(); ++v) offs.push_back({own[v], area[v]});
+    for (std::size_t v = 0; v < own->size(); ++v) offs.push_back({(*own)[v], area[v]});
     for (std::size_t v = 0; v < k.size(); ++v) measured.push_back({k[v], area[v]});
     const double part = static_cast<double>(i + 1) / static_cast<double>(meshes.size());
     OBVID_TRY(tell(run, "page", part));
@@ -176,20 +192,17 @@ Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& m
     for (const Vec3 p : line.points) out.vector(p - data.centre);
   }
   if (deviation) {
-    constexpr std::size_t kMostDots = 200'000;
-    const auto dots = shown_dots(deviation->dots, kMostDots);
     data.dots = dots.size();
     for (const SceneDot& dot : dots) out.vector(dot.point - data.centre);
     for (const SceneDot& dot : dots) out.real(dot.value);
-    data.deviation =
-        dots.empty() ? value_scale(std::move(offs),
-                                   resolution_of(SurfaceColouring::kDeviation, 2.0 * data.radius))
-                     : scale_of_dots(dots, 2.0 * data.radius);
+    data.deviation = dots.empty() ? value_scale(std::move(offs),
+                                                resolution_of(SurfaceColouring::kDeviation, size))
+                                  : scale_of_dots(deviation->dots, size);
     data.deviation.least = deviation->told.from;
     data.deviation.most = deviation->told.to;
   }
   for (std::size_t q = 0; q < kPageQuantities.size(); ++q) {
-    data.scales[q] = scale_of(measured, kPageQuantities[q], 2.0 * data.radius);
+    data.scales[q] = scale_of(measured, kPageQuantities[q], size);
   }
   data.bytes = out.take();
   return data;

@@ -268,10 +268,7 @@ Result<std::string> surface_page(const SurfaceModel& model, const std::vector<Me
                                  const PageOptions& options, const RunContext& run) {
   OBVID_TRY(check_page_options(options));
   OBVID_TRY(check_lines(options.lines));
-  if (options.colouring == SurfaceColouring::kDeviation && !options.deviation) {
-    return error(ErrorCode::kBadOption, "colours of a deviation need something measured against")
-        .hint("obvid surface check SURFACE --against FILE");
-  }
+  OBVID_TRY(picture::check_deviation(options.colouring, options.deviation));
   const auto triangles = count_triangles(model, meshes, options.most_triangles);
   OBVID_TRY(triangles);
   auto made = picture::page_data(model, meshes, options.lines, options.deviation, run);

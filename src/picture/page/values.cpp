@@ -157,6 +157,23 @@ ValueScale value_scale(std::vector<WeighedValue> values, double resolution) {
   return scale;
 }
 
+Result<void> check_deviation(SurfaceColouring colouring,
+                             const std::optional<ShownDeviation>& deviation) {
+  const bool wanted = colouring == SurfaceColouring::kDeviation || deviation;
+  if (!wanted) return {};
+  if (!deviation || (!deviation->of_place && deviation->dots.empty())) {
+    return error(ErrorCode::kBadOption, "colours of a deviation need something measured against")
+        .hint("obvid surface check SURFACE --against FILE");
+  }
+  for (std::size_t i = 0; i < deviation->dots.size(); ++i) {
+    const SceneDot& dot = deviation->dots[i];
+    if (!is_finite(dot.point) || !std::isfinite(dot.value)) {
+      return error(ErrorCode::kNotFinite, "a measured point is not finite").point(i);
+    }
+  }
+  return {};
+}
+
 ValueScale scale_of_dots(const std::vector<SceneDot>& dots, double size) {
   std::vector<WeighedValue> values;
   values.reserve(dots.size());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,9 @@ struct ValueScale {
 
 /// Values whose size is below `resolution` count as 0.
 [[nodiscard]] ValueScale value_scale(std::vector<WeighedValue> values, double resolution);
+/// Errors: E203 wanted, but nothing was measured; E303 a point that is not finite.
+[[nodiscard]] Result<void> check_deviation(SurfaceColouring colouring,
+                                           const std::optional<ShownDeviation>& deviation);
 /// Of measured points; `size` of what is shown.
 [[nodiscard]] ValueScale scale_of_dots(const std::vector<SceneDot>& dots, double size);
 /// So many of them that a picture stays light: the farthest off, and others evenly.

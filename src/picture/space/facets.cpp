@@ -139,8 +139,9 @@ class Painter {
     const Vec3 n = camera_.seen((front_ ? 1.0 : -1.0) * cell.patch.normals[vertex]);
     if (!striped()) return light_at(n);
     if (colours_.colouring == SurfaceColouring::kIsophotes) {
-      return 4.0 * colours_.zebra_stripes * std::acos(std::clamp(n.z, -1.0, 1.0)) /
-             std::numbers::pi;
+      // whole numbers of turns lie in the middle of light bands, as on pages
+      const double angle = std::acos(std::clamp(n.z, -1.0, 1.0));
+      return 4.0 * colours_.zebra_stripes * angle / std::numbers::pi + 0.5;
     }
     if (colours_.colouring == SurfaceColouring::kReflection) {
       return lamp_at(camera_.seen(cell.patch.points[vertex] - camera_.centre), n);

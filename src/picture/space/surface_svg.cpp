@@ -24,8 +24,6 @@ constexpr std::size_t kMostFileText = 1'450'000, kFewestFacets = 1500;
 /// Sizes beyond these leave the range of doubles when they are multiplied.
 constexpr double kLeastSize = 1e-60, kMostSize = 1e60;
 
-const std::vector<SceneDot> kNoDots;
-
 Error bad_option(const char* what, double value) {
   return error(ErrorCode::kBadOption, what).value(value);
 }
@@ -46,10 +44,7 @@ Result<void> check_picture_options(const SurfacePictureOptions& o) {
   if (o.range && !(std::isfinite(o.range->length()) && o.range->length() > 0.0)) {
     return fail(bad_option("a range of colours ascends", o.range->length()));
   }
-  if (o.colouring == SurfaceColouring::kDeviation && !o.deviation) {
-    return error(ErrorCode::kBadOption, "colours of a deviation need something measured against")
-        .hint("obvid surface check SURFACE --against FILE");
-  }
+  OBVID_TRY(check_deviation(o.colouring, o.deviation));
   for (const auto& angle : {o.azimuth_deg, o.elevation_deg}) {
     if (angle && !std::isfinite(*angle)) return fail(bad_option("an angle is finite", *angle));
   }
@@ -66,11 +61,6 @@ Result<void> check_scene(const SurfaceModel& model, const SurfacePictureOptions&
   }
   for (const SurfacePatch& patch : model.patches) {
     OBVID_TRY(check(patch.surface));
-  }
-  for (const SceneDot& dot : options.deviation ? options.deviation->dots : kNoDots) {
-    if (!is_finite(dot.point) || !std::isfinite(dot.value)) {
-      return error(ErrorCode::kNotFinite, "a measured point is not finite");
-    }
   }
   for (std::size_t i = 0; i < options.lines.size(); ++i) {
     for (const Vec3 p : options.lines[i].points) {
@@ -103,6 +93,9 @@ PictureCamera fitted(const std::vector<DrawnPatch>& patches, const SurfacePictur
   }
   for (const ScenePolyline& line : options.lines) {
     for (const Vec3 p : line.points) see(p);
+  }
+  if (options.colouring == SurfaceColouring::kDeviation) {
+    for (const SceneDot& dot : shown_dots(options.deviation->dots)) see(dot.point);
   }
   const double width = options.width - 2.0 * kSheetMargin;
   const double height = options.height - kSheetTop - kSheetBottom - kSheetMargin;

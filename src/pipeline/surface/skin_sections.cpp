@@ -162,29 +162,26 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
     std::vector<std::string> warnings;
   };
   std::vector<Formed> formed(sections.size());
-  // only the calling thread tells and asks; the others hear from it
-  const std::thread::id caller = std::this_thread::get_id();
-  std::atomic<bool> stopped{false};
+  const std::thread::id caller = std::this_thread::get_id();  // it alone tells
   std::atomic<std::size_t> done{0};
-  in_parallel(sections.size(), 0, [&](std::size_t k) {
-    const bool asks = std::this_thread::get_id() == caller;
-    const RunContext part({}, [&, asks] {
-      if (asks && !stopped && !may_go_on(run)) stopped = true;
-      return stopped.load();
-    });
-    if (asks && run.progress && !stopped) {
+  std::atomic<std::size_t> refused{sections.size()};  // the first that is known
+  const auto form = [&](std::size_t k, const RunContext& part) {
+    if (run.progress && std::this_thread::get_id() == caller) {
       run.progress("forming sections",
                    static_cast<double>(done) / static_cast<double>(sections.size()));
     }
-    if (part.cancelled()) return;
+    if (k > refused) return;  // the error of the first refused one is what is told
     Formed& one = formed[k];
     one.flat = flat(sections[k], job.units);
     if (one.flat.series.points.size() > 1) {
       one.contour = fit_section(one.flat, job, k + 1, one.moved, one.warnings, part);
+      std::size_t first = refused;
+      while (!*one.contour && k < first && !refused.compare_exchange_weak(first, k)) {
+      }
     }
     ++done;
-  });
-  if (stopped) return fail(cancelled_error());
+  };
+  OBVID_TRY(in_parallel(sections.size(), 0, run, form));
   std::vector<SkinSection> made;
   double moved = 0.0;
   for (Formed& one : formed) {

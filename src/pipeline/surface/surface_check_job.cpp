@@ -62,7 +62,9 @@ Result<SurfaceDeviation> measured_against(const SurfaceModel& model, const Surfa
     auto found = deviation_of(reference->points, on_this, run);
     OBVID_TRY(found);
     out.found = std::move(*found);
-    for (const Vec3 p : reference->points) out.shown.dots.push_back({p, on_this.at(p).off});
+    for (std::size_t i = 0; i < reference->points.size(); ++i) {
+      out.shown.dots.push_back({reference->points[i], out.found.offs[i]});
+    }
   } else {
     const auto other = std::make_shared<const SurfaceModel>(std::move(*reference->surface));
     const auto on_other = std::make_shared<const NearestOnModel>(*other);

@@ -55,7 +55,8 @@ struct Deviation {
   MeasuredPlace least, most;      ///< of smallest and of greatest `off`
   double root_mean_square = 0.0;  ///< units, of surfaces over their area
   double mean = 0.0;              ///< likewise, with signs
-  double beside = 0.0;  ///< share of the points, or of the area, that lies beside the model
+  double beside = 0.0;         ///< share of the points, or of the area, that lies beside the model
+  std::vector<double> offs{};  ///< of each point, in their order; empty for surfaces
 
   /// The place that is farthest off, on either side.
   [[nodiscard]] const MeasuredPlace& farthest() const {

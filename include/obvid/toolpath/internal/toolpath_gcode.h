@@ -28,10 +28,10 @@ struct ToolpathGcode {
   std::size_t arc_blocks = 0;  ///< of them G2 and G3
 };
 
-/// A program with absolute ends; it holds no tool change; M3 and M5 where
-/// the path has a speed of the spindle. G21 and millimetres, or
-/// G20 for inches; other units are converted to millimetres. Errors: E203 decimals out of range;
-/// E310 a unit that machines do not know; E502 decimals too few for the tolerance.
+/// A program with absolute ends; it holds no tool change; M3 and M5 where the path has a speed of
+/// the spindle. G21 and millimetres, or G20 for inches; other units are converted to millimetres.
+/// Errors: E203 decimals out of range; E310 a unit that machines do not know; E502 decimals too few
+/// for the tolerance.
 [[nodiscard]] Result<ToolpathGcode> toolpath_gcode(const Toolpath& path,
                                                    const ToolpathGcodeOptions& options = {});
 
