@@ -11,7 +11,7 @@ namespace {
 struct RawNurbs {
   NurbsOptions options;
   NurbsValues values;
-  long samples = 200;
+  long samples = kRowsOfSamples;
   std::optional<std::string> units;
   std::string format;  ///< of what -o sends to standard output
   bool csv = false;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -101,12 +100,6 @@ std::string table_text(const TableSpline& made) {
   return curve != nullptr ? spline_text(*curve) : grid_text(std::get<GridSplineReport>(made));
 }
 
-/// The graph of a function of two variables comes in the formats of surfaces.
-bool is_of_graph(const TableSpline& made, const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  return std::holds_alternative<GridSplineReport>(made) && ending != ".csv" && ending != ".json";
-}
-
 Result<void> write_graph(const TableSpline& made, const std::vector<std::string>& files,
                          const SplineOptions& options) {
   if (files.empty()) return {};
@@ -125,7 +118,7 @@ Result<void> write_spline(const TableSpline& made, const SplineOptions& options)
   std::vector<std::string> drawn;
   std::vector<std::pair<std::string, std::string>> texts;
   for (const std::string& path : options.outputs) {
-    if (is_of_graph(made, path)) {
+    if (is_graph_file(made, path)) {
       drawn.push_back(path);
       continue;
     }

@@ -11,7 +11,7 @@ namespace {
 struct RawSpline {
   SplineOptions options;
   SplineValues values;
-  long samples = 200;
+  long samples = kRowsOfSamples;
   std::string format;  ///< of what -o sends to standard output
   bool csv = false;
 };

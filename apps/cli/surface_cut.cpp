@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "obvid/core/files.h"
 #include "obvid/core/internal/name_pattern.h"
+#include "obvid/pipeline/file_formats.h"
 #include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_job.h"
 #include "outputs.h"
@@ -20,10 +21,6 @@ namespace obvid {
 namespace {
 
 bool is_of_branches(const std::string& path) { return has_place(path, kPlaceOfId); }
-
-std::string ending_of(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
-}
 
 Result<void> check_outputs_of(const SurfaceCutOptions& options) {
   OBVID_TRY(check_outputs(options.outputs, {&options.input, 1}));

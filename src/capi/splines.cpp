@@ -25,10 +25,8 @@ struct NurbsRequest {
   std::size_t samples = 0;
 };
 
-constexpr long kSamples = 200;  // rows of .csv, as the command line has them
-
 Result<std::size_t> samples_of(std::optional<long> typed) {
-  return rows_of_samples(typed.value_or(kSamples));
+  return rows_of_samples(typed.value_or(kRowsOfSamples));
 }
 
 Result<SplineRequest> spline_request(const char* options) {

@@ -112,7 +112,7 @@ class BorderPair {
       : a_(a), b_(b), along_(along), tolerance_(tolerance) {}
 
   /// Point for point.
-  [[nodiscard]] std::optional<double> at_one_pace() const {
+  [[nodiscard]] std::optional<double> at_same_parameters() const {
     const auto apart = [&](double part) {
       return norm(place_at_part(a_, part) - place_at_part(b_, along_ ? part : 1.0 - part));
     };
@@ -130,7 +130,7 @@ class BorderPair {
   }
 
   /// Each point on the other curve, in order.
-  [[nodiscard]] std::optional<double> at_own_pace() const {
+  [[nodiscard]] std::optional<double> at_other_parameters() const {
     const Vec3 middle = place_at_part(b_, 0.375);
     if (norm(evaluate(a_, nearest_parameter(a_, middle)).point - middle) > tolerance_) {
       return std::nullopt;
@@ -213,7 +213,8 @@ class TopologyBuilder {
         for (const bool along : {true, false}) {
           if ((along ? other.from : other.to) != edge.from) continue;
           const BorderPair pair(other.curve, edge.curve, along, tolerance_);
-          const auto gap = other_parameters ? pair.at_own_pace() : pair.at_one_pace();
+          const auto gap =
+              other_parameters ? pair.at_other_parameters() : pair.at_same_parameters();
           if (!gap) continue;
           other.uses.push_back({patch, side, along, other_parameters, *gap});
           out_.edge_of[patch][side] = number;

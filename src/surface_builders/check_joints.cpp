@@ -33,12 +33,12 @@ class EdgePair {
         sides_{a.side, b.side},
         borders_{border_of(first_, a.side), border_of(second_, b.side)},
         along_(a.along == b.along),
-        own_pace_(a.other_parameters || b.other_parameters) {}
+        other_parameters_(a.other_parameters || b.other_parameters) {}
 
   /// Of both patches, at a part of the first one's border.
   [[nodiscard]] std::array<SurfaceJet, 2> at(double part) const {
     const double t = domain(borders_[0]).at(part);
-    const double other = own_pace_ && part > 0.0 && part < 1.0
+    const double other = other_parameters_ && part > 0.0 && part < 1.0
                              ? nearest_parameter(borders_[1], evaluate(borders_[0], t).point)
                              : domain(borders_[1]).at(along_ ? part : 1.0 - part);
     const SidePlace a = place_on(first_, sides_[0], t), b = place_on(second_, sides_[1], other);
@@ -47,7 +47,7 @@ class EdgePair {
 
   /// Parts of the first border where a span of either begins or ends, 0 and 1 included.
   [[nodiscard]] std::vector<double> ends() const {
-    constexpr std::size_t kMostOwnPace = 256;  // spans: each place is looked for on all of them
+    constexpr std::size_t kMostParts = 256;  // spans: each place is looked for on all of them
     const auto parts_of = [](const SpaceCurve& border) {
       std::vector<double> parts = distinct(border.knots);
       const Range range = domain(border);
@@ -56,10 +56,10 @@ class EdgePair {
     };
     std::vector<double> all = parts_of(borders_[0]);
     std::vector<double> other = parts_of(borders_[1]);
-    if (own_pace_ && all.size() + other.size() > kMostOwnPace) {
+    if (other_parameters_ && all.size() + other.size() > kMostParts) {
       all.clear();
-      for (std::size_t k = 0; k <= kMostOwnPace; ++k) {
-        all.push_back(static_cast<double>(k) / kMostOwnPace);
+      for (std::size_t k = 0; k <= kMostParts; ++k) {
+        all.push_back(static_cast<double>(k) / kMostParts);
       }
     } else {
       for (const double part : other) all.push_back(part_on_first(part));
@@ -77,7 +77,7 @@ class EdgePair {
  private:
   /// Where a part of the second border lies on the first.
   [[nodiscard]] double part_on_first(double part) const {
-    if (!own_pace_) return along_ ? part : 1.0 - part;
+    if (!other_parameters_) return along_ ? part : 1.0 - part;
     const Range range = domain(borders_[0]);
     const Vec3 point = evaluate(borders_[1], domain(borders_[1]).at(part)).point;
     return (nearest_parameter(borders_[0], point) - range.from) / range.length();
@@ -87,7 +87,7 @@ class EdgePair {
   const NurbsSurface& second_;
   std::array<PatchSide, 2> sides_;
   std::array<SpaceCurve, 2> borders_;
-  bool along_, own_pace_;
+  bool along_, other_parameters_;
 };
 
 /// Normal curvature in a tangential direction; its sign with the normal.

@@ -380,7 +380,9 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
         """No command prints it alone: the points are those of the file, by themselves and in analyse."""
         with open(SERIES, encoding="utf-8") as file:
             rows = [tuple(map(float, line.split(",")[:2])) for line in file if line[:1] in "-0123456789"]
-        said = json.loads(job("series", read(SERIES)))
+        text = job("series", read(SERIES))
+        self.assertTrue(text.endswith("}\n") and not text.endswith("\n\n"))
+        said = json.loads(text)
         self.assertEqual([tuple(p) for p in said["points"]], rows)
         moved = json.loads(job("series", points([(0, 0), (1, 2), (3, 1)]), {"move": "10,-5", "scale": 2}))
         self.assertEqual(moved["points"], [[10, -5], [12, -1], [16, -3]])

@@ -159,6 +159,50 @@ TEST(LandXmlRead, ProfilesAreGradesAndCurves) {
   }
 }
 
+TEST(LandXmlRead, AnAlignmentInPartsHasNoProfile) {
+  std::string text = file_with_profile("<PVI>0 10</PVI><PVI>600 6</PVI>");
+  const std::string_view end = "</CoordGeom>";
+  text.insert(text.find(end), "<Chain length='5'/>" + line("0 605", "0 700"));
+  const Drawing d = read_landxml_text(text);
+  ASSERT_EQ(d.curves.size(), 2U);
+  for (const DrawnCurve& one : d.curves) EXPECT_FALSE(one.profile);
+  EXPECT_TRUE(warns(d, "the profile of an alignment in several parts is not used"));
+  // a first element without a length: where the others lie along the profile is not known
+  text = file_with_profile("<PVI>0 10</PVI><PVI>600 6</PVI>");
+  text.insert(text.find("<Line>"), "<Chain/>");
+  const Drawing lost = read_landxml_text(text);
+  ASSERT_EQ(lost.curves.size(), 1U);
+  EXPECT_FALSE(lost.curves[0].profile);
+  EXPECT_TRUE(warns(lost, "whose station is not known is not used"));
+}
+
+/// Two arcs of radius 10, left, an eighth and a quarter of a turn, of one name.
+TEST(LandXmlRead, ArcsOfOneNameAreOneOnlyWhereTheyGoOn) {
+  const double h = std::numbers::sqrt2 / 2.0;
+  const auto at = [](double x, double y) { return fmt::format("{} {}", y, x); };
+  const std::string first =
+      curve("name='1' rot='ccw' radius='10'", at(10, 0), at(0, 0), at(10 * h, 10 * h));
+  const auto pieces = [&](const std::string& second) {
+    const Drawing d = read_landxml_text(file_of(first + second));
+    return d.curves.empty() ? std::vector<Piece>{} : d.curves[0].pieces;
+  };
+  const auto whole = pieces(
+      curve("name='1' rot='ccw' radius='10'", at(10 * h, 10 * h), at(0, 0), at(-10 * h, 10 * h)));
+  ASSERT_EQ(whole.size(), 1U);
+  EXPECT_NEAR(std::get<ArcPiece>(whole[0]).length, 7.5 * std::numbers::pi, 1e-12);
+  // a corner: its centre straight below the place where they meet
+  const double x = 10 * h, y = 10 * h - 10.0;
+  EXPECT_EQ(
+      pieces(curve("name='1' rot='ccw' radius='10'", at(10 * h, 10 * h), at(x, y), at(x - 10.0, y)))
+          .size(),
+      2U);
+  // a gap: the same tangent, a tenth to the right
+  EXPECT_EQ(pieces(curve("name='1' rot='ccw' radius='10'", at(10 * h + 0.1, 10 * h), at(0.1, 0),
+                         at(0.1 - 10 * h, 10 * h)))
+                .size(),
+            2U);
+}
+
 TEST(LandXmlRead, CantIsSaidToBeLeftOut) {
   std::string text = file_of(line("0 0", "0 600"));
   const std::string_view end = "</CoordGeom>";
@@ -367,6 +411,45 @@ TEST(LandXmlWrite, TheJudgeSeesATurnToTheOtherSideAndAUnitOfTheOtherSystem) {
     EXPECT_NE(judged("check_landxml.py", mixed), "");
   }
   EXPECT_EQ(systems.size(), 2U);
+}
+
+/// Heights of polygons through PVIs, and of a parabola in one corner: by hand, at every station.
+TEST(LandXmlWrite, ProfilesWithCornersComeBackTheSame) {
+  struct Case {
+    std::string places;
+    std::vector<Vec2> heights;
+  };
+  const std::vector<Case> cases = {
+      {"<PVI>0 10</PVI><PVI>200 14</PVI><PVI>450 -1</PVI><PVI>600 6</PVI>",
+       {{0, 10}, {100, 12}, {200, 14}, {325, 6.5}, {450, -1}, {525, 2.5}, {600, 6}}},
+      // a parabola from 150 to 250, a corner behind it, a corner at its end and one before it
+      {"<PVI>0 10</PVI><ParaCurve length='100'>200 14</ParaCurve><PVI>400 10</PVI><PVI>600 "
+       "30</PVI>",
+       {{0, 10}, {150, 13}, {200, 13.5}, {250, 13}, {400, 10}, {500, 20}, {600, 30}}},
+      {"<PVI>0 10</PVI><ParaCurve length='100'>200 14</ParaCurve><PVI>250 13</PVI><PVI>600 30.5"
+       "</PVI>",
+       {{0, 10}, {200, 13.5}, {250, 13}, {350, 18}, {600, 30.5}}},
+      {"<PVI>0 0</PVI><PVI>150 13</PVI><ParaCurve length='100'>200 14</ParaCurve><PVI>600 6</PVI>",
+       {{0, 0}, {75, 6.5}, {150, 13}, {200, 13.5}, {250, 13}, {600, 6}}}};
+  const Contour road = Road({{0.0, 0.0}, 0.0, 0.0}).add(0.0, 0.0, 600.0).take();
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.places);
+    const Drawing read = read_landxml_text(file_with_profile(one.places));
+    ASSERT_TRUE(read.curves[0].profile);
+    LandXmlOptions options;
+    options.profile = read.curves[0].profile;
+    Contour metres = road;
+    metres.units = "m";
+    const auto text = landxml_text(metres, options);
+    ASSERT_TRUE(text.has_value()) << text.error().what;
+    const Drawing again = read_landxml_text(*text);
+    ASSERT_TRUE(again.curves[0].profile);
+    for (const Vec2 at : one.heights) {
+      EXPECT_NEAR(profile_at(*read.curves[0].profile, at.x).height, at.y, 1e-12) << at.x;
+      EXPECT_NEAR(profile_at(*again.curves[0].profile, at.x).height, at.y, 1e-12) << at.x;
+    }
+    EXPECT_NEAR(again.curves[0].profile->end_height, one.heights.back().y, 1e-12);
+  }
 }
 
 /// Without the names by which reading knows parts of one element.

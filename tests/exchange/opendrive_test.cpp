@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "road_contours.h"
@@ -87,6 +88,48 @@ TEST(OpenDriveRead, ElementsThatCannotBeDrawnAreNamedAndCutTheCurve) {
     EXPECT_EQ(d.curves.size(), 2U) << bad;
     EXPECT_TRUE(warns(d, "left out (line 2)")) << bad;
   }
+}
+
+/// A road of 100 m, or of two parts of 40 with an unknown element between them.
+Drawing road_with(const std::string& elevations, bool in_parts = false) {
+  const std::string all = "<geometry s='0' x='0' y='0' hdg='0' length='100'><line/></geometry>";
+  const std::string parts =
+      "<geometry s='0' x='0' y='0' hdg='0' length='40'><line/></geometry>"
+      "<geometry s='40' x='40' y='0' hdg='0' length='20'><wave/></geometry>"
+      "<geometry s='60' x='60' y='0' hdg='0' length='40'><line/></geometry>";
+  return read_opendrive_text("<OpenDRIVE><header/><road id='7' length='100'><planView>" +
+                             (in_parts ? parts : all) + "</planView><elevationProfile>" +
+                             elevations + "</elevationProfile></road></OpenDRIVE>");
+}
+
+TEST(OpenDriveRead, ElevationsEndWithTheRoadAndDoNotJump) {
+  // 10 + s / 10 up to 50, then 15 - (s - 50)^2 / 100: a corner stays
+  const std::string first = "<elevation s='0' a='10' b='0.1' c='0' d='0'/>",
+                    second = "<elevation s='50' a='15' b='0' c='-0.01' d='0'/>";
+  const Drawing corner = road_with(first + second);
+  EXPECT_TRUE(corner.warnings.empty());
+  ASSERT_TRUE(corner.curves[0].profile);
+  for (const auto& [s, height] : {std::pair{25.0, 12.5}, {50.0, 15.0}, {70.0, 11.0}}) {
+    EXPECT_NEAR(profile_at(*corner.curves[0].profile, s).height, height, 1e-12);
+  }
+  EXPECT_NEAR(corner.curves[0].profile->end_height, -10.0, 1e-12);
+  // one that begins at the end says nothing; one beyond it is told, and the last one ends in time
+  const std::string at_end = "<elevation s='100' a='-10' b='-1' c='0' d='0'/>",
+                    beyond = "<elevation s='130' a='-49' b='7' c='0' d='0'/>";
+  EXPECT_TRUE(road_with(first + second + at_end).warnings.empty());
+  const Drawing longer = road_with(first + second + beyond);
+  EXPECT_TRUE(warns(longer, "elevations beyond the end of a road are not used"));
+  ASSERT_TRUE(longer.curves[0].profile);
+  EXPECT_EQ(longer.curves[0].profile->elements.back().length, 50.0);
+  EXPECT_EQ(longer.curves[0].profile->end_station, 100.0);
+  EXPECT_NEAR(longer.curves[0].profile->end_height, -10.0, 1e-12);
+  const Drawing step = road_with(first + "<elevation s='50' a='15.1' b='0' c='0' d='0'/>");
+  EXPECT_FALSE(step.curves[0].profile);
+  EXPECT_TRUE(warns(step, "an elevation profile whose height jumps is not used"));
+  const Drawing parts = road_with(first + second, true);
+  ASSERT_EQ(parts.curves.size(), 2U);
+  for (const DrawnCurve& one : parts.curves) EXPECT_FALSE(one.profile);
+  EXPECT_TRUE(warns(parts, "the elevation profile of a road in several parts is not used"));
 }
 
 TEST(OpenDriveRead, BrokenFilesAreRefused) {

@@ -87,6 +87,26 @@ TEST(Placement, HeightsAreScaledAndMoved) {
   EXPECT_EQ(series.points[0], (Vec3{-2.0, -4.0, 11.0}));
 }
 
+TEST(Placement, HeightsOfProfilesAndOfFixedDataAreLiftedToo) {
+  const Placement placement{Mirror::kNone, 2.0, 0.0, {1.0, 1.0, 5.0}};
+  Drawing drawing;
+  drawing.curves.push_back({"one", {LinePiece{{0.0, 0.0}, {10.0, 0.0}}}, false});
+  VerticalProfile& heights = drawing.curves[0].profile.emplace();
+  heights.elements = {{ProfileKind::kGrade, 1.0, 9.0, 3.0, 0.5, 0.5, 0.0}};
+  heights.end_station = 10.0;
+  heights.end_height = 7.5;
+  place(placement, drawing);
+  EXPECT_EQ(heights.elements[0].station, 2.0);
+  EXPECT_EQ(heights.elements[0].height, 11.0);
+  EXPECT_EQ(heights.elements[0].grade0, 0.5);
+  EXPECT_EQ(heights.end_station, 20.0);
+  EXPECT_EQ(heights.end_height, 20.0);
+  FixedData fixed;
+  fixed.height = 3.0;
+  place(placement, fixed);
+  EXPECT_EQ(fixed.height, 11.0);
+}
+
 /// Places along a piece go where the placement of points says.
 void expect_along(const Piece& piece, const Placement& placement) {
   Drawing drawing;

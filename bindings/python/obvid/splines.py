@@ -61,7 +61,7 @@ def _call(function: Any, inputs: Sequence[Any], options: Mapping[str, Any], endi
                     C.byref(files), C.byref(said), C.byref(error)):
             raise raise_error(error)
     report = json.loads(taken_text(said) or "{}")
-    patch = None if surface.value is None else Surface(surface.value, {**report, "kind": "graph"})
+    patch = None if surface.value is None else Surface(surface.value, {"kind": "graph", **report})
     return _Made(patch, taken_files(files) if files.value else None, report)
 
 

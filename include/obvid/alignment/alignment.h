@@ -74,7 +74,7 @@ struct AlignmentOptions {
 /// possible offsets and headings found: docs/methods/alignment.md). Deterministic; reentrant.
 ///
 /// Errors: E203 a least length or radius that is negative or no number, E304 fewer than two points
-/// (closed: three), E402 coinciding neighbours (closed: the last and the first are), E401 none
+/// (closed: three), E402 coinciding neighbours, E401 none
 /// found (`index`: the first point that was not reached), E502 not within the tolerance with such
 /// lengths and radii, E103 cancelled.
 [[nodiscard]] Result<Alignment> fit_alignment(const std::vector<Vec2>& points,

@@ -31,10 +31,10 @@ struct ProfileElement {
                          ///< negative on crests, 0 of grades
 };
 
-/// A vertical alignment.
+/// A vertical alignment: elements meet; grades do too but at corners of profiles that are read.
 struct VerticalProfile {
   ProfileCurves curves = ProfileCurves::kParabolas;
-  std::vector<ProfileElement> elements;  ///< ascending, each beginning with the grade of the last
+  std::vector<ProfileElement> elements;  ///< ascending, each from where the last one ends
   double end_station = 0.0;              ///< units
   double end_height = 0.0;               ///< units
   std::vector<double> offsets;           ///< of the given heights, upwards positive, units; across

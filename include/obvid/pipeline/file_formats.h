@@ -15,6 +15,9 @@ enum class FileFormat {
 #undef OBVID_FORMAT
 };
 
+/// The ending of a file's name with its dot, in lower case: ".csv". Empty where there is none.
+[[nodiscard]] std::string ending_of(const std::string& path);
+
 /// Format of contours that a file's name has by its extension. Nothing where there is none.
 [[nodiscard]] std::optional<FileFormat> format_of(std::string_view path);
 /// The same of surfaces, of curves in space, and of tool paths.

@@ -45,6 +45,10 @@ using TableSpline = std::variant<SplineReport, GridSplineReport>;
 [[nodiscard]] Result<std::string> table_spline_file(const TableSpline& spline,
                                                     const std::string& path, std::size_t samples);
 
+/// Whether a file of this name has the graph of a function of two variables, in a format of
+/// surfaces: any ending but those of `table_spline_file`.
+[[nodiscard]] bool is_graph_file(const TableSpline& spline, const std::string& path);
+
 /// The graph of a function of two variables as a surface, exactly; of others nothing.
 [[nodiscard]] Result<std::optional<SurfaceModel>> table_spline_graph(const TableSpline& spline);
 

@@ -36,6 +36,15 @@ double turn_of(const StatedCurve& curve, double radius) {
   return turn < kPlacedByEnds ? small : turn;
 }
 
+/// Whether a piece that turns by `turn` ends where and as the next one of its kind begins.
+template <class Curved>
+bool goes_on_smoothly(const Curved& a, double turn, const Curved& b) {
+  constexpr double kApart = 1e-9;   // of both lengths
+  constexpr double kCorner = 1e-6;  // rad
+  return norm(a.end - b.start) <= kApart * (a.length + b.length) &&
+         std::abs(std::remainder(a.theta0 + turn - b.theta0, kFullTurn)) <= kCorner;
+}
+
 }  // namespace
 
 std::optional<PlacedPiece> placed(const StatedCurve& curve, std::string& why) {
@@ -132,6 +141,7 @@ std::optional<Piece> joined(const Piece& first, const Piece& second) {
   if (const auto* a = std::get_if<ArcPiece>(&first)) {
     const auto* b = std::get_if<ArcPiece>(&second);
     if (b == nullptr || !same(a->kappa, b->kappa)) return std::nullopt;
+    if (!goes_on_smoothly(*a, a->kappa * a->length, *b)) return std::nullopt;
     const double length = a->length + b->length;
     if (std::abs(a->kappa) * length >= 0.5 * kFullTurn) return std::nullopt;
     return ArcPiece{a->start, b->end, a->theta0, a->kappa, length};
@@ -142,6 +152,7 @@ std::optional<Piece> joined(const Piece& first, const Piece& second) {
   const double rate = (a->kappa1 - a->kappa0) / a->length;
   const bool goes_on = a->kappa1 == b->kappa0 || same(a->kappa1, b->kappa0);
   if (!goes_on || !same(rate, (b->kappa1 - b->kappa0) / b->length)) return std::nullopt;
+  if (!goes_on_smoothly(*a, 0.5 * (a->kappa0 + a->kappa1) * a->length, *b)) return std::nullopt;
   return ClothoidPiece{a->start, b->end, a->theta0, a->kappa0, b->kappa1, a->length + b->length};
 }
 

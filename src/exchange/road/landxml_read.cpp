@@ -108,8 +108,14 @@ class LandXmlReader {
     if (local_name(owner) != "Alignment") return;
     if (child_of(owner, "Cant")) warnings_.add("cant is not used", child_of(owner, "Cant"));
     auto profile = exchange::landxml_profile(owner, warnings_);
-    if (profile && first_curve < drawing_.curves.size()) {
-      drawing_.curves[first_curve].profile = std::move(profile);
+    if (!profile || first_curve == drawing_.curves.size()) return;
+    DrawnCurve& first = drawing_.curves[first_curve];
+    if (drawing_.curves.size() - first_curve > 1) {
+      warnings_.add("the profile of an alignment in several parts is not used", owner);
+    } else if (!first.station) {
+      warnings_.add("the profile of an alignment whose station is not known is not used", owner);
+    } else {
+      first.profile = std::move(profile);
     }
   }
 

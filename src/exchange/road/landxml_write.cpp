@@ -21,6 +21,9 @@ namespace {
 constexpr double kMostTangentTurn = 0.5 * std::numbers::pi;
 constexpr double kMostElementParts = 10000.0;  // of one element: what turns more often is no road
 
+// Grades that differ by more, as part of the steepest, meet in a corner.
+constexpr double kSameGrade = 1e-9;
+
 // Tangents that turn by less (rad) meet in the middle of the chord, to the square of this.
 constexpr double kParallel = 1e-6;
 
@@ -173,14 +176,22 @@ class LandXmlWriter {
     spiral(whole, exchange::kLandXmlSpirals[static_cast<std::size_t>(t.kind)]);
   }
 
-  /// A PVI at both ends, and where grades meet one with its curve; a corner none.
+  /// A PVI at both ends, where grades meet one with its curve, and at corners one without.
   void profile(const VerticalProfile& profile, const std::string& name) {
     put("      <Profile name=\"{0}\">\n        <ProfAlign name=\"{0}\">\n", name);
     const auto place = [&](const char* opening, const char* kind, Vec2 at) {
       put("          <{}>{} {}</{}>\n", opening, ratio_ * at.x, ratio_ * at.y, kind);
     };
     place("PVI", "PVI", {profile.elements.front().station, profile.elements.front().height});
+    double steepest = 0.0;
     for (const ProfileElement& e : profile.elements) {
+      steepest = std::max({steepest, std::abs(e.grade0), std::abs(e.grade1)});
+    }
+    for (std::size_t k = 0; k < profile.elements.size(); ++k) {
+      const ProfileElement& e = profile.elements[k];
+      if (k > 0 && std::abs(e.grade0 - profile.elements[k - 1].grade1) > kSameGrade * steepest) {
+        place("PVI", "PVI", {e.station, e.height});
+      }
       if (e.kind == ProfileKind::kGrade) continue;
       const bool arc = profile.curves == ProfileCurves::kArcs;
       const std::string opening = arc ? fmt::format("CircCurve length=\"{}\" radius=\"{}\"",

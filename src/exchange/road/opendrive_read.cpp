@@ -160,10 +160,16 @@ class OpenDriveReader {
         warnings_.add("superelevation is not used", one);
       }
     }
-    if (drawing_.curves.size() > before) {
-      drawing_.curves[before].profile = exchange::opendrive_profile(node, warnings_);
+    if (drawing_.curves.size() == before) {
+      warnings_.add("a road without geometry left out", node);
+      return;
     }
-    if (drawing_.curves.size() == before) warnings_.add("a road without geometry left out", node);
+    auto profile = exchange::opendrive_profile(node, warnings_);
+    if (profile && drawing_.curves.size() - before > 1) {
+      warnings_.add("the elevation profile of a road in several parts is not used", node);
+    } else {
+      drawing_.curves[before].profile = std::move(profile);
+    }
   }
 
   /// The piece of one element; nothing, with a warning, where it is left out.

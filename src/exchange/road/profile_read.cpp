@@ -10,8 +10,9 @@
 namespace obvid::exchange {
 namespace {
 
-constexpr double kTouching = 1e-9;  ///< of the whole length: no grade is shorter
-constexpr double kOverlap = 1e-6;   ///< of the whole length: what rounded stations overlap
+constexpr double kTouching = 1e-9;    ///< of the whole length: no grade is shorter
+constexpr double kOverlap = 1e-6;     ///< of the whole length: what rounded stations overlap
+constexpr double kSameHeight = 1e-6;  ///< of length and height: what the digits of a file leave
 
 /// Where two grades meet, and what rounds it.
 struct Corner {
@@ -207,13 +208,21 @@ std::optional<VerticalProfile> opendrive_profile(pugi::xml_node road, XmlWarning
   const bool flat = std::all_of(parts.begin(), parts.end(), [](const ElevationCubic& one) {
     return one.a == 0.0 && one.b == 0.0 && one.c == 0.0;
   });
-  if (flat || !length) return std::nullopt;
+  if (flat || !length || !(*length > 0.0)) return std::nullopt;
+  if (parts.back().s > *length * (1.0 + kOverlap)) {
+    warnings.add("elevations beyond the end of a road are not used", all);
+  }
   VerticalProfile out;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const ElevationCubic& one = parts[k];
-    const double end = k + 1 < parts.size() ? parts[k + 1].s : *length;
+    const double end = k + 1 < parts.size() ? std::min(parts[k + 1].s, *length) : *length;
     const double along = end - one.s;
     if (!(along > kTouching * *length)) continue;
+    const double jump = std::abs(one.a - out.end_height);
+    if (!out.elements.empty() && jump > kSameHeight * (*length + std::abs(one.a))) {
+      warnings.add("an elevation profile whose height jumps is not used", all);
+      return std::nullopt;
+    }
     const double grade1 = one.b + 2.0 * one.c * along;
     out.end_height = one.a + along * (one.b + along * one.c);
     if (one.c == 0.0) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "geo/projection_series.h"
+#include "obvid/core/internal/inch.h"
 #include "obvid/series/internal/straight_rows.h"
 #include "svg/read_shapes.h"
 
@@ -30,7 +31,7 @@ using exchange::XmlFile;
 using exchange::XmlWarnings;
 using std::string_view;
 
-constexpr double kMillimetresPerPixel = 25.4 / 96.0;
+constexpr double kMillimetresPerPixel = kMmPerInch / 96.0;
 constexpr int kMaxGroupDepth = 200;  // of groups in groups; what people draw has less than 50
 
 // What may be drawn through `use`, bytes of data and so many for each element, about what it takes

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/core/internal/inch.h"
 #include "obvid/geom/internal/angle.h"
 #include "svg/path_data.h"
 #include "xml_text.h"
@@ -73,14 +74,15 @@ double alignment(string_view align, string_view axis) {
 }  // namespace
 
 std::optional<double> svg_length(string_view text, SvgAxis axis, const SvgViewport& viewport) {
-  static constexpr std::array<std::pair<string_view, double>, 8> kPixels = {{{"", 1.0},
-                                                                             {"px", 1.0},
-                                                                             {"mm", 96.0 / 25.4},
-                                                                             {"cm", 96.0 / 2.54},
-                                                                             {"Q", 96.0 / 101.6},
-                                                                             {"in", 96.0},
-                                                                             {"pt", 96.0 / 72.0},
-                                                                             {"pc", 16.0}}};
+  static constexpr std::array<std::pair<string_view, double>, 8> kPixels = {
+      {{"", 1.0},
+       {"px", 1.0},
+       {"mm", 96.0 / kMmPerInch},
+       {"cm", 96.0 / 2.54},
+       {"Q", 24.0 / kMmPerInch},
+       {"in", 96.0},
+       {"pt", 96.0 / 72.0},
+       {"pc", 16.0}}};
   SvgScanner in(text);
   in.skip_blanks();
   const auto value = in.number();

@@ -41,7 +41,7 @@ constexpr double kRangeSteps = 5000.0, kSpareRange = 2e6;
 /// A piece is formed, proved and measured in the time of so many steps.
 constexpr double kStepsOfPiece = 6.0;
 
-/// Where a datum was given: in the series, as a wish of the job, or for an end.
+/// Where a datum was given: in the series, as a constraint of the job, or for an end.
 struct Given {
   std::size_t point;
   Datum datum;
@@ -96,12 +96,12 @@ class RangeSearch {
     const std::size_t n = series_.points.size();
     std::vector<FixedData> all = series_.fixed;
     all.resize(n);
-    for (const PointConstraint& wish : job_.constraints) {
-      if (wish.index >= n) continue;
-      if (wish.theta) all[wish.index].theta = wish.theta;
-      if (wish.kappa) all[wish.index].kappa = wish.kappa;
-      if (wish.thetas) all[wish.index].thetas = wish.thetas;
-      if (wish.kappas) all[wish.index].kappas = wish.kappas;
+    for (const PointConstraint& constraint : job_.constraints) {
+      if (constraint.index >= n) continue;
+      if (constraint.theta) all[constraint.index].theta = constraint.theta;
+      if (constraint.kappa) all[constraint.index].kappa = constraint.kappa;
+      if (constraint.thetas) all[constraint.index].thetas = constraint.thetas;
+      if (constraint.kappas) all[constraint.index].kappas = constraint.kappas;
     }
     if (n == 0) return;
     if (job_.start_heading) all.front().theta = job_.start_heading;
@@ -137,8 +137,8 @@ class RangeSearch {
       (heading ? data.thetas : data.kappas).reset();
     };
     if (given.point < series.fixed.size()) drop(series.fixed[given.point]);
-    for (PointConstraint& wish : job.constraints) {
-      if (wish.index == given.point) drop(wish);
+    for (PointConstraint& constraint : job.constraints) {
+      if (constraint.index == given.point) drop(constraint);
     }
     if (given.point == 0) {
       (heading ? job.start_heading : job.start_kappa).reset();

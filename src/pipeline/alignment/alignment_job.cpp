@@ -174,10 +174,11 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   out.units = series.units;
   out.tolerance = *std::max_element(tolerance->begin(), tolerance->end());
   const double near = kNearTransition * *std::min_element(tolerance->begin(), tolerance->end());
-  CurveAudit audited =
-      audit(curve_of(*alignment, series.name, near, out.transitions), series.units);
+  auto audited = audit(curve_of(*alignment, series.name, near, out.transitions), series.units,
+                       {Progress{}, run.cancelled});
+  OBVID_TRY(audited);
   tell_transitions(*alignment, job.transitions, near, series.units, out.remarks);
-  out.stored = {std::move(audited.contour), std::nullopt, std::move(audited.certificate)};
+  out.stored = {std::move(audited->contour), std::nullopt, std::move(audited->certificate)};
   out.alignment = std::move(*alignment);
   out.limit = *limit;
   return out;

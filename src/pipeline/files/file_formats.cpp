@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
+#include <utility>
 
 #include "files/format_writers.h"
 
@@ -49,10 +51,14 @@ bool has_ending(const FormatRow& row, std::string_view path) {
   return false;
 }
 
-std::optional<FileFormat> format_in_table(std::string_view path, What what) {
-  std::string lower(path);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
+std::string in_lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::optional<FileFormat> format_in_table(std::string_view path, What what) {
+  const std::string lower = in_lower_case(std::string(path));
   for (const FormatRow& row : kFormats) {
     if (*(row.*what) != '\0' && has_ending(row, lower)) return row.format;
   }
@@ -78,6 +84,10 @@ Error not_held_by_format() {
 
 using pipeline_detail::FormatRow;
 
+std::string ending_of(const std::string& path) {
+  return pipeline_detail::in_lower_case(std::filesystem::path(path).extension().string());
+}
+
 std::optional<FileFormat> format_of(std::string_view path) {
   return pipeline_detail::format_in_table(path, &FormatRow::contour);
 }
@@ -95,15 +105,9 @@ std::optional<FileFormat> cut_format_of(std::string_view path) {
   return pipeline_detail::format_in_table(path, &FormatRow::cut);
 }
 
-std::string known_endings() {
-  return pipeline_detail::listed_formats(&FormatRow::contour);
-}
-std::string known_surface_endings() {
-  return pipeline_detail::listed_formats(&FormatRow::surface);
-}
-std::string known_space_endings() {
-  return pipeline_detail::listed_formats(&FormatRow::space);
-}
+std::string known_endings() { return pipeline_detail::listed_formats(&FormatRow::contour); }
+std::string known_surface_endings() { return pipeline_detail::listed_formats(&FormatRow::surface); }
+std::string known_space_endings() { return pipeline_detail::listed_formats(&FormatRow::space); }
 std::string known_cut_endings() { return pipeline_detail::listed_formats(&FormatRow::cut); }
 
 std::string known_toolpath_endings() {

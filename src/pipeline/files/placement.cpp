@@ -50,6 +50,8 @@ class Placing {
 
   [[nodiscard]] double length(double value) const { return p_.scale * value; }
 
+  [[nodiscard]] double height(double value) const { return length(value) + p_.move.z; }
+
   [[nodiscard]] bool mirrored() const { return p_.mirror != Mirror::kNone; }
 
   [[nodiscard]] Vec2 rounding(Vec2 half) const {
@@ -64,18 +66,19 @@ class Placing {
     if (data.theta) data.theta = heading(*data.theta);
     if (data.kappa) data.kappa = kappa(*data.kappa);
     if (data.tolerance) data.tolerance = length(*data.tolerance);
-    if (data.height) data.height = length(*data.height);
+    if (data.height) data.height = height(*data.height);
     if (data.thetas) data.thetas = range(heading(data.thetas->low), heading(data.thetas->high));
     if (data.kappas) data.kappas = range(kappa(data.kappas->low), kappa(data.kappas->high));
   }
 
-  /// Heights grow as lengths do.
+  /// Heights grow as lengths do, and are lifted.
   void profile(VerticalProfile& heights) const {
     for (ProfileElement& e : heights.elements) {
-      for (double* one : {&e.station, &e.length, &e.height, &e.radius}) *one = length(*one);
+      for (double* one : {&e.station, &e.length, &e.radius}) *one = length(*one);
+      e.height = height(e.height);
     }
     heights.end_station = length(heights.end_station);
-    heights.end_height = length(heights.end_height);
+    heights.end_height = height(heights.end_height);
   }
 
   [[nodiscard]] Piece operator()(const LinePiece& line) const {
@@ -129,7 +132,7 @@ void place(const Placement& placement, SpaceSeries& series) {
   const Placing placing(placement);
   for (Vec3& p : series.points) {
     const Vec2 flat = placing.point({p.x, p.y});
-    p = {flat.x, flat.y, placing.length(p.z) + placement.move.z};
+    p = {flat.x, flat.y, placing.height(p.z)};
   }
   const Vec2 half = placing.rounding({series.rounding.x, series.rounding.y});
   series.rounding = {half.x, half.y, placing.length(series.rounding.z)};

@@ -149,7 +149,7 @@ std::string series_json(const PointSeries& series) {
   add_given(json, series);
   json.pair("pieces_as_drawn", series.kept.size());
   add_list(json, "warnings", series.warnings).end_object();
-  return json.take() + "\n";
+  return json.take();
 }
 
 std::string series_report_json(const PointSeries& series, const Analysis& analysis) {

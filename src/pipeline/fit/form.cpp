@@ -199,7 +199,7 @@ Result<SeriesChain> few_points_with_fixed_data(const std::vector<Vec2>& points, 
 }
 
 /// Whether the circle or line of a wholly circular series has what is given.
-Result<void> has_wishes(const Analysis& analysis, const ChainConstraints& constraints) {
+Result<void> keeps_constraints(const Analysis& analysis, const ChainConstraints& constraints) {
   if (!anything_fixed(constraints)) return {};
   const auto problem = chain_problem(analysis, constraints);
   OBVID_TRY(problem);
@@ -212,7 +212,7 @@ Result<SeriesChain> form_elements(const std::vector<Vec2>& points, const Analysi
                                   const ChainConstraints& constraints, Watch& watch) {
   if (!wholly_circular(points, analysis))
     return chosen_elements(points, analysis, constraints, watch);
-  const auto has_them = has_wishes(analysis, constraints);
+  const auto has_them = keeps_constraints(analysis, constraints);
   if (has_them) return one_circle(points, analysis);
   if (points.size() > kFewPoints) return fail(has_them.error());
   // fewer may be asked for another curve, but not by ranges: what holds in them is found first
@@ -227,7 +227,7 @@ bool is_few_on_one_circle(const std::vector<Vec2>& points, const Analysis& analy
 bool is_one_circle(const std::vector<Vec2>& points, const Analysis& analysis,
                    const ChainConstraints& constraints) {
   return points.size() > kFewPoints && wholly_circular(points, analysis) &&
-         has_wishes(analysis, constraints);
+         keeps_constraints(analysis, constraints);
 }
 
 }  // namespace obvid::pipeline_detail

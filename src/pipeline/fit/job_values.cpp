@@ -207,28 +207,28 @@ Result<void> set_corners(const TypedValues& typed, FitJob& job) {
   return {};
 }
 
-PointConstraint& wish_at(std::vector<PointConstraint>& constraints, std::size_t index) {
-  const auto place =
-      std::lower_bound(constraints.begin(), constraints.end(), index,
-                       [](const PointConstraint& wish, std::size_t i) { return wish.index < i; });
+PointConstraint& constraint_at(std::vector<PointConstraint>& constraints, std::size_t index) {
+  const auto place = std::lower_bound(
+      constraints.begin(), constraints.end(), index,
+      [](const PointConstraint& constraint, std::size_t i) { return constraint.index < i; });
   if (place != constraints.end() && place->index == index) return *place;
-  PointConstraint wish;
-  wish.index = index;
-  return *constraints.insert(place, wish);
+  PointConstraint constraint;
+  constraint.index = index;
+  return *constraints.insert(place, constraint);
 }
 
 /// Where a value, and where a range belongs.
-struct WishField {
+struct ConstraintField {
   std::optional<double> PointConstraint::*value;
   std::optional<ValueRange> PointConstraint::*range;
 };
-constexpr WishField kHeadingField{&PointConstraint::theta, &PointConstraint::thetas};
-constexpr WishField kCurvatureField{&PointConstraint::kappa, &PointConstraint::kappas};
+constexpr ConstraintField kHeadingField{&PointConstraint::theta, &PointConstraint::thetas};
+constexpr ConstraintField kCurvatureField{&PointConstraint::kappa, &PointConstraint::kappas};
 
 /// "I=VALUE" at each point; `read` makes a value or range of the text.
 template <class Read>
-Result<void> set_at(const std::vector<std::string>& typed, const char* option, WishField field,
-                    FitJob& job, Read&& read) {
+Result<void> set_at(const std::vector<std::string>& typed, const char* option,
+                    ConstraintField field, FitJob& job, Read&& read) {
   for (const std::string& text : typed) {
     const std::size_t equals = std::min(text.find('='), text.size());
     const auto index = point_index(string_view(text).substr(0, equals));
@@ -238,13 +238,13 @@ Result<void> set_at(const std::vector<std::string>& typed, const char* option, W
     }
     const Result<ValueOrRange> one = read(string_view(text).substr(equals + 1));
     OBVID_TRY(one);
-    PointConstraint& wish = wish_at(job.constraints, *index);
-    if (wish.*(field.value) || wish.*(field.range)) {
+    PointConstraint& constraint = constraint_at(job.constraints, *index);
+    if (constraint.*(field.value) || constraint.*(field.range)) {
       return fail(bad_option("point " + std::to_string(*index + 1) + " is given twice", option,
                              "give each point one heading and one radius or curvature"));
     }
-    wish.*(field.value) = one->value;
-    wish.*(field.range) = one->range;
+    constraint.*(field.value) = one->value;
+    constraint.*(field.range) = one->range;
   }
   return {};
 }
@@ -268,12 +268,12 @@ Result<void> set_corner_at(const std::vector<std::string>& typed, FitJob& job) {
       return fail(bad_option(in_quotes(text) + " is no number of a point", "--corner-at",
                              "points count from 1"));
     }
-    wish_at(job.constraints, *index).corner = true;
+    constraint_at(job.constraints, *index).corner = true;
   }
   return {};
 }
 
-Result<void> set_wishes(const TypedValues& typed, FitJob& job) {
+Result<void> set_constraints(const TypedValues& typed, FitJob& job) {
   return set_at(typed.heading_at, "--heading-at", kHeadingField, job,
                 [](string_view text) { return headings_of(text, "--heading-at"); })
       .and_then([&] {
@@ -342,10 +342,10 @@ Result<void> set_continuity(const std::string& typed, FitJob& job) {
 
 bool has_both_headings(const FitJob& job) {
   const auto at = [&](std::size_t point) {
-    return std::any_of(job.constraints.begin(), job.constraints.end(),
-                       [&](const PointConstraint& wish) {
-                         return wish.index == point && (wish.theta || wish.thetas);
-                       });
+    return std::any_of(
+        job.constraints.begin(), job.constraints.end(), [&](const PointConstraint& constraint) {
+          return constraint.index == point && (constraint.theta || constraint.thetas);
+        });
   };
   return (job.start_heading || job.start_thetas || at(0)) &&
          (job.end_heading || job.end_thetas || at(1));
@@ -367,7 +367,7 @@ Result<void> set_values(const TypedValues& typed, FitJob& job) {
       .and_then([&] { return set_noise(typed.noise, job); })
       .and_then([&] { return set_closing(typed, job); })
       .and_then([&] { return set_corners(typed, job); })
-      .and_then([&] { return set_wishes(typed, job); })
+      .and_then([&] { return set_constraints(typed, job); })
       .and_then([&] { return set_continuity(typed.continuity, job); })
       .and_then([&] { return set_prefer(typed.prefer, job); });
 }

@@ -87,14 +87,14 @@ class Preparation {
     return {};
   }
 
-  [[nodiscard]] Result<void> has_wished_points() const {
+  [[nodiscard]] Result<void> has_constrained_points() const {
     const std::size_t n = series_.points.size();
-    for (const PointConstraint& wish : job_.constraints) {
-      if (wish.index < n) continue;
+    for (const PointConstraint& constraint : job_.constraints) {
+      if (constraint.index < n) continue;
       return error(ErrorCode::kBadOption, "there is no such point")
-          .where(fmt::format("point {}", wish.index + 1))
+          .where(fmt::format("point {}", constraint.index + 1))
           .hint(fmt::format("the series has {} points", n))
-          .point(wish.index);
+          .point(constraint.index);
     }
     return {};
   }
@@ -106,20 +106,20 @@ class Preparation {
   }
 
   /// `place`: of each point of the series among those that are left.
-  Result<void> give_wishes(const std::vector<std::size_t>& place) {
-    for (const PointConstraint& wish : job_.constraints) {
-      FixedOnce more = fixed_by(FixedBy::kPoint, wish.theta, wish.kappa);
-      more.data.thetas = wish.thetas;
-      more.data.kappas = wish.kappas;
-      more.data.corner = wish.corner;
-      auto done = add_fixed(fixed_[place[wish.index]], more, wish.index);
+  Result<void> give_constraints(const std::vector<std::size_t>& place) {
+    for (const PointConstraint& constraint : job_.constraints) {
+      FixedOnce more = fixed_by(FixedBy::kPoint, constraint.theta, constraint.kappa);
+      more.data.thetas = constraint.thetas;
+      more.data.kappas = constraint.kappas;
+      more.data.corner = constraint.corner;
+      auto done = add_fixed(fixed_[place[constraint.index]], more, constraint.index);
       if (!done) return done;
     }
     return {};
   }
 
   Result<void> gather() {
-    OBVID_TRY(has_wished_points());
+    OBVID_TRY(has_constrained_points());
     std::size_t merges = 0;
     std::vector<std::size_t> place;  // of each point among those that are left
     for (std::size_t i = 0; i < series_.points.size(); ++i) {
@@ -152,9 +152,9 @@ class Preparation {
     if (!series_.kept.empty()) {
       out_.kept.resize(out_.points.size());
       for (const KeptPiece& one : series_.kept) out_.kept[place[one.from]] = one.piece;
-      OBVID_TRY(keeps_wishes(place));
+      OBVID_TRY(keeps_constraints(place));
     }
-    return give_wishes(place);
+    return give_constraints(place);
   }
 
   /// Whether a piece that stays as it is begins or ends at a point.
@@ -165,7 +165,7 @@ class Preparation {
   }
 
   /// What a user fixes beside a line or arc of a drawing would change it.
-  [[nodiscard]] Result<void> keeps_wishes(const std::vector<std::size_t>& place) const {
+  [[nodiscard]] Result<void> keeps_constraints(const std::vector<std::size_t>& place) const {
     const auto refused = [](std::size_t point) {
       return error(ErrorCode::kFixedDataContradict,
                    "a line or arc of the drawing begins or ends here and stays as it is")
@@ -175,9 +175,10 @@ class Preparation {
               "--drawing points")
           .point(point);
     };
-    for (const PointConstraint& wish : job_.constraints) {
-      const bool says_how = wish.theta || wish.kappa || wish.thetas || wish.kappas;
-      if (says_how && beside_kept(place[wish.index])) return refused(wish.index);
+    for (const PointConstraint& constraint : job_.constraints) {
+      const bool says_how =
+          constraint.theta || constraint.kappa || constraint.thetas || constraint.kappas;
+      if (says_how && beside_kept(place[constraint.index])) return refused(constraint.index);
     }
     const std::size_t last = out_.points.size() - 1;
     if (fixed_start().data.says_how() && out_.kept.front()) return refused(0);

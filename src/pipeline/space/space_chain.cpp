@@ -160,8 +160,8 @@ class ChainForming {
     if (job_.fit.corner_angle) constraints.angle = *job_.fit.corner_angle;
     const std::size_t n = chain_.points.size();
     std::vector<std::size_t> marked;
-    for (const PointConstraint& wish : job_.fit.constraints) {
-      if (wish.corner) marked.push_back(wish.index % n);
+    for (const PointConstraint& constraint : job_.fit.constraints) {
+      if (constraint.corner) marked.push_back(constraint.index % n);
     }
     for (std::size_t i = 0; i < job_.fixed.size(); ++i) {
       if (job_.fixed[i].corner) marked.push_back(i % n);
@@ -196,9 +196,10 @@ class ChainForming {
         (at_end && chain_part(chain_, chain_.corners.size()).size() == 2)) {
       return fail(chain_error("a line between two points has its heading", "leave it out"));
     }
-    for (const PointConstraint& wish : fit.constraints) {
-      const bool more = wish.theta || wish.kappa || wish.thetas || wish.kappas;
-      if (more && is_corner(wish.index)) return fail(at_corner(wish.index));
+    for (const PointConstraint& constraint : fit.constraints) {
+      const bool more =
+          constraint.theta || constraint.kappa || constraint.thetas || constraint.kappas;
+      if (more && is_corner(constraint.index)) return fail(at_corner(constraint.index));
     }
     for (std::size_t i = 0; i < job_.fixed.size(); ++i) {
       if (job_.fixed[i].says_how() && is_corner(i)) return fail(at_corner(i));
@@ -227,10 +228,10 @@ class ChainForming {
     job.fit.constraints.clear();
     job.fixed.clear();
     for (std::size_t j = 0; j < at.size(); ++j) {
-      for (PointConstraint wish : job_.fit.constraints) {
-        if (wish.index != at[j] || wish.corner) continue;
-        wish.index = j;
-        job.fit.constraints.push_back(wish);
+      for (PointConstraint constraint : job_.fit.constraints) {
+        if (constraint.index != at[j] || constraint.corner) continue;
+        constraint.index = j;
+        job.fit.constraints.push_back(constraint);
       }
       if (job_.fixed.empty()) continue;
       job.fixed.push_back(job_.fixed[at[j]]);

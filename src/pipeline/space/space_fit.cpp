@@ -94,8 +94,8 @@ Frame plane_through_ends(const std::vector<Vec3>& points) {
 }
 
 /// More than a mark of a corner.
-bool fixes_more(const PointConstraint& wish) {
-  return wish.theta || wish.kappa || wish.thetas || wish.kappas;
+bool fixes_more(const PointConstraint& constraint) {
+  return constraint.theta || constraint.kappa || constraint.thetas || constraint.kappas;
 }
 
 bool fixes_columns(const SpaceJob& job) {

@@ -2,20 +2,13 @@
 #include "obvid/pipeline/table_spline.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <utility>
+
+#include "obvid/pipeline/file_formats.h"
 
 namespace obvid {
 namespace {
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 Result<TableSpline> of_two_variables(const NamedTable& table,
                                      const std::optional<NamedTable>& finer, const SplineJob& job,
@@ -105,6 +98,11 @@ Result<std::string> table_spline_file(const TableSpline& spline, const std::stri
   const auto* const curve = std::get_if<SplineReport>(&spline);
   return curve != nullptr ? curve_file(*curve, path, samples)
                           : grid_file(std::get<GridSplineReport>(spline), path, samples);
+}
+
+bool is_graph_file(const TableSpline& spline, const std::string& path) {
+  const std::string ending = ending_of(path);
+  return std::holds_alternative<GridSplineReport>(spline) && ending != ".csv" && ending != ".json";
 }
 
 Result<std::optional<SurfaceModel>> table_spline_graph(const TableSpline& spline) {

@@ -32,6 +32,9 @@ struct NurbsValues {
 /// Puts them into `job`. Errors: E203 with the option's name.
 [[nodiscard]] Result<void> set_nurbs(const NurbsValues& typed, NurbsJob& job);
 
+/// Rows of a table of samples where nobody says how many.
+inline constexpr long kRowsOfSamples = 200;
+
 /// Rows of a table of samples. Error: E203 fewer than 2 or more than 10,000,000.
 [[nodiscard]] Result<std::size_t> rows_of_samples(long rows);
 
