@@ -25,6 +25,8 @@ constexpr std::size_t kRounds = 4;
 constexpr int kMostInVain = 2;
 /// Waves beyond the forced ones that are few enough.
 constexpr double kFew = 0.01;
+/// Of the lines: shallow waves that are worth moving sections for, where no high ones are.
+constexpr double kMany = 0.1;
 /// Half widths of the boxes: normal, along, across. Their corners lie in the ball of 1.
 constexpr std::array<double, 3> kBox = {0.95, 0.2, 0.2}, kEvenBox = {0.55, 0.55, 0.55};
 /// The string keeps away from the bounds by what smoothness needs.
@@ -666,9 +668,12 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
 
 /// Waves that need not be: high ones, and shallow ones with them; and how many are forced.
 struct Waves {
-  std::size_t beyond = 0, all_beyond = 0, forced = 0;
+  std::size_t beyond = 0, all_beyond = 0, forced = 0, lines = 0;
   [[nodiscard]] bool high_ones_few() const {
     return static_cast<double>(beyond) <= kFew * static_cast<double>(forced);
+  }
+  [[nodiscard]] bool shallow_ones_many() const {
+    return static_cast<double>(all_beyond) > kMany * static_cast<double>(lines);
   }
   /// High ones first.
   [[nodiscard]] bool less_than(const Waves& other) const {
@@ -680,7 +685,7 @@ Result<Waves> waves_of(const SkinStretch& stretch, const NurbsSurface& surface,
                        const FairAcross& how, const RunContext& run) {
   AcrossReport report;
   OBVID_TRY(add_across_report(surface, stretch.breaks, how.v, how.forced, how.fine, run, report));
-  return Waves{report.beyond, report.all_beyond, report.forced};
+  return Waves{report.beyond, report.all_beyond, report.forced, report.isolines};
 }
 
 }  // namespace
@@ -705,11 +710,14 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
   OBVID_TRY(given);
   Waves least = *given;
   constexpr double kParts = static_cast<double>(kAlong.size() * kRounds);
-  for (std::size_t n = 0; n < kAlong.size() && !least.high_ones_few(); ++n) {
+  const bool high_ones = !given->high_ones_few();
+  const auto goes_on = [&] {
+    return high_ones ? !least.high_ones_few() : least.shallow_ones_many();
+  };
+  for (std::size_t n = 0; n < (high_ones ? kAlong.size() : 1) && goes_on(); ++n) {
     Correction correction(stretch, wanted, kAlong[n]);
     int in_vain = 0;
-    for (std::size_t round = 0; round < kRounds && in_vain < kMostInVain && !least.high_ones_few();
-         ++round) {
+    for (std::size_t round = 0; round < kRounds && in_vain < kMostInVain && goes_on(); ++round) {
       const double start = from + (to - from) * static_cast<double>(n * kRounds + round) / kParts;
       OBVID_TRY(correction.improve(runs, at, allowed, run, start, start + (to - from) / kParts));
       const auto left = waves_of(stretch, correction.surface(), wanted, run);
