@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "obvid/pipeline/surface_check_job.h"
 #include "obvid/pipeline/surface_job.h"
 #include "surface_outputs.h"
 

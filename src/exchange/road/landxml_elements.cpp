@@ -40,9 +40,9 @@ double turn_of(const StatedCurve& curve, double radius) {
 template <class Curved>
 bool goes_on_smoothly(const Curved& a, double turn, const Curved& b) {
   constexpr double kApart = 1e-9;   // of both lengths
-  constexpr double kCorner = 1e-6;  // rad
+  constexpr double kGoesOn = 1e-6;  // rad
   return norm(a.end - b.start) <= kApart * (a.length + b.length) &&
-         std::abs(std::remainder(a.theta0 + turn - b.theta0, kFullTurn)) <= kCorner;
+         std::abs(std::remainder(a.theta0 + turn - b.theta0, kFullTurn)) <= kGoesOn;
 }
 
 }  // namespace
