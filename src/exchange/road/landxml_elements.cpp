@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/geom/internal/angle.h"
@@ -156,11 +157,18 @@ std::optional<Piece> joined(const Piece& first, const Piece& second) {
   return ClothoidPiece{a->start, b->end, a->theta0, a->kappa0, b->kappa1, a->length + b->length};
 }
 
-bool ends_meet(const std::vector<Piece>& pieces) {
+bool ends_meet(std::vector<Piece>& pieces) {
   constexpr double kMeeting = 1e-9;  // of the length
   double length = 0.0;
   for (const Piece& piece : pieces) length += norm(end_point(piece) - start_point(piece));
-  return norm(end_point(pieces.back()) - start_point(pieces.front())) <= kMeeting * length;
+  const Vec2 start = start_point(pieces.front());
+  if (!(norm(end_point(pieces.back()) - start) <= kMeeting * length)) return false;
+  std::visit(
+      [&](auto& last) {
+        if constexpr (requires { last.end = start; }) last.end = start;
+      },
+      pieces.back());
+  return end_point(pieces.back()) == start;
 }
 
 }  // namespace obvid::exchange

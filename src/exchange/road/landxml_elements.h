@@ -43,7 +43,8 @@ struct PlacedPiece {
 /// clothoid; nothing where they do not.
 [[nodiscard]] std::optional<Piece> joined(const Piece& first, const Piece& second);
 
-/// Whether pieces in order end where they begin, but for a billionth of their chords together.
-[[nodiscard]] bool ends_meet(const std::vector<Piece>& pieces);
+/// Whether the last piece ends where the first begins, to 1e-9 of the summed chords; then it ends
+/// exactly there.
+[[nodiscard]] bool ends_meet(std::vector<Piece>& pieces);
 
 }  // namespace obvid::exchange
