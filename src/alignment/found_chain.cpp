@@ -53,7 +53,7 @@ class Simplifier {
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
-    if (auto on = polish(run, &joints); !on) return on;
+    OBVID_TRY(polish(run, &joints));
     return simplify(run);
   }
 
@@ -65,13 +65,13 @@ class Simplifier {
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
-    if (auto on = polish(run, &joints); !on) return on;
-    if (auto on = close(run); !on) return on;
+    OBVID_TRY(polish(run, &joints));
+    OBVID_TRY(close(run));
     for (int turn = 0; turn < 2; ++turn) {
-      if (auto on = simplify(run); !on) return on;
+      OBVID_TRY(simplify(run));
       turn_to(chain_.size() / 2);
     }
-    if (auto on = merge_all(run); !on) return on;
+    OBVID_TRY(merge_all(run));
     const std::size_t first = (points_.size() - first_given_) % points_.size();
     turn_to((feet_[first].element + 1) % chain_.size());
     if (largest() > 1.0) return polish(run);
@@ -95,26 +95,26 @@ class Simplifier {
 
  private:
   Result<void> simplify(const RunContext& run) {
-    if (auto on = merge_all(run); !on) return on;
+    OBVID_TRY(merge_all(run));
     for (int pass = 0; pass < kPasses; ++pass) {
       const auto taken = take_conditions(run);
       OBVID_TRY(taken);
       if (!*taken) break;
     }
-    if (auto on = merge_all(run); !on) return on;
+    OBVID_TRY(merge_all(run));
     if (transitions_ != Transition::kClothoid && !constant_) {
       // where clothoids lie beside transitions of another kind, lines are arcs and ends are off
       for (int pass = 0; pass < kPasses; ++pass) {
         const std::size_t before = chain_.size();
-        if (auto on = take_transitions(run); !on) return on;
+        OBVID_TRY(take_transitions(run));
         const auto taken = take_conditions(run);
         OBVID_TRY(taken);
-        if (auto on = merge_all(run); !on) return on;
+        OBVID_TRY(merge_all(run));
         if (!*taken && chain_.size() == before) break;
       }
     }
     for (int i = 0; i < kPolishes && largest() > 1.0; ++i) {
-      if (auto on = polish(run); !on) return on;
+      OBVID_TRY(polish(run));
     }
     return {};
   }
@@ -240,7 +240,7 @@ class Simplifier {
   Result<void> merge_all(const RunContext& run) {
     for (std::size_t k = 0; k + 1 < chain_.size();) {
       const double done = static_cast<double>(k) / static_cast<double>(chain_.size());
-      if (auto on = tell(run, "fewer elements", done); !on) return on;
+      OBVID_TRY(tell(run, "fewer elements", done));
       if (!merge(k)) ++k;
     }
     return {};
@@ -261,7 +261,7 @@ class Simplifier {
   /// arcs between them, one of another kind may do.
   Result<void> take_transitions(const RunContext& run) {
     for (std::size_t first = 0; first < chain_.size(); first += kWindow / 2) {
-      if (auto on = may_go_on(run); !on) return on;
+      OBVID_TRY(may_go_on(run));
       (void)restructure(first, std::min(first + kWindow, chain_.size()));
     }
     for (std::size_t k = 0; k < chain_.size(); ++k) {
@@ -482,7 +482,7 @@ class Simplifier {
 
   Result<void> estimate(std::vector<Candidate>& candidates, const RunContext& run) const {
     for (Candidate& c : candidates) {
-      if (auto on = may_go_on(run); !on) return on;
+      OBVID_TRY(may_go_on(run));
       const auto [first, last] = around(c.element);
       Window window = cut(chain_, first, last);
       c.room = static_cast<double>(window.points.size());

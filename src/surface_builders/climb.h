@@ -13,8 +13,8 @@ namespace obvid {
 
 // Extremes of what is measured over a patch: looked for on a raster of every span, then climbed to.
 
-/// A parameter, the part of the domain that it stands for, and where its neighbours may lie: the
-/// cells beside it in the same span.
+/// A parameter, the part of the domain that it stands for (a step to its neighbours), and where its
+/// neighbours may lie: the cells beside it in the same span.
 struct Node {
   double at = 0.0;
   double weight = 0.0;
@@ -67,17 +67,16 @@ class Peaks {
 /// The top near a place: compass steps through the cells around it, halved until they are far below
 /// the raster. `value_at(u, v)` is not a number where nobody may go.
 template <class Value>
-[[nodiscard]] Peak climbed(const Value& value_at, Peak from) {
+[[nodiscard]] Peak climbed(const Value& value_at, Peak from, int most_steps = 200) {
   constexpr int kHalvings = 20;  // a millionth of the raster's step: 1e-12 of the value's rise
-  constexpr int kMostSteps = 200;
   double step_u = from.u.weight, step_v = from.v.weight;
   int halvings = 0;
-  for (int step = 0; step < kMostSteps && halvings < kHalvings; ++step) {
+  for (int step = 0; step < most_steps && halvings < kHalvings; ++step) {
     Peak best = from;
     for (int place = 0; place < 9; ++place) {
       Node u = from.u, v = from.v;
-      u.at = std::clamp(u.at + (place % 3 - 1) * step_u, u.reach.from, u.reach.to);
-      v.at = std::clamp(v.at + (place / 3 - 1) * step_v, v.reach.from, v.reach.to);
+      u.at = std::clamp(u.at + (place / 3 - 1) * step_u, u.reach.from, u.reach.to);
+      v.at = std::clamp(v.at + (place % 3 - 1) * step_v, v.reach.from, v.reach.to);
       const double value = value_at(u.at, v.at);
       if (value > best.value) best = {value, u, v};
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "climb.h"
 #include "obvid/curve/internal/basis.h"
 
 namespace obvid {
@@ -53,28 +54,11 @@ double Bending::at(double u, double v, int side) const {
 
 Bend Bending::climbed(Bend from, double step_u, double step_v, int side, const Range& u,
                       const Range& v) const {
-  constexpr int kHalvings = 20;  // a millionth of the raster's step: 1e-12 of the curvature's rise
   constexpr int kMostSteps = 400;
-  int halvings = 0;
-  for (int step = 0; step < kMostSteps && halvings < kHalvings; ++step) {
-    Bend best = from;
-    for (int i = -1; i <= 1; ++i) {
-      for (int j = -1; j <= 1; ++j) {
-        Bend next{std::clamp(from.u + i * step_u, u.from, u.to),
-                  std::clamp(from.v + j * step_v, v.from, v.to), 0.0};
-        next.value = at(next.u, next.v, side);
-        if (next.value > best.value) best = next;
-      }
-    }
-    if (best.value > from.value) {
-      from = best;
-    } else {
-      ++halvings;
-      step_u /= 2.0;
-      step_v /= 2.0;
-    }
-  }
-  return from;
+  const Peak top =
+      obvid::climbed([&](double at_u, double at_v) { return at(at_u, at_v, side); },
+                     {from.value, {from.u, step_u, u}, {from.v, step_v, v}}, kMostSteps);
+  return {top.u.at, top.v.at, top.value};
 }
 
 std::size_t span_count(const std::vector<double>& knots) {

@@ -167,13 +167,18 @@ Result<std::vector<std::vector<double>>> fences_by_length(
   return fences;
 }
 
+/// Between corners; all sections that have a length have as many.
+std::size_t stretches_of(const std::vector<std::vector<double>>& fences) {
+  std::size_t most = 1;
+  for (const auto& list : fences) most = std::max(most, list.size());
+  return most - 1;
+}
+
 Result<Matched> by_length(const std::vector<MeasuredSection>& sections) {
   const auto fences = fences_by_length(sections);
   OBVID_TRY(fences);
-  std::size_t stretches = 0;
-  for (const auto& list : *fences) stretches = std::max(stretches, list.size());
   Matched result;
-  for (std::size_t f = 0; f + 1 < stretches; ++f) {
+  for (std::size_t f = 0; f < stretches_of(*fences); ++f) {
     std::vector<std::vector<double>> marks(sections.size());
     std::optional<std::vector<int>> directions;
     bool same_runs = true;
@@ -207,10 +212,8 @@ Result<Matched> by_shape(const std::vector<MeasuredSection>& sections, SkinMatch
                          const RunContext& run) {
   const auto fences = fences_by_length(sections);
   OBVID_TRY(fences);
-  std::size_t stretches = 0;
-  for (const auto& list : *fences) stretches = std::max(stretches, list.size());
   Matched result;
-  for (std::size_t f = 0; f + 1 < stretches; ++f) {
+  for (std::size_t f = 0; f < stretches_of(*fences); ++f) {
     std::vector<std::vector<double>> marks(sections.size());
     for (std::size_t k = 0; k < sections.size(); ++k) {
       const std::vector<double>& fence = (*fences)[k];

@@ -157,7 +157,7 @@ std::optional<Piece> joined(const Piece& first, const Piece& second) {
   return ClothoidPiece{a->start, b->end, a->theta0, a->kappa0, b->kappa1, a->length + b->length};
 }
 
-bool ends_meet(std::vector<Piece>& pieces) {
+bool closed_up(std::vector<Piece>& pieces) {
   constexpr double kMeeting = 1e-9;  // of the length
   double length = 0.0;
   for (const Piece& piece : pieces) length += norm(end_point(piece) - start_point(piece));

@@ -45,6 +45,6 @@ struct PlacedPiece {
 
 /// Whether the last piece ends where the first begins, to 1e-9 of the summed chords; then it ends
 /// exactly there.
-[[nodiscard]] bool ends_meet(std::vector<Piece>& pieces);
+[[nodiscard]] bool closed_up(std::vector<Piece>& pieces);
 
 }  // namespace obvid::exchange

@@ -125,7 +125,7 @@ class LandXmlReader {
     ++part_;
     curve_.label = part_ == 1 ? label_ : fmt::format("{}, part {}", label_, part_);
     curve_.name = part_ == 1 ? name_ : fmt::format("{}, part {}", name_, part_);
-    curve_.closed = exchange::ends_meet(curve_.pieces);
+    curve_.closed = exchange::closed_up(curve_.pieces);
     drawing_.curves.push_back(std::exchange(curve_, {}));
   }
 

@@ -133,7 +133,7 @@ class OpenDriveReader {
       curve.label = part == 1 ? label : fmt::format("{}, part {}", label, part);
       const std::string& own = name.empty() ? id : name;
       curve.name = part == 1 ? own : fmt::format("{}, part {}", own, part);
-      curve.closed = exchange::ends_meet(curve.pieces);
+      curve.closed = exchange::closed_up(curve.pieces);
       drawing_.curves.push_back(std::exchange(curve, {}));
     };
     double station = -1.0;

@@ -12,7 +12,6 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-constexpr std::string_view kTakenForGranted = "mm";  ///< where files have no unit
 constexpr double kKernelPrecision = 1e-7;  // mm: CAD kernels take points that are nearer for one
 
 Error assumed(const Units& units, std::string_view kind) {
@@ -30,10 +29,11 @@ Result<UnitNotes> unit_notes(const Units& units, UnitRule rule, std::string_view
   UnitNotes notes;
   if (rule == UnitRule::kNone) return notes;
   if (rule == UnitRule::kLost) {
-    if (units.known() && units.name != kTakenForGranted) {
+    const Units usual;  // what is assumed where nothing is said
+    if (units.known() && units.name != usual.name) {
       notes.remarks.push_back(
           fmt::format("{} have no unit, and are taken for {}: the numbers are in {}", kind,
-                      kTakenForGranted, units.name));
+                      usual.name, units.name));
     }
     return notes;
   }
