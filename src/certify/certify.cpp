@@ -57,8 +57,10 @@ class Certifier {
     examine_pieces();
     if (watch_.was_cancelled()) return {};
     joints_ = survey_joints(contour_, bends_, known_ != nullptr ? &known_->list : nullptr);
+    if (watch_.cancelled()) return {};
     check_joints();
     check_points();
+    if (watch_.cancelled()) return {};
     check_runs();
     count_singular_points();
     certificate_.inside_region = monotone_ && forward_ && joints_.within_bounds;

@@ -54,7 +54,9 @@ Expected expected_of(const Input& input, const ContourFile& file) {
   const double reach = std::max(2.0 * rounding, reach_of(first, input) + reach_of(last, input));
   constexpr double kLastDigits = 1.0 + 1e-9;
   const bool one_less = file.closed && file.points.size() + 1 == out.points.size();
-  const bool near = apart * kLastDigits < reach || (apart <= reach * kLastDigits && one_less);
+  const bool leaves_a_loop = out.points.size() > 3;
+  const bool near = leaves_a_loop && (apart * kLastDigits < reach ||
+                                      (apart <= reach * kLastDigits && one_less));
   if (!exact && !near) return out;
   out.closed = true;
   out.joined = !exact;

@@ -389,6 +389,7 @@ Result<FitReport> measure(const Contour& contour, double tolerance, Watch& watch
   FitReport report;
   report.tolerance = tolerance;
   report.given = measure_given(contour);
+  if (watch.cancelled()) return fail(cancelled_error());
   report.largest_deviation = promises_monotone(contour.carrier) ? 0.0 : kUnknown;
   PartMeasure measure_part(contour, tolerance);
   std::vector<int> direction;
@@ -425,6 +426,7 @@ Result<FitReport> measure(const Contour& contour, double tolerance, Watch& watch
       const auto said = say_points(contour, section, loop, direction, report, row);
       OBVID_TRY(said);
     }
+    if (watch.cancelled()) return fail(cancelled_error());
     report.vertices_lower_bound += forced(contour, section, loop, watch);
     row += section.size() - 1;
   }
