@@ -5,13 +5,19 @@ configure_file("${PROJECT_SOURCE_DIR}/cmake/version.h.in"
                "${PROJECT_BINARY_DIR}/generated/obvid/core/version.h" @ONLY)
 
 # For targets that make texts, not figures: a release build spends a third less time on them.
-# With sanitizers, targets that only call what takes time are not optimised: half the time of clang.
-set(OBVID_PLAIN_WHEN_SANITIZED obvid_pipeline obvid_cli)
 function(obvid_for_words target)
+  if(NOT MSVC AND NOT EMSCRIPTEN)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+endfunction()
+
+# With sanitizers, targets that only call what takes time, or that few of the tests call which run then,
+# are not optimised: half the time of clang.
+set(OBVID_PLAIN_WHEN_SANITIZED obvid_pipeline obvid_cli obvid_alignment obvid_cutting obvid_mesh obvid_picture
+    obvid_surface_builders obvid_surface_cut obvid_toolpath)
+function(obvid_for_sanitizers target)
   if(OBVID_SANITIZE AND target IN_LIST OBVID_PLAIN_WHEN_SANITIZED)
     target_compile_options(${target} PRIVATE -O0)
-  elseif(NOT MSVC AND NOT EMSCRIPTEN)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()
 
@@ -64,6 +70,7 @@ function(obvid_module)
     if(M_WORDS)
       obvid_for_words(${target})
     endif()
+    obvid_for_sanitizers(${target})
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -112,5 +119,6 @@ function(obvid_program)
     target_link_libraries(${P_NAME}_cli PRIVATE obvid::${dependency})
   endforeach()
   obvid_for_words(${P_NAME}_cli)
+  obvid_for_sanitizers(${P_NAME}_cli)
   install(TARGETS ${P_NAME}_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
