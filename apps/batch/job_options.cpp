@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -12,8 +13,9 @@ namespace {
 using Json = nlohmann::json;
 
 /// Shapes of values that are neither a number nor a text.
-bool is_at_points(std::string_view name) {
-  return name == "heading-at" || name == "radius-at" || name == "kappa-at";
+bool is_at_points(const TypedOption& option) {
+  const std::string_view name = option.name;
+  return name.ends_with("-at") ? name != "corner-at" : option.of_points;
 }
 bool is_list(std::string_view name) { return name == "corner-at" || name == "insert"; }
 
@@ -29,7 +31,7 @@ Json value_of(const std::string& text) {
 
 Json json_of(const TypedOption& option) {
   if (option.is_flag) return true;
-  if (is_at_points(option.name)) {
+  if (is_at_points(option)) {
     Json out = Json::object();
     for (const std::string& one : option.values) {
       const std::size_t equals = one.find('=');
@@ -61,20 +63,54 @@ void add_all(CLI::App& app, std::vector<TypedOption>& options, const std::string
 
 }  // namespace
 
-JobOptions known_options() {
+JobOptions known_options(const std::string& job) {
   JobOptions out;
-  for (const char* name :
-       {"carrier",         "continuity",    "prefer",      "tolerance",    "noise",
-        "corner-angle",    "start-heading", "end-heading", "start-radius", "end-radius",
-        "heading-at",      "radius-at",     "kappa-at",    "corner-at",    "construction",
-        "fixation",        "insert",        "along",       "units",        "curve",
-        "chord-tolerance", "drawing",       "columns",     "skip",         "scale",
-        "rotate",          "move",          "mirror"}) {
-    out.job.push_back({name});
+  const std::vector<TypedOption> drawn{{"units"},   {"curve"},           {"chord-tolerance"},
+                                       {"drawing"}, {"columns"},         {"skip"},
+                                       {"scale"},   {"rotate"},          {"move"},
+                                       {"mirror"},  {"unordered", true}, {"drop-outliers", true}};
+  if (job == "spline") {
+    out.job = {{"curve", true}, {"compare", true}, {"degree"},
+               {"smooth"},      {"tolerance"},     {"samples"}};
+    return out;
   }
-  for (const char* name :
-       {"convex", "primitives", "closed", "open", "no-corners", "unordered", "drop-outliers"}) {
-    out.job.push_back({name, true});
+  if (job == "nurbs") {
+    out.job = {{"degree"},  {"degree-v"},  {"knots"},
+               {"knots-v"}, {"weight-at"}, {.name = "move", .of_points = true},
+               {"units"},   {"samples"}};
+    return out;
+  }
+  if (job == "cut") {
+    out.job = drawn;
+    for (const char* name :
+         {"diameter",    "side",       "direction",   "spindle",      "laser",      "plasma",
+          "depth",       "pass-depth", "passes",      "ramp",         "safe-z",     "tabs",
+          "tab-width",   "tab-height", "lead-in",     "start",        "tolerance",  "feed",
+          "plunge-feed", "rapid-feed", "centripetal", "acceleration", "controller", "decimals"}) {
+      out.job.push_back({name});
+    }
+    return out;
+  }
+  if (job == "alignment") {
+    out.job = drawn;
+    for (const char* name :
+         {"noise", "min-length", "min-radius", "station", "lateral-acceleration", "transitions",
+          "profile-noise", "profile-curves", "min-vertical-length"}) {
+      out.job.push_back({name});
+    }
+    out.job.push_back({"closed", true});
+  } else {
+    out.job = drawn;
+    for (const char* name :
+         {"carrier",      "continuity",    "prefer",      "tolerance",    "noise",
+          "corner-angle", "start-heading", "end-heading", "start-radius", "end-radius",
+          "heading-at",   "radius-at",     "kappa-at",    "corner-at",    "construction",
+          "fixation",     "insert",        "along",       "align",        "enlarge"}) {
+      out.job.push_back({name});
+    }
+    for (const char* name : {"convex", "primitives", "closed", "open", "no-corners"}) {
+      out.job.push_back({name, true});
+    }
   }
   for (const char* name :
        {"output-tolerance", "for", "controller", "motion", "feed", "samples", "sample-step",
@@ -83,6 +119,25 @@ JobOptions known_options() {
     out.files.push_back({name});
   }
   out.files.push_back({"unit-chord", true});
+  if (!job.empty()) return out;
+  for (const char* more : {"alignment", "cut", "spline", "nurbs"}) {
+    for (const TypedOption& one : known_options(more).job) {
+      const auto same = [&](const TypedOption& other) { return other.name == one.name; };
+      if (std::any_of(out.job.begin(), out.job.end(), same)) continue;
+      if (std::any_of(out.files.begin(), out.files.end(), same)) continue;
+      out.job.push_back(one);
+    }
+  }
+  return out;
+}
+
+std::string typed_job(int argc, char** argv) {
+  std::string out;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word == "--job" && i + 1 < argc) out = argv[i + 1];
+    if (word.starts_with("--job=")) out = word.substr(std::string_view("--job=").size());
+  }
   return out;
 }
 

@@ -12,6 +12,7 @@ namespace obvid::batch {
 struct TypedOption {
   std::string name;
   bool is_flag = false;
+  bool of_points = false;  ///< I=V, by point
   bool flag = false;
   std::vector<std::string> values{};
 };
@@ -21,7 +22,10 @@ struct JobOptions {
   std::vector<TypedOption> job, files;
 };
 
-[[nodiscard]] JobOptions known_options();
+/// Those of a job; "": of all jobs, for help.
+[[nodiscard]] JobOptions known_options(const std::string& job);
+/// --job as it was typed, before anything is understood; "" where it was not.
+[[nodiscard]] std::string typed_job(int argc, char** argv);
 void add_job_options(CLI::App& app, JobOptions& options);
 
 /// {"noise": 0.01, "heading-at": {"5": "90"}}

@@ -54,7 +54,7 @@ struct Asked {
   std::vector<std::string> cuts;
   std::string out;
   JobSpec job;
-  JobOptions options = known_options();
+  JobOptions options;
   std::size_t jobs = 0, shard_size = 1000;
   std::string shard;
   bool merge = false, quiet = false;
@@ -98,6 +98,7 @@ Manifest manifest_of_run(const Asked& asked, const Job& job, const Source& sourc
   out.most_seconds = spec.most_seconds;
   out.program = kVersion;
   out.sources = source.mark();
+  if (!spec.against.empty()) out.sources += "; " + spec.against + " " + mark_of_file(spec.against);
   out.remark = source.remark();
   out.items = source.size();
   out.shard_size = asked.shard_size;
@@ -209,9 +210,11 @@ void add_batch(CLI::App& app, Asked& asked) {
       ->option_text("OUT");
   app.add_option("--jobs", asked.jobs, "Items at work at once [as many as there are processors]")
       ->option_text("N");
-  app.add_option("--job", asked.job.job,
-                 "fit, space, analyse, region, compare, suggest, verify or convert [fit]")
+  app.add_option("--job", asked.job.job, known_jobs() + " [fit]; --job NAME --help has its options")
       ->option_text("NAME");
+  app.add_option("--against", asked.job.against,
+                 "compare: curve that every item is laid over; spline: more of the same function")
+      ->option_text("FILE");
   app.add_option("--list", asked.sources.list, "File with a path on each line, - standard input")
       ->option_text("FILE");
   app.add_option("--pattern", asked.sources.pattern, "Of names in folders and archives: '*.dat'")
@@ -221,9 +224,8 @@ void add_batch(CLI::App& app, Asked& asked) {
   app.add_option("--cut", asked.cuts, "Planes that cut meshes, z=FROM:STEP:TO; may be repeated")
       ->allow_extra_args(false)
       ->option_text("PLANES");
-  app.add_option(
-         "--each", asked.job.each,
-         "File of every contour, 'curves/{id}.step'; {number} counts from 0; may be repeated")
+  app.add_option("--each", asked.job.each,
+                 "File of every item, 'curves/{id}.step'; {number} counts from 0; may be repeated")
       ->allow_extra_args(false)
       ->option_text("NAME");
   app.add_option("--reports", asked.job.reports, "Report of every item, 'reports/{id}.json'")
@@ -261,6 +263,8 @@ int run(int argc, char** argv) {
     app.add_option("--limit", query.most, "Rows at most [all]");
     app.add_flag("--csv", query.csv, "Cells with commas between them");
   } else {
+    const std::string job = typed_job(argc, argv);
+    asked.options = known_options(help_as_lines() || !job.empty() ? job : asked.job.job);
     add_batch(app, asked);
     // understood apart: a source may be called query
     if (help_as_lines()) app.add_subcommand("query", "What the index of a batch says");
@@ -268,6 +272,7 @@ int run(int argc, char** argv) {
         "\nExamples:\n"
         "  obvid batch sections/ -o out.h5 --noise rounding\n"
         "  obvid batch hull.stl --cut z=0:0.5:100 -o hull.h5 --each 'curves/{id}.json'\n"
+        "  obvid batch parts/ -o parts.h5 --job cut --depth 3 --each 'nc/{id}.nc'\n"
         "  obvid batch query out.h5 \"vertices > bound\"");
   }
   try {

@@ -81,7 +81,9 @@ int run(const NurbsOptions& options) {
   }
   auto points = read_control_table(options.input);
   if (!points) return report(points.error());
-  const auto made = nurbs_report(std::move(*points), options.job);
+  ProgressBar bar(options.progress);
+  const auto made = nurbs_report(std::move(*points), options.job, bar.progress());
+  bar.clear();
   if (!made) return report(made.error());
   const auto files = write_nurbs(*made, options);
   if (!files) return report(files.error());

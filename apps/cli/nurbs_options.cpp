@@ -15,6 +15,7 @@ struct RawNurbs {
   std::optional<std::string> units;
   std::string format;  ///< of what -o sends to standard output
   bool csv = false;
+  bool no_progress = false;
 };
 
 void add_nurbs_options(CLI::App& app, RawNurbs& raw) {
@@ -49,7 +50,8 @@ void add_nurbs_options(CLI::App& app, RawNurbs& raw) {
       ->type_name("NAME");
   app.add_flag("--csv", raw.csv, "Samples of a curve as CSV on standard output, as -o NAME.csv");
   app.add_flag("--json", options.json, "JSON on standard output instead of the table");
-  app.add_flag("-q,--quiet", options.quiet, "No table");
+  app.add_flag("-q,--quiet", options.quiet, "No table and no progress bar");
+  app.add_flag("--no-progress", raw.no_progress, "No progress bar");
   app.footer(
       with_exit_codes("Examples:\n"
                       "  obvid nurbs points.csv --weight-at 4=3 -o curve.step\n"
@@ -61,6 +63,7 @@ Result<void> check_nurbs(RawNurbs& raw) {
   OBVID_TRY(settle_streams(raw.options, raw.format, raw.csv));
   if (raw.csv) raw.options.outputs.emplace_back("-.csv");
   if (raw.csv) raw.options.quiet = true;
+  raw.options.progress = !raw.no_progress && !raw.options.quiet && !raw.options.json;
   raw.options.input = input_or_pipe(raw.options.input);
   if (raw.options.input.empty()) {
     return fail(usage("nurbs needs a table of control points", "see obvid nurbs --help"));

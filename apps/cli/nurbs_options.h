@@ -20,6 +20,7 @@ struct NurbsOptions {
   std::size_t samples = 200;  ///< rows of a .csv
   bool json = false;
   bool quiet = false;
+  bool progress = true;
 };
 
 }  // namespace obvid

@@ -131,7 +131,7 @@ Result<void> write_spline(const TableSpline& made, const SplineOptions& options)
   return {};
 }
 
-Result<TableSpline> made_of(const SplineOptions& options) {
+Result<TableSpline> made_of(const SplineOptions& options, ProgressBar& bar) {
   OBVID_TRY(check_outputs(options.outputs, {&options.input, 1}));
   const auto table = read_table(options.input);
   OBVID_TRY(table);
@@ -141,13 +141,15 @@ Result<TableSpline> made_of(const SplineOptions& options) {
     OBVID_TRY(more);
     finer = std::move(*more);
   }
-  return spline_of_table(*table, finer, options.job);
+  return spline_of_table(*table, finer, options.job, bar.progress());
 }
 
 }  // namespace
 
 int run(const SplineOptions& options) {
-  const auto made = made_of(options);
+  ProgressBar bar(options.progress);
+  const auto made = made_of(options, bar);
+  bar.clear();
   if (!made) return report(made.error());
   if (auto done = write_spline(*made, options); !done) return report(done.error());
   std::string text = options.json ? table_spline_json(*made) : table_text(*made);

@@ -14,6 +14,7 @@ struct RawSpline {
   long samples = kRowsOfSamples;
   std::string format;  ///< of what -o sends to standard output
   bool csv = false;
+  bool no_progress = false;
 };
 
 void add_options(CLI::App& app, RawSpline& raw) {
@@ -47,7 +48,8 @@ void add_options(CLI::App& app, RawSpline& raw) {
   app.add_option("--samples", raw.samples, "Rows of the .csv, equal steps [200]")->type_name("N");
   app.add_flag("--csv", raw.csv, "CSV on standard output instead of the table, as -o NAME.csv");
   app.add_flag("--json", options.json, "JSON on standard output instead of the table");
-  app.add_flag("-q,--quiet", options.quiet, "No table");
+  app.add_flag("-q,--quiet", options.quiet, "No table and no progress bar");
+  app.add_flag("--no-progress", raw.no_progress, "No progress bar");
   app.footer(with_exit_codes(
       "Examples:\n"
       "  obvid spline profile.csv -o profile.svg\n"
@@ -60,6 +62,7 @@ Result<void> check(RawSpline& raw) {
   OBVID_TRY(settle_streams(options, raw.format, raw.csv));
   if (raw.csv) options.outputs.emplace_back("-.csv");
   if (raw.csv) options.quiet = true;
+  options.progress = !raw.no_progress && !options.quiet && !options.json;
   options.input = input_or_pipe(options.input);
   if (options.input.empty()) {
     return fail(usage("spline needs a table", "see obvid spline --help"));

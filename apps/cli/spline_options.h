@@ -18,6 +18,7 @@ struct SplineOptions {
   std::size_t samples = 200;  ///< rows of a .csv
   bool json = false;
   bool quiet = false;
+  bool progress = true;
 };
 
 }  // namespace obvid

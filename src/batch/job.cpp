@@ -1,70 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job.h"
 
-#include <sys/stat.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "item_work.h"
 #include "obvid/core/files.h"
 #include "obvid/core/internal/name_pattern.h"
 #include "obvid/obvid.h"
 #include "report_figures.h"
-#include "source.h"
 
 namespace obvid::batch {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-struct FreeHandle {
-  void operator()(obvid_input* handle) const { obvid_input_free(handle); }
-  void operator()(obvid_contour* handle) const { obvid_contour_free(handle); }
-  void operator()(obvid_space* handle) const { obvid_space_free(handle); }
-  void operator()(obvid_files* handle) const { obvid_files_free(handle); }
-  void operator()(obvid_error* handle) const { obvid_error_free(handle); }
-  void operator()(char* text) const { obvid_free(text); }
-};
-template <class Handle>
-using Owned = std::unique_ptr<Handle, FreeHandle>;
-
-/// Takes what a function of the C interface hands out.
-template <class Handle>
-class Out {
- public:
-  explicit Out(Owned<Handle>& to) : to_(to) {}
-  Out(const Out&) = delete;
-  Out& operator=(const Out&) = delete;
-  ~Out() {
-    if (made_ != nullptr) to_.reset(made_);
-  }
-  operator Handle**() { return &made_; }  // NOLINT: as the C interface takes it
-
- private:
-  Owned<Handle>& to_;
-  Handle* made_ = nullptr;
-};
-
-bool has_report(std::string_view job) { return job != "fit" && job != "convert" && job != "space"; }
-
-constexpr std::array<std::string_view, 8> kJobs{"fit",     "space",   "analyse", "region",
-                                                "compare", "suggest", "verify",  "convert"};
-
-using ReportJob = int (*)(const obvid_input*, const char*, const obvid_run*, char**, obvid_error**);
-
-ReportJob report_job(std::string_view job) {
-  if (job == "analyse") return &obvid_analyse;
-  if (job == "region") return &obvid_region;
-  if (job == "compare") return &obvid_compare;
-  return &obvid_suggest;
-}
 
 /// What the callback of a run asks: whether to stop, and whether the time of the item is over.
 struct Asked {
@@ -76,111 +34,6 @@ struct Asked {
   }
 };
 
-/// One item at work.
-struct Work {
-  const JobSpec& spec;
-  const obvid_run& run;
-  Owned<obvid_input> input{};
-  Owned<obvid_contour> contour{};
-  Owned<obvid_space> space{};
-  Owned<char> report{};
-  Owned<obvid_error> error{};
-};
-
-bool z_changes(const Item& item) {
-  for (std::size_t i = 5; i < item.numbers.size(); i += 3) {
-    if (item.numbers[i] != item.numbers[2]) return true;
-  }
-  return false;
-}
-
-/// Points of the plane of an item; of three coordinates the first two.
-std::vector<double> plane_points(const Item& item) {
-  if (item.dimension == 2) return item.numbers;
-  std::vector<double> out;
-  for (std::size_t i = 0; i + 2 < item.numbers.size(); i += 3) {
-    out.push_back(item.numbers[i]);
-    out.push_back(item.numbers[i + 1]);
-  }
-  return out;
-}
-
-std::vector<double> space_points(const Item& item) {
-  if (item.dimension == 3) return item.numbers;
-  std::vector<double> out;
-  for (std::size_t i = 0; i + 1 < item.numbers.size(); i += 2) {
-    out.insert(out.end(), {item.numbers[i], item.numbers[i + 1], 0.0});
-  }
-  return out;
-}
-
-/// A failure that the library does not know of, as a row has it.
-struct Trouble {
-  int code = 0;
-  std::string what;
-};
-
-Trouble read_points_of(const Item& item, Work& work) {
-  if (work.spec.job == "space") {
-    const std::vector<double> xyz = space_points(item);
-    obvid_space_points(xyz.data(), xyz.size() / 3, Out(work.input), Out(work.error));
-    return {};
-  }
-  if (item.dimension == 3 && z_changes(item)) {
-    return {static_cast<int>(ErrorCode::kBadOption),
-            "z changes: the job `space` forms curves in space"};
-  }
-  const std::vector<double> xy = plane_points(item);
-  obvid_points(xy.data(), xy.size() / 2, Out(work.input), Out(work.error));
-  return {};
-}
-
-Trouble read_item(const Item& item, Work& work) {
-  const Trouble too_large{static_cast<int>(ErrorCode::kUnsupported),
-                          "larger than an item of a batch may be (64 MB)"};
-  switch (item.kind) {
-    case Item::Kind::kPoints:
-      return read_points_of(item, work);
-    case Item::Kind::kText:
-      if (item.text.size() > kMostItemBytes) return too_large;
-      obvid_read_text(item.text.data(), item.text.size(), item.name.c_str(), Out(work.input),
-                      Out(work.error));
-      return {};
-    case Item::Kind::kFile:
-      break;
-  }
-  struct stat found {};
-  if (::stat(item.name.c_str(), &found) == 0) {
-    if (!S_ISREG(found.st_mode)) {  // a pipe would be waited for
-      return {static_cast<int>(ErrorCode::kCannotOpen), "this is no plain file"};
-    }
-    if (static_cast<std::size_t>(found.st_size) > kMostItemBytes) return too_large;
-  }
-  obvid_read_file(item.name.c_str(), Out(work.input), Out(work.error));
-  return {};
-}
-
-void do_job(Work& work) {
-  const std::string& job = work.spec.job;
-  const char* const options = work.spec.options.c_str();
-  const bool reported = !work.spec.reports.empty() || has_report(job);
-  Out<char> report(work.report);
-  char** const to_report = reported ? static_cast<char**>(report) : nullptr;
-  if (job == "fit") {
-    obvid_fit(work.input.get(), options, &work.run, Out(work.contour), to_report, Out(work.error));
-  } else if (job == "space") {
-    obvid_fit_space(work.input.get(), options, &work.run, Out(work.space), to_report,
-                    Out(work.error));
-  } else if (job == "verify" || job == "convert") {
-    obvid_stored(work.input.get(), options, &work.run, Out(work.contour), Out(work.error));
-    if (work.contour && job == "verify") {
-      obvid_verify(work.contour.get(), &work.run, to_report, Out(work.error));
-    }
-  } else {
-    report_job(job)(work.input.get(), options, &work.run, to_report, Out(work.error));
-  }
-}
-
 /// Writes a text into a folder that is made when it is missing.
 Result<void> write_made(const std::string& path, std::string_view text) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -189,32 +42,10 @@ Result<void> write_made(const std::string& path, std::string_view text) {
   return write_file(path, text);
 }
 
-/// "name.step" with "-2" between name and ending.
-std::string with_suffix(const std::string& path, const std::string& suffix) {
-  const std::filesystem::path name(path);
-  return (name.parent_path() / (name.stem().string() + suffix + name.extension().string()))
-      .string();
-}
-
 Result<void> write_each(Work& work, const std::string& id, std::size_t number) {
   for (const std::string& pattern : work.spec.each) {
-    const std::string path = name_of_file(pattern, id, number);
-    const std::string ending = std::filesystem::path(path).extension().string();
-    const std::string format = ending.empty() ? "" : ending.substr(1);
-    Owned<obvid_files> files;
-    if (work.contour) {
-      obvid_export(work.contour.get(), format.c_str(), work.spec.formats.c_str(), Out(files),
-                   Out(work.error));
-    } else if (work.space) {
-      obvid_space_export(work.space.get(), format.c_str(), work.spec.formats.c_str(), Out(files),
-                         Out(work.error));
-    }
-    for (std::size_t k = 0; files && k < obvid_files_count(files.get()); ++k) {
-      std::size_t size = 0;
-      const char* const data = obvid_files_data(files.get(), k, &size);
-      const char* const suffix = obvid_files_suffix(files.get(), k);
-      auto done = write_made(with_suffix(path, suffix == nullptr ? "" : suffix), {data, size});
-      if (!done) return done;
+    for (const auto& [path, data] : files_at(work, name_of_file(pattern, id, number))) {
+      OBVID_TRY(write_made(path, data));
     }
   }
   if (!work.spec.reports.empty() && work.report) {
@@ -273,7 +104,7 @@ void add_row(const std::string& id, const Work& work, const Trouble& trouble, do
              Columns& rows) {
   const int code = trouble.code != 0 ? trouble.code : work.error ? work.error->code : 0;
   obvid_figures figures = figures_of_work(work);
-  std::vector<double> more = take_report(work.spec.job, work.report.get(), figures);
+  std::vector<double> more = take_report(work.kind, work.report.get(), figures);
   const bool formed = work.contour || work.space || work.report;
   Status status = code == 0 ? Status::kDone : Status::kFailed;
   if (code != 0 && formed && code / 100 == OBVID_NOT_PROVED) status = Status::kNotKept;
@@ -292,7 +123,7 @@ void add_row(const std::string& id, const Work& work, const Trouble& trouble, do
   row.number(seconds);
 }
 
-Columns columns_of_job(const std::string& job) {
+Columns columns_of_job(const JobKind& kind) {
   using enum Column::Type;
   Columns out;
   out.all = {
@@ -311,23 +142,127 @@ Columns columns_of_job(const std::string& job) {
       {"move", kNumber, "largest distance of a point from the contour, upper bound, units"},
       {"width", kNumber, "largest width of the region, units"},
   };
-  for (Column& column : report_columns(job)) out.all.push_back(std::move(column));
+  for (Column& column : report_columns(kind)) out.all.push_back(std::move(column));
   out.all.push_back({"seconds", kNumber, "on the clock of the machine that did it"});
   return out;
 }
 
 /// Points that no option is foreign to: an arc of a spiral with many of them.
-Item trial_item() {
+Item trial_points(int count) {
   Item item;
   item.id = item.name = "trial";
-  constexpr int kPoints = 400;
-  for (int i = 0; i < kPoints; ++i) {
-    const double turn = 3.0 * i / kPoints;
+  for (int i = 0; i < count; ++i) {
+    const double turn = 3.0 * i / count;
     const double radius = 100.0 * std::exp(0.2 * turn);
     item.numbers.push_back(radius * std::cos(turn));
     item.numbers.push_back(radius * std::sin(turn));
   }
   return item;
+}
+
+Item trial_text(std::string name, std::string text) {
+  Item item;
+  item.id = "trial";
+  item.name = std::move(name);
+  item.kind = Item::Kind::kText;
+  item.text = std::move(text);
+  return item;
+}
+
+Item trial_circle(double diameter) {
+  return trial_text(
+      "trial.svg",
+      fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}mm" height="{0}mm" )"
+                  R"(viewBox="0 0 2 2"><circle cx="1" cy="1" r="1"/></svg>)",
+                  diameter));
+}
+
+/// Points that say their unit, which some formats have to know.
+Item trial_metres(int count) {
+  const Item points = trial_points(count);
+  std::string text = "x_m,y_m\n";
+  for (std::size_t i = 0; i < points.numbers.size(); i += 2) {
+    text += fmt::format("{},{}\n", points.numbers[i], points.numbers[i + 1]);
+  }
+  return trial_text("trial.csv", std::move(text));
+}
+
+Item trial_line(int count) {
+  Item item;
+  item.id = item.name = "trial";
+  for (int i = 0; i < count; ++i) item.numbers.insert(item.numbers.end(), {1.0 * i, 1.0 * i});
+  return item;
+}
+
+/// Input of each kind, of which one bears any option that some item could bear.
+std::vector<Item> trial_items(const JobKind& kind) {
+  constexpr int kPoints = 400, kFewPoints = 12;
+  if (kind.name == "spline") return {trial_line(kFewPoints)};
+  if (kind.name == "nurbs") return {trial_text("trial.csv", "")};  // points may be named by number
+  if (kind.name == "cut") return {trial_circle(20.0), trial_circle(20000.0)};
+  if (kind.name == "alignment") return {trial_line(kFewPoints), trial_metres(kFewPoints)};
+  if (kind.name == "fit") return {trial_points(kPoints), trial_metres(kPoints)};
+  return {trial_points(kPoints)};
+}
+
+/// Which curve of a drawing it is: of the trial there is one.
+std::string without_curve(const std::string& options) {
+  auto all = nlohmann::json::parse(options, nullptr, false);
+  if (all.is_object()) all.erase("curve");
+  return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Errors: E201, E202, E203 of names and of what is asked for.
+Result<const JobKind*> checked_kind(const JobSpec& spec) {
+  const JobKind* const kind = kind_named(spec.job, !spec.against.empty());
+  if (kind == nullptr && kind_named(spec.job, false) == nullptr) {
+    return fail({ErrorCode::kUsage, "there is no job '" + spec.job + "'", "--job",
+                 "jobs are " + known_jobs()});
+  }
+  if (kind == nullptr) {
+    return fail({ErrorCode::kBadOption, "the job " + spec.job + " holds items against nothing",
+                 "--against", "compare and spline do"});
+  }
+  const bool draws = kind->draws != Draws::kNothing;
+  if (!spec.each.empty() && !draws) {
+    return fail({ErrorCode::kBadOption, "the job " + spec.job + " makes no curves", "--each",
+                 spec.job == "compare" ? "with --against FILE it draws; --reports keeps its reports"
+                                       : "--reports keeps its reports"});
+  }
+  for (const std::string& pattern : spec.each) {
+    if (has_text_for(*kind, pattern)) continue;
+    return fail(
+        {ErrorCode::kUnknownFormat, "the job " + spec.job + " makes no such file", pattern,
+         spec.job == "cut" ? "possible are .nc, .svg and .dxf" : "possible are .svg, .csv"});
+  }
+  if (kind->needs_each && spec.each.empty()) {
+    return fail({ErrorCode::kUsage, "convert needs files to write", "--each",
+                 "write --each 'curves/{id}.step'"});
+  }
+  if (!spec.reports.empty() && kind->needs_each) {
+    return fail({ErrorCode::kBadOption, "convert makes no report", "--reports", ""});
+  }
+  for (const std::string* pattern : {&spec.reports, spec.each.empty() ? nullptr : &spec.each[0]}) {
+    if (pattern == nullptr || pattern->empty()) continue;
+    if (!has_place(*pattern, kPlaceOfId) && !has_place(*pattern, kPlaceOfNumber)) {
+      return fail({ErrorCode::kBadOption, "all items would be the same file", *pattern,
+                   "put {id} or {number} into the name"});
+    }
+  }
+  return kind;
+}
+
+Error error_of(const obvid_error& error) {
+  return {static_cast<ErrorCode>(error.code), error.message, error.where, error.advice};
+}
+
+Result<std::shared_ptr<const obvid_input>> read_against(const std::string& path) {
+  if (path.empty()) return std::shared_ptr<const obvid_input>();
+  Owned<obvid_input> read;
+  Owned<obvid_error> error;
+  obvid_read_file(path.c_str(), Out(read), Out(error));
+  if (error) return fail(error_of(*error));
+  return std::shared_ptr<const obvid_input>(std::move(read));
 }
 
 }  // namespace
@@ -347,53 +282,38 @@ std::string name_of_file(const std::string& pattern, const std::string& id, std:
   return filled(pattern, {{kPlaceOfId, safe}, {kPlaceOfNumber, std::to_string(number)}});
 }
 
-Job::Job(JobSpec spec) : spec_(std::move(spec)), columns_(columns_of_job(spec_.job)) {}
+Job::Job(JobSpec spec, const JobKind& kind)
+    : spec_(std::move(spec)), kind_(&kind), columns_(columns_of_job(kind)) {}
+
+Result<void> Job::try_options() const {
+  if (spec_.job == "verify" || spec_.job == "convert") return {};
+  JobSpec trial = spec_;
+  trial.reports.clear();
+  if (spec_.job == "cut") trial.options = without_curve(trial.options);
+  Owned<obvid_error> found;
+  for (const Item& item : trial_items(*kind_)) {
+    const obvid_run run{};
+    Work work{trial, *kind_, run, against_.get()};
+    (void)read_item(item, work);
+    do_job(work);
+    for (const std::string& pattern : trial.each) {
+      if (kind_->draws == Draws::kByEnding) break;  // other tables make other files
+      if (!work.error) (void)files_at(work, pattern);
+    }
+    if (!work.error || work.error->category != OBVID_USAGE) return {};
+    found = std::move(work.error);
+  }
+  return fail(error_of(*found));
+}
 
 Result<Job> Job::make(JobSpec spec) {
-  if (std::find(kJobs.begin(), kJobs.end(), spec.job) == kJobs.end()) {
-    return fail({ErrorCode::kUsage, "there is no job '" + spec.job + "'", "--job",
-                 "jobs are fit, space, analyse, region, compare, suggest, verify, convert"});
-  }
-  const bool draws = spec.job == "fit" || spec.job == "space" || spec.job == "convert";
-  if (!spec.each.empty() && !draws) {
-    return fail({ErrorCode::kBadOption, "the job " + spec.job + " makes no curves", "--each",
-                 "--reports keeps its reports"});
-  }
-  if (spec.job == "convert" && spec.each.empty()) {
-    return fail({ErrorCode::kUsage, "convert needs files to write", "--each",
-                 "write --each 'curves/{id}.step'"});
-  }
-  if (!spec.reports.empty() && spec.job == "convert") {
-    return fail({ErrorCode::kBadOption, "convert makes no report", "--reports", ""});
-  }
-  for (const std::string* pattern : {&spec.reports, spec.each.empty() ? nullptr : &spec.each[0]}) {
-    if (pattern == nullptr || pattern->empty()) continue;
-    if (!has_place(*pattern, kPlaceOfId) && !has_place(*pattern, kPlaceOfNumber)) {
-      return fail({ErrorCode::kBadOption, "all items would be the same file", *pattern,
-                   "put {id} or {number} into the name"});
-    }
-  }
-  Job job(std::move(spec));
-  if (job.spec_.job == "verify" || job.spec_.job == "convert") return job;
-  JobSpec trial = job.spec_;
-  trial.reports.clear();
-  const obvid_run run{};
-  Work work{trial, run};
-  read_item(trial_item(), work);
-  do_job(work);
-  for (const std::string& pattern : trial.each) {
-    if (!work.contour) break;
-    Owned<obvid_files> files;
-    const std::string ending = std::filesystem::path(pattern).extension().string();
-    const std::string format = ending.empty() ? "" : ending.substr(1);
-    obvid_export(work.contour.get(), format.c_str(), trial.formats.c_str(), Out(files),
-                 Out(work.error));
-    if (work.error) break;
-  }
-  if (work.error && work.error->category == OBVID_USAGE) {
-    return fail({static_cast<ErrorCode>(work.error->code), work.error->message, work.error->where,
-                 work.error->advice});
-  }
+  const auto kind = checked_kind(spec);
+  OBVID_TRY(kind);
+  Job job(std::move(spec), **kind);
+  auto against = read_against(job.spec_.against);
+  OBVID_TRY(against);
+  job.against_ = std::move(*against);
+  OBVID_TRY(job.try_options());
   return job;
 }
 
@@ -406,7 +326,7 @@ Result<bool> Job::run(const Item& item, std::size_t number, Columns& rows,
                               std::chrono::duration<double>(spec_.most_seconds));
   }
   const obvid_run run{&asked, nullptr, &Asked::ask};
-  Work work{spec_, run};
+  Work work{spec_, *kind_, run, against_.get()};
   const Trouble trouble = read_item(item, work);
   if (work.input && trouble.code == 0) do_job(work);
   if (stopped()) return false;

@@ -3,22 +3,26 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "columns.h"
 #include "item.h"
+#include "job_kinds.h"
 #include "obvid/core/result.h"
+#include "obvid/obvid.h"
 
 namespace obvid::batch {
 
 /// What is done with every item.
 struct JobSpec {
-  std::string job = "fit";     ///< fit, space, analyse, region, compare, suggest, verify, convert
-  std::string options = "{}";  ///< JSON, names of the command line
-  std::string formats = "{}";  ///< those of the files
+  std::string job = "fit";        ///< of the table in job_kinds.h
+  std::string options = "{}";     ///< JSON, names of the command line
+  std::string formats = "{}";     ///< those of the files
   std::vector<std::string> each;  ///< names of a contour's files: "curves/{id}.step"
   std::string reports;            ///< of reports: "reports/{id}.json"; empty: none
+  std::string against;            ///< file that items are held against; empty: none
   double most_seconds = 0.0;      ///< of an item, E103 beyond; 0: as long as it takes
 };
 
@@ -28,7 +32,8 @@ enum class Status { kDone = 0, kNotKept = 1, kFailed = 2 };
 /// One job over the C interface, by many threads at once.
 class Job {
  public:
-  /// Tries the options on points of its own. Errors: E201, E202, E203 what no item could bear.
+  /// Tries the options on input of its own. Errors: E201, E202, E203 what no item could bear;
+  /// those of reading the file `against`.
   static Result<Job> make(JobSpec spec);
 
   [[nodiscard]] const JobSpec& spec() const { return spec_; }
@@ -40,8 +45,12 @@ class Job {
                                  const std::function<bool()>& stopped) const;
 
  private:
-  explicit Job(JobSpec spec);
+  Job(JobSpec spec, const JobKind& kind);
+  /// E201, E202, E203 of options on input that has nothing against them.
+  [[nodiscard]] Result<void> try_options() const;
   JobSpec spec_;
+  const JobKind* kind_;
+  std::shared_ptr<const obvid_input> against_;
   Columns columns_;
 };
 

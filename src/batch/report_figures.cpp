@@ -106,16 +106,90 @@ void of_region(const ReportJson& report, obvid_figures& figures) {
   figures.width = largest_at(report, "segments", "width");
 }
 
+int proved_at(const ReportJson& row) {
+  return row.contains("proved") ? (row.value("proved", false) ? 1 : 0) : -1;
+}
+
+std::vector<double> of_alignment(const ReportJson& report, obvid_figures& figures) {
+  figures.points = size_at(report, "deviations");
+  figures.pieces = size_at(report, "elements");
+  std::array<double, 3> kinds{};
+  for (const ReportJson& element : report.value("elements", ReportJson::array())) {
+    const std::string kind = element.value("kind", "");
+    ++kinds[kind == "line" ? 0 : kind == "arc" ? 1 : 2];
+  }
+  for (const ReportJson& one : report.value("deviations", ReportJson::array())) {
+    figures.move = std::fmax(figures.move, std::abs(number_at(one, "offset", kUnknown)));
+  }
+  return {kinds[0], kinds[1], kinds[2], number_at(report, "length", kUnknown),
+          number_at(report, "rms", kUnknown)};
+}
+
+std::vector<double> of_cut(const ReportJson& report) {
+  const ReportJson made = report.value("report", ReportJson::object());
+  std::vector<double> out{static_cast<double>(size_at(report, "outlines"))};
+  for (const char* name : {"blocks", "arc_blocks"}) out.push_back(count_at(made, name));
+  for (const char* name :
+       {"cut_length", "rapid_length", "minutes", "beyond", "short_of", "left_in_corners"}) {
+    out.push_back(number_at(made, name, kUnknown));
+  }
+  return out;
+}
+
+/// Of the one curve that is laid over the other: as both lie, and with both chords on one line.
+std::vector<double> of_compared_curves(const ReportJson& report, obvid_figures& figures) {
+  const ReportJson curves = report.value("curves", ReportJson::array());
+  if (curves.size() > 1) {
+    const ReportJson& one = curves[1];
+    figures.points = count_at(one, "points");
+    figures.vertices = count_at(one, "vertices");
+    figures.proved = proved_at(one);
+  }
+  std::vector<double> out;
+  for (const char* laid : {"as_they_lie", "on_one_chord"}) {
+    const ReportJson rows = report.value(laid, ReportJson::array());
+    const ReportJson row = rows.empty() ? ReportJson::object() : rows[0];
+    const ReportJson largest = row.value("largest", ReportJson::object());
+    for (const char* name : {"deviation", "x", "y"}) {
+      out.push_back(number_at(largest, name, kUnknown));
+    }
+    out.push_back(number_at(row, "root_mean_square", kUnknown));
+  }
+  return out;
+}
+
+std::vector<double> of_spline(const ReportJson& report, obvid_figures& figures) {
+  const ReportJson rows = report.value("rows", ReportJson::array());
+  const ReportJson row = rows.empty() ? ReportJson::object() : rows[0];
+  figures.points = size_at(report, report.contains("nodes") ? "nodes" : "values");
+  figures.move = number_at(row, "largest_move", kUnknown);
+  return {number_at(row, "integral", kUnknown), number_at(row, "largest_error", kUnknown),
+          number_at(row, "rms_error", kUnknown), static_cast<double>(count_at(row, "blocks"))};
+}
+
+std::vector<double> of_nurbs(const ReportJson& report, obvid_figures& figures) {
+  figures.points = size_at(report, "points");
+  return {static_cast<double>(count_at(report, "degree")),
+          static_cast<double>(count_at(report, "degree_v"))};
+}
+
 }  // namespace
 
 obvid_figures unknown_figures() {
   return {-1, -1, -1, -1, -1, -1, -1, kUnknown, kUnknown, kUnknown};
 }
 
-std::vector<Column> report_columns(const std::string& job) {
+std::vector<Column> report_columns(const JobKind& kind) {
   using enum Column::Type;
   std::vector<Column> out;
-  if (job == "compare") {
+  if (kind.name == "compare" && kind.against) {
+    for (const std::string laid : {"", "chord_"}) {
+      out.push_back({laid + "deviation", kNumber, "largest from the curve of --against, units"});
+      out.push_back({laid + "x", kNumber, "where that is"});
+      out.push_back({laid + "y", kNumber, ""});
+      out.push_back({laid + "rms", kNumber, "root mean square of the deviations, units"});
+    }
+  } else if (kind.name == "compare") {
     for (const std::string_view carrier : kCarriers) {
       const std::string name(carrier);
       out.push_back({name + "_code", kNumber, "number of the error of this carrier, 0 none"});
@@ -124,27 +198,56 @@ std::vector<Column> report_columns(const std::string& job) {
       out.push_back({name + "_error", kNumber, "as error, of this carrier, units"});
       out.push_back({name + "_deviation", kNumber, "largest distance from the spirals, units"});
     }
-  } else if (job == "suggest") {
+  } else if (kind.name == "suggest") {
     for (std::size_t i = 1; i <= kTolerances; ++i) {
       out.push_back({"tolerance_" + std::to_string(i), kNumber, "units"});
       out.push_back({"vertices_" + std::to_string(i), kCount, "with this tolerance; -1 none"});
     }
+  } else if (kind.name == "alignment") {
+    out = {{"lines", kCount, "elements that are lines"},
+           {"arcs", kCount, ""},
+           {"transitions", kCount, "clothoids and other transitions"},
+           {"length", kNumber, "units"},
+           {"rms", kNumber, "root mean square of the offsets of points, units"}};
+  } else if (kind.name == "cut") {
+    out = {{"outlines", kCount, "that are cut"},
+           {"blocks", kCount, "at feed"},
+           {"arc_blocks", kCount, "of them arcs"},
+           {"cut_length", kNumber, "at feed, units"},
+           {"rapid_length", kNumber, "units"},
+           {"minutes", kNumber, "with acceleration"},
+           {"beyond", kNumber, "of an outline, read back, units"},
+           {"short_of", kNumber, "of an outline, read back, units"},
+           {"left_in_corners", kNumber, "by a round tool, units"}};
+  } else if (kind.name == "spline") {
+    out = {{"integral", kNumber, "over all"},
+           {"largest_error", kNumber, "against the file of --against"},
+           {"rms_error", kNumber, ""},
+           {"moves", kCount, "straight ones within the tolerance"}};
+  } else if (kind.name == "nurbs") {
+    out = {{"degree", kCount, ""}, {"degree_v", kCount, "of a surface; -1: a curve"}};
   }
   return out;
 }
 
-std::vector<double> take_report(const std::string& job, const char* text, obvid_figures& figures) {
+std::vector<double> take_report(const JobKind& kind, const char* text, obvid_figures& figures) {
   std::vector<double> nothing;
-  for (const Column& column : report_columns(job)) {
+  for (const Column& column : report_columns(kind)) {
     nothing.push_back(column.type == Column::Type::kNumber ? kUnknown : kUnknownCount);
   }
-  if (text == nullptr || job == "fit" || job == "space" || job == "verify") return nothing;
+  if (text == nullptr || !kind.reports || kind.name == "verify") return nothing;
   const ReportJson report = ReportJson::parse(text, nullptr, false);
   if (!report.is_object()) return nothing;
-  if (job == "compare") return of_compare(report, figures);
-  if (job == "suggest") return of_suggest(report, std::move(nothing), figures);
-  if (job == "analyse") of_analyse(report, figures);
-  if (job == "region") of_region(report, figures);
+  if (kind.name == "compare") {
+    return kind.against ? of_compared_curves(report, figures) : of_compare(report, figures);
+  }
+  if (kind.name == "suggest") return of_suggest(report, std::move(nothing), figures);
+  if (kind.name == "alignment") return of_alignment(report, figures);
+  if (kind.name == "cut") return of_cut(report);
+  if (kind.name == "spline") return of_spline(report, figures);
+  if (kind.name == "nurbs") return of_nurbs(report, figures);
+  if (kind.name == "analyse") of_analyse(report, figures);
+  if (kind.name == "region") of_region(report, figures);
   return nothing;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "columns.h"
+#include "job_kinds.h"
 #include "obvid/obvid.h"
 
 namespace obvid::batch {
@@ -12,11 +13,11 @@ namespace obvid::batch {
 [[nodiscard]] obvid_figures unknown_figures();
 
 /// Columns that only this job has, between those of all and `seconds`.
-[[nodiscard]] std::vector<Column> report_columns(const std::string& job);
+[[nodiscard]] std::vector<Column> report_columns(const JobKind& kind);
 
 /// Fills in what a report says and returns the values of the columns above; unknown where `report`
 /// is NULL.
-[[nodiscard]] std::vector<double> take_report(const std::string& job, const char* report,
+[[nodiscard]] std::vector<double> take_report(const JobKind& kind, const char* report,
                                               obvid_figures& figures);
 
 }  // namespace obvid::batch

@@ -303,6 +303,120 @@ class Batch(unittest.TestCase):
         self.rows(made / "0.json", "--job", "convert", "--each", made / "{number}.step")
         self.assertIn("ISO-10303-21", (made / "0.step").read_text())
 
+    def single(self, *words):
+        """Runs the command on one file, as a user does."""
+        done = subprocess.run([OBVID, *map(str, words)], capture_output=True, text=True, env=ENVIRONMENT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def same_files(self, job, source, options, endings):
+        """The files and the report of a batch are those of the command, byte for byte."""
+        made, alone = self.at / "made", self.at / "alone"
+        alone.mkdir(exist_ok=True)
+        each = [w for e in endings for w in ("--each", made / ("{number}" + e))]
+        row = self.rows(source, "--job", job, *options, *each, "--reports", made / "{number}.report")
+        self.assertEqual(row["code"][0], 0, row["message"][0])
+        outputs = [w for e in endings for w in ("-o", alone / ("0" + e))]
+        report = self.single(job, source, *options, *outputs, "--json")
+        for ending in endings:
+            self.assertEqual((made / ("0" + ending)).read_bytes(), (alone / ("0" + ending)).read_bytes(), ending)
+        self.assertEqual(json.loads((made / "0.report").read_text()), json.loads(report))
+        return {name: column[0] for name, column in row.items()}, json.loads(report)
+
+    def test_alignments_cuts_comparisons_and_splines_make_the_files_of_their_commands(self):
+        way = np.array([(x, 0.0) for x in np.linspace(0, 200, 21)]
+                       + [(200 + 300 * math.sin(t), 300 - 300 * math.cos(t)) for t in np.linspace(0.03, 1, 30)])
+        road = self.at / "road.csv"
+        write_csv(road, way, "x_m,y_m")
+        row, report = self.same_files("alignment", road, ["--noise", "0.001"],
+                                      [".json", ".xml", ".xodr", ".dxf", ".csv", ".svg"])
+        self.assertEqual((row["lines"], row["arcs"], row["transitions"]), (1, 1, 0))
+        self.assertAlmostEqual(row["length"], 500.0, places=2)
+        self.assertEqual(row["pieces"], 2)
+        self.assertLessEqual(row["move"], 0.001)
+        self.rows(road, "--job", "alignment", "--noise", "0.001", "--each",
+                  self.at / "made/{number}.deviations.csv")
+        self.single("alignment", road, "--noise", "0.001", "--deviations", self.at / "alone.csv")
+        self.assertEqual((self.at / "made/0.deviations.csv").read_bytes(), (self.at / "alone.csv").read_bytes())
+
+        sheet = self.at / "sheet.svg"
+        sheet.write_text('<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100">'
+                         '<circle cx="50" cy="50" r="40"/><circle cx="50" cy="50" r="10"/></svg>')
+        row, report = self.same_files("cut", sheet, ["--depth", "2", "--diameter", "4", "--feed", "600"],
+                                      [".nc", ".svg", ".dxf"])
+        self.assertEqual(row["outlines"], 2)
+        self.assertEqual(row["blocks"], report["report"]["blocks"])
+        self.assertEqual(row["minutes"], report["report"]["minutes"])
+
+        first, second = self.at / "first.csv", self.at / "second.csv"
+        arc = spiral(40)
+        write_csv(first, arc)
+        write_csv(second, arc + [0.0, 0.25])
+        row, report = self.compared(first, second)
+        largest = report["as_they_lie"][0]["largest"]
+        self.assertEqual((row["deviation"], row["x"], row["y"]),
+                         (largest["deviation"], largest["x"], largest["y"]))
+        self.assertGreater(abs(row["deviation"]), 0.2)
+        self.assertLessEqual(abs(row["deviation"]), 0.25 + 1e-9)
+
+        table_file = self.at / "table.csv"
+        write_csv(table_file, [(x, x**2) for x in range(6)], "x,f")
+        row, report = self.same_files("spline", table_file, ["--samples", "11"], [".csv", ".json", ".svg", ".dxf"])
+        self.assertAlmostEqual(row["integral"], 5**3 / 3, places=9)
+        grid = self.at / "grid.csv"
+        write_csv(grid, [(x, y, x + y * y) for y in range(4) for x in range(3)], "x,y,f")
+        row, report = self.same_files("spline", grid, [], [".csv", ".json", ".stl"])
+        self.assertEqual(row["points"], 12)
+        self.assertAlmostEqual(row["integral"], 2 * 3 + 2 * 9, places=9)
+
+        control = self.at / "control.csv"
+        write_csv(control, [(0, 0), (1, 2), (3, 2), (4, 0), (6, 1)])
+        row, report = self.same_files("nurbs", control, ["--degree", "2", "--weight-at", "3=2", "--move", "2=0.5"],
+                                      [".csv", ".json", ".dxf"])
+        self.assertEqual((row["points"], row["degree"], row["degree_v"]), (5, 2, -1))
+        net = self.at / "net.csv"
+        write_csv(net, [(i, k, i, k, i * k) for i in range(3) for k in range(3)], "row,col,x,y,z")
+        row, report = self.same_files("nurbs", net, ["--degree", "2", "--degree-v", "1"], [".json", ".stl"])
+        self.assertEqual((row["points"], row["degree"], row["degree_v"]), (9, 2, 1))
+
+    def compared(self, first, second):
+        made = self.at / "made"
+        row = self.rows(second, "--job", "compare", "--against", first, "--each", made / "{number}.svg",
+                        "--each", made / "{number}.csv", "--reports", made / "{number}.json")
+        report = self.single("compare", first, second, "-o", self.at / "c.svg", "-o", self.at / "c.csv", "--json")
+        for ending in (".svg", ".csv"):
+            self.assertEqual((made / ("0" + ending)).read_bytes(), (self.at / ("c" + ending)).read_bytes())
+        self.assertEqual(json.loads((made / "0.json").read_text()), json.loads(report))
+        return {name: column[0] for name, column in row.items()}, json.loads(report)
+
+    def test_points_of_arrays_become_the_tables_of_splines_and_heights_of_alignments(self):
+        ragged(self.at / "f.h5", [np.column_stack([np.arange(6.0), np.arange(6.0) ** 2])])
+        self.assertAlmostEqual(self.rows(self.at / "f.h5", "--job", "spline")["integral"][0], 125 / 3, places=9)
+        self.assertEqual(self.rows(self.at / "f.h5", "--job", "nurbs")["points"][0], 6)
+        way = np.column_stack([np.arange(0, 200, 10.0), np.zeros(20), np.arange(20.0)])
+        ragged(self.at / "w.h5", [way])
+        made = self.at / "made/{number}.profile.csv"
+        row = self.rows(self.at / "w.h5", "--job", "alignment", "--noise", "0.01", "--each", made)
+        self.assertEqual((row["code"][0], row["lines"][0]), (0, 1))
+        self.assertIn("grade", (self.at / "made/0.profile.csv").read_text())
+
+    def test_items_are_held_against_a_file_that_counts_as_a_source(self):
+        first = self.at / "first.csv"
+        write_csv(first, spiral(40))
+        write_csv(self.at / "second.csv", spiral(30))
+        words = (self.at / "second.csv", "-o", self.out, "--job", "compare")
+        self.assertIn("E301", batch(*words, "--against", self.at / "none.csv", code=3))
+        self.assertIn("--against", batch(*words, "--each", self.at / "{id}.svg", code=2))
+        self.assertIn("E202", batch(*words, "--against", first, "--each", self.at / "{id}.step", code=2))
+        self.assertIn("E203", batch(self.at, "-o", self.out, "--against", first, code=2))
+        self.assertIn("E203", batch(self.at, "-o", self.out, "--job", "cut", code=2))  # no depth
+        self.assertIn("E201", batch(self.at, "-o", self.out, "--job", "cut", "--carrier", "arcs", code=2))
+        self.assertIn("E203", batch(self.at, "-o", self.out, "--job", "spline", "--degree", "3", code=2))
+        batch(*words, "--against", first)
+        self.assertIn("nothing is left", batch(*words, "--against", first))
+        write_csv(first, spiral(40) + 1.0)
+        self.assertNotIn("nothing is left", batch(*words, "--against", first))
+
     def test_names_of_members_never_leave_the_folder_of_files(self):
         with zipfile.ZipFile(self.at / "evil.zip", "w") as archive:
             write_csv(self.at / "p.csv", spiral(8))

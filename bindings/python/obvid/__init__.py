@@ -30,6 +30,7 @@ from .jobs import (
     fit,
     fit_many,
     fit_space,
+    many,
     read,
     read_contour,
     read_space,
@@ -73,7 +74,7 @@ __all__ = [
     "SpaceSamples", "SpaceVerification", "Spline", "Suggestion", "Surface", "SurfaceBranch", "SurfaceCut",
     "SurfaceSamples", "SurfaceSection", "Table", "Toolpath",
     "UsageError", "Verification",
-    "__version__", "alignment", "analyse", "compare", "compare_curves", "cut", "fit", "fit_many", "fit_space", "nurbs", "read", "read_contour",
+    "__version__", "alignment", "analyse", "compare", "compare_curves", "cut", "fit", "fit_many", "fit_space", "many", "nurbs", "read", "read_contour",
     "read_space", "read_surface", "read_text", "region", "skin", "spline", "suggest", "surface", "toolpath",
     "verify", "why_not", "worksheet",
 ]  # fmt: skip

@@ -8,7 +8,7 @@ import json
 import math
 import os
 import pathlib
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -559,39 +559,54 @@ def why_not(points: Points, **options: Any) -> Optional[NoContourError]:
     return None
 
 
-def fit_many(
-    series: Iterable[Points],
+Result = TypeVar("Result")
+
+
+def many(
+    job: Callable[..., Result],
+    inputs: Iterable[Any],
     *,
     workers: Optional[int] = None,
     errors: str = "raise",
     options: Optional[Sequence[Mapping[str, Any]]] = None,
     **common: Any,
-) -> List[Union[Contour, ObvidError, ValueError]]:
-    """Contours of many series on several threads, in the order of the series.
+) -> List[Union[Result, ObvidError, ValueError]]:
+    """What a function of this package makes of many inputs on several threads, in their order:
+    `fit`, `alignment`, `cut`, `spline`, `nurbs`, `analyse`, `region`, ...
 
     workers: threads, default one for each processor. errors: "raise" raises the first one in order,
-    "return" puts exceptions in the places of their series. options: one mapping for each series, on
-    top of the common options of `fit`.
+    "return" puts exceptions in the places of their inputs. options: one mapping for each input, on
+    top of the common options of the job.
+
+    >>> import obvid
+    >>> tables = [[(x, n * x * x) for x in range(5)] for n in (1, 2)]
+    >>> [round(made.report["rows"][0]["integral"], 6) for made in obvid.many(obvid.spline, tables)]
+    [21.333333, 42.666667]
     """
     if errors not in ("raise", "return"):
         raise ValueError('errors is "raise" or "return"')
-    all_series = list(series)
-    each = list(options) if options is not None else [{} for _ in all_series]
-    if len(each) != len(all_series):
-        raise ValueError(f"{len(each)} options for {len(all_series)} series")
+    all_inputs = list(inputs)
+    each = list(options) if options is not None else [{} for _ in all_inputs]
+    if len(each) != len(all_inputs):
+        raise ValueError(f"{len(each)} options for {len(all_inputs)} inputs")
 
-    def one(k: int) -> Union[Contour, ObvidError, ValueError]:
+    def one(k: int) -> Union[Result, ObvidError, ValueError]:
         try:
-            return fit(all_series[k], **{**common, **each[k]})
+            return job(all_inputs[k], **{**common, **each[k]})
         except CancelledError:
             raise
         except (ObvidError, ValueError) as error:
             return error
 
     with concurrent.futures.ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        made = list(pool.map(one, range(len(all_series))))
+        made = list(pool.map(one, range(len(all_inputs))))
     if errors == "raise":
         for result in made:
             if isinstance(result, Exception):
                 raise result
     return made
+
+
+def fit_many(series: Iterable[Points], **options: Any) -> List[Union[Contour, ObvidError, ValueError]]:
+    """Contours of many series: `many` of the job `fit`."""
+    return many(fit, series, **options)
