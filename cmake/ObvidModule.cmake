@@ -13,8 +13,8 @@ endfunction()
 
 # With sanitizers, targets that only call what takes time, or that few of the tests call which run then,
 # are not optimised: half the time of clang.
-set(OBVID_PLAIN_WHEN_SANITIZED obvid_pipeline obvid_cli obvid_alignment obvid_cutting obvid_mesh obvid_picture
-    obvid_surface_builders obvid_surface_cut obvid_toolpath)
+set(OBVID_PLAIN_WHEN_SANITIZED obvid_pipeline obvid_cli obvid_cutting obvid_picture obvid_surface_builders
+    obvid_surface_cut)
 function(obvid_for_sanitizers target)
   if(OBVID_SANITIZE AND target IN_LIST OBVID_PLAIN_WHEN_SANITIZED)
     target_compile_options(${target} PRIVATE -O0)

@@ -6,7 +6,8 @@ usage: run_cases.py PROGRAM EXAMPLES CASES.toml [PUBLIC [--slow] [--first]]
 
 PUBLIC  folder of public data sets that are not among the sources; where it is not there, cases
         that need one of them are skipped, and that is said
---slow  the program is built to find faults, not to be fast: `cpu_seconds` is not looked at
+--slow  the program is built to find faults, not to be fast: `cpu_seconds` is not looked at, and
+        cases that are `long` are left out
 --first the program is the launcher's first one: cases that it leaves to the whole one are counted,
         and that is all
 
@@ -28,6 +29,7 @@ Every case runs in a folder of its own that holds copies of the examples. Keys o
   stderr_count  table of texts to how often standard error holds them
   stdout_lacks  texts that standard output does not hold; stderr_lacks likewise
   cpu_seconds   most processor time of the run
+  long          true: takes a second and more, and reads nothing that others do not
   json          table of paths "a.b.0" to values in standard output read as JSON; "" asks nothing
   json_between  table of paths to [least, greatest] of numbers there
   program_box   [file, xmin, ymin, xmax, ymax]: no block of this G-code moves beyond
@@ -57,7 +59,7 @@ import xml.etree.ElementTree
 ERROR_LINE = re.compile(r"^obvid: error E([1-5]\d\d): \S.*$")
 KEYS = set("name args before edit stdin files data exit stdout stdout_has stdout_last stderr stderr_has "
            "stderr_count json svg contour contour_values untouched absent terminal env holds cad public "
-           "stdout_lacks stderr_lacks cpu_seconds json_between program_box".split())
+           "stdout_lacks stderr_lacks cpu_seconds json_between program_box long".split())
 SLOW = "--slow" in sys.argv
 FIRST = "--first" in sys.argv
 LEFT_TO_THE_WHOLE = "this program holds `fit` and `analyse` alone"
@@ -276,6 +278,9 @@ def main():
     for data in cases:
         unknown = set(data) - KEYS
         assert not unknown, f"unknown keys {unknown} in {data['name']!r}"
+        if data.get("long") and SLOW:
+            left += 1
+            continue
         if data.get("terminal") and not terminals:
             print("skipped: " + data["name"] + " (no pseudo-terminals here)")
             skipped += 1
@@ -300,7 +305,8 @@ def main():
             print("    " + fault)
         failed += bool(faults)
     note = f", {skipped} skipped" if skipped else ""
-    note += f", {left} left to the whole program" if left else ""
+    reason = "left to the whole program" if FIRST else "too long for such a build"
+    note += f", {left} {reason}" if left else ""
     print(f"{len(cases) - failed - skipped - left} of {len(cases)} cases passed{note}")
     assert skipped + left < len(cases), "no case was run"
     return 1 if failed else 0
