@@ -48,7 +48,7 @@ class Roughing {
         options_(options),
         stock_(stock_of(part, options)),
         frame_(pass_frame(part, options.angle_deg)),
-        spacing_(level_spacing()),
+        spacing_(level_spacing(part)),
         out_(out),
         list_(out) {}
 
@@ -77,13 +77,6 @@ class Roughing {
   }
 
  private:
-  /// On a level no part can hide between two places of the tip that are so near to each other.
-  [[nodiscard]] double level_spacing() const {
-    const CutterShape& cutter = part_.cutter();
-    const double round = std::max(cutter.corner, cutter.flat());
-    return std::sqrt(8.0 * round * kStepShare * part_.tolerance());
-  }
-
   [[nodiscard]] double height(double a, double b) const {
     const auto rest = part_.drop(frame_.at(a, b));
     return rest ? rest->tip.z : kNothing;
