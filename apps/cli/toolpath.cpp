@@ -129,9 +129,13 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
   }
   if (r.flat_left > 0.0) {
     facts.add("flatter",
-              fmt::format("{} too much on places flatter than levels are for, up to {} {} at {}",
-                          area_share(r.flat_area, r.surface_area), significant(r.flat_left, 3),
-                          unit, toolpath_place(r.flat_place)));
+              fmt::format("more than the scallop on {} of the surface, where levels are not meant "
+                          "for; {} at {}",
+                          area_share(r.flat_area, r.surface_area),
+                          std::isfinite(r.flat_left)
+                              ? fmt::format("up to {} {}", significant(r.flat_left, 3), unit)
+                              : std::string("no pass comes"),
+                          toolpath_place(r.flat_place)));
   }
   facts.add("gouges", fmt::format("{} {} the deepest found, {}; avoided by lifting at {} points",
                                   significant(r.gouge.found, 3), unit,

@@ -23,7 +23,7 @@ constexpr double kOnLine = 0.2;           // of a step's share: how near places 
 constexpr int kMostCloser = 40;           // steps towards the line
 constexpr int kMostHalvings = 8;          // of a chord in a side of the raster
 constexpr double kLeastStep = 0.002;      // of the level step: nearer levels help no more
-constexpr double kAround = 1.0;           // diameters around high places
+constexpr double kAround = 0.5;           // diameters: squares around high places
 
 }  // namespace
 
@@ -47,6 +47,17 @@ LevelPasses::LevelPasses(const Part& part, const ToolpathOptions& options, const
   origin_ = {low.x - out, low.y - out};
   nx_ = static_cast<std::size_t>(std::ceil(std::min((high.x - low.x + 2.0 * out) / spacing_, 1e9)));
   ny_ = static_cast<std::size_t>(std::ceil(std::min((high.y - low.y + 2.0 * out) / spacing_, 1e9)));
+}
+
+void LevelPasses::Squares::mark(Vec2 p) {
+  const long x = std::lround(p.x / side), y = std::lround(p.y / side);
+  for (long j = y - 1; j <= y + 1; ++j) {
+    for (long i = x - 1; i <= x + 1; ++i) all.emplace(i, j);
+  }
+}
+
+bool LevelPasses::Squares::hold(Vec2 p) const {
+  return all.empty() || all.contains({std::lround(p.x / side), std::lround(p.y / side)});
 }
 
 Vec2 LevelPasses::node(std::size_t i, std::size_t j) const {
@@ -128,7 +139,8 @@ LevelPasses::Crossing LevelPasses::crossing(std::uint64_t side, double z) const 
   return out;
 }
 
-Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const RunContext& run) const {
+Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const Squares& squares,
+                                                          const RunContext& run) const {
   std::vector<std::uint64_t> sides;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> ways;  // from side to side, in one field
   for (std::size_t j = 0; j + 1 < ny_; ++j) {
@@ -136,6 +148,7 @@ Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const RunCon
       const bool a = held(i, j, z), b = held(i + 1, j, z), c = held(i + 1, j + 1, z),
                  d = held(i, j + 1, z);
       if (a == b && b == c && c == d) continue;
+      if (!squares.hold(node(i, j))) continue;
       const std::uint64_t n = j * nx_ + i;
       const std::array<std::uint64_t, 4> all = {2 * n, 2 * (n + 1) + 1, 2 * (n + nx_), 2 * n + 1};
       const std::array<bool, 4> corner = {a, b, c, d};
@@ -252,15 +265,11 @@ LevelPasses::Station LevelPasses::station(Vec2 before, Vec2 at, Vec2 after, doub
 }
 
 void LevelPasses::append_pieces(const Line& line, const std::vector<Station>& stations,
-                                const std::vector<Vec2>* around, Pass& pass) const {
+                                Pass& pass) const {
   const std::size_t n = stations.size();
-  const double near = kAround * 2.0 * part_.cutter().radius;
   std::vector<bool> wanted(n);
   for (std::size_t i = 0; i < n; ++i) {
     wanted[i] = stations[i].kept && (!only_steep_ || stations[i].steep);
-    if (!wanted[i] || around == nullptr) continue;
-    wanted[i] = std::any_of(around->begin(), around->end(),
-                            [&](Vec2 p) { return norm(p - line.places[i]) <= near; });
   }
   // a step farther than steep places reach, so that no strip stays between them and flat ones
   std::vector<bool> taken = wanted;
@@ -277,7 +286,7 @@ void LevelPasses::append_pieces(const Line& line, const std::vector<Station>& st
       if (k > 0 && left > 0.0 && stations[i].kept) taken[i] = true;
     }
   };
-  if (only_steep_ || around != nullptr) {
+  if (only_steep_) {
     spread([](std::size_t k) { return k; });
     spread([n](std::size_t k) { return n - 1 - k; });
   }
@@ -298,9 +307,9 @@ void LevelPasses::append_pieces(const Line& line, const std::vector<Station>& st
   }
 }
 
-Result<Pass> LevelPasses::level(double z, const std::vector<Vec2>* around, double& down,
+Result<Pass> LevelPasses::level(double z, const Squares& squares, double& down,
                                 const RunContext& run) const {
-  const auto all = lines(z, run);
+  const auto all = lines(z, squares, run);
   OBVID_TRY(all);
   Pass pass;
   for (const Line& line : *all) {
@@ -314,7 +323,7 @@ Result<Pass> LevelPasses::level(double z, const std::vector<Vec2>* around, doubl
     for (const Station& s : stations) {
       if (s.kept && s.steep) down = std::min(down, s.down);
     }
-    append_pieces(line, stations, around, pass);
+    append_pieces(line, stations, pass);
   }
   std::erase_if(pass.pieces, [](const auto& piece) { return piece.size() < 2; });
   return pass;
@@ -347,7 +356,7 @@ Result<void> LevelPasses::lay(const SurfaceCells& cells, const RunContext& run) 
   OBVID_TRY(measure(run));
   for (double z = high;;) {
     double down = most_down_;
-    auto pass = level(z, nullptr, down, run);
+    auto pass = level(z, {}, down, run);
     OBVID_TRY(pass);
     OBVID_TRY(keep(std::move(*pass)));
     at_.push_back(z);
@@ -361,7 +370,7 @@ Result<void> LevelPasses::lay(const SurfaceCells& cells, const RunContext& run) 
 
 Result<std::vector<Pass>> LevelPasses::add(const std::vector<HighSpot>& spots,
                                            const RunContext& run) {
-  std::vector<std::vector<Vec2>> around(at_.size());  // by the level above
+  std::vector<Squares> around(at_.size());  // by the level above
   for (const HighSpot& spot : spots) {
     const bool touches = norm(spot.axis - Vec2{spot.tip.x, spot.tip.y}) <= part_.tolerance();
     const double height_there = touches ? spot.tip.z : height(spot.axis);
@@ -370,15 +379,17 @@ Result<std::vector<Pass>> LevelPasses::add(const std::vector<HighSpot>& spots,
     if (below == at_.begin() || below == at_.end()) continue;
     const auto above = below - 1;
     if (*above - *below <= kLeastStep * rule_.level()) continue;
-    around[static_cast<std::size_t>(above - at_.begin())].push_back(spot.axis);
+    Squares& squares = around[static_cast<std::size_t>(above - at_.begin())];
+    squares.side = kAround * 2.0 * part_.cutter().radius;
+    squares.mark(spot.axis);
   }
   std::vector<Pass> out;
   std::vector<double> fresh;
   for (std::size_t k = 0; k < around.size(); ++k) {
-    if (around[k].empty()) continue;
+    if (around[k].all.empty()) continue;
     double down = most_down_;
     const double z = 0.5 * (at_[k] + at_[k + 1]);
-    auto pass = level(z, &around[k], down, run);
+    auto pass = level(z, around[k], down, run);
     OBVID_TRY(pass);
     fresh.push_back(z);
     if (pass->empty()) continue;

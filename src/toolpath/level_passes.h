@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "pass_families.h"
@@ -35,6 +37,13 @@ class LevelPasses {
     std::uint64_t side = 0;
     Vec2 clear, held;
   };
+  /// Squares of the plane in which levels are followed; no square: everywhere.
+  struct Squares {
+    double side = 0.0;
+    std::set<std::pair<long, long>> all;
+    void mark(Vec2 p);  ///< the place's own and those around it
+    [[nodiscard]] bool hold(Vec2 p) const;
+  };
   struct Line {
     std::vector<Vec2> places;
     bool closed = false;
@@ -52,7 +61,8 @@ class LevelPasses {
   [[nodiscard]] Result<std::optional<Heights>> wall_heights(const SurfaceCells& cells,
                                                             const RunContext& run) const;
   [[nodiscard]] Crossing crossing(std::uint64_t side, double z) const;
-  [[nodiscard]] Result<std::vector<Line>> lines(double z, const RunContext& run) const;
+  [[nodiscard]] Result<std::vector<Line>> lines(double z, const Squares& squares,
+                                                const RunContext& run) const;
   void between(Vec2 a, Vec2 b, double z, int depth, std::vector<Vec2>& out) const;
   struct Station {
     PassPoint point;
@@ -62,10 +72,8 @@ class LevelPasses {
   };
   [[nodiscard]] Station station(Vec2 before, Vec2 at, Vec2 after, double z) const;
   /// The passes of a level; `down` is lowered to what its walls allow.
-  Result<Pass> level(double z, const std::vector<Vec2>* around, double& down,
-                     const RunContext& run) const;
-  void append_pieces(const Line& line, const std::vector<Station>& stations,
-                     const std::vector<Vec2>* around, Pass& pass) const;
+  Result<Pass> level(double z, const Squares& squares, double& down, const RunContext& run) const;
+  void append_pieces(const Line& line, const std::vector<Station>& stations, Pass& pass) const;
   Result<void> keep(Pass pass);
 
   const Part& part_;

@@ -195,10 +195,12 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
         r.unreached_depth, "a smaller cutter reaches more");
   }
   if (r.flat_area > 0.0) {
+    const std::string left = std::isfinite(r.flat_left)
+                                 ? fmt::format("up to {:.3g} {}", r.flat_left, out.units)
+                                 : "no pass comes over it";
     add(fmt::format("about {:.3g} % of the surface is flatter than levels are for and keeps too "
-                    "much: up to {:.3g} {} at {}",
-                    100.0 * r.flat_area / r.surface_area, r.flat_left, out.units,
-                    place_text(r.flat_place)),
+                    "much: {} at {}",
+                    100.0 * r.flat_area / r.surface_area, left, place_text(r.flat_place)),
         r.flat_left, "zigzag with --steep-angle cuts both");
   }
   if (r.hidden_area > 0.0) {

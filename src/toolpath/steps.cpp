@@ -98,7 +98,8 @@ double StepRule::down(const Part& part, const Place& place, double cosine) const
     bend = bend_along(part.bends(place), slope);
   }
   const BodyBends body = body_bends(cutter_, scallop_, sine, cosine);
-  return std::clamp(sine * tip_step(body.down, bend), floor_, level_);
+  // stairs of sharp corners: steps down to the scallop itself
+  return std::clamp(sine * tip_step(body.down, bend), std::min(floor_, scallop_), level_);
 }
 
 double StepRule::across(const Part& part, const Place& place, Vec3 along) const {
