@@ -16,14 +16,12 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
 constexpr double kSteepDeg = 45.0;
-constexpr double kMostLevels = 20'000.0;  // more is a typing error in a length
-constexpr double kOnLine = 0.2;           // of a step's share: how near places lie to the line
-constexpr int kMostCloser = 40;           // steps towards the line
-constexpr int kMostHalvings = 8;          // of a chord in a side of the raster
-constexpr double kLeastStep = 0.002;      // of the level step: nearer levels help no more
-constexpr double kAround = 0.5;           // diameters: squares around high places
+constexpr double kOnLine = 0.2;       // of a step's share: how near places lie to the line
+constexpr int kMostCloser = 40;       // steps towards the line
+constexpr int kChordHalvings = 8;     // of a chord in a side of the raster
+constexpr double kLeastStep = 0.002;  // of the level step: nearer levels help no more
+constexpr double kAround = 0.5;       // diameters: squares around high places
 
 }  // namespace
 
@@ -176,8 +174,8 @@ Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const Square
     return static_cast<std::size_t>(std::lower_bound(sides.begin(), sides.end(), side) -
                                     sides.begin());
   };
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> next(sides.size(), kNone), before(sides.size(), kNone);
+  constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> next(sides.size(), kNowhere), before(sides.size(), kNowhere);
   for (const auto& [from, to] : ways) {
     next[number(from)] = number(to);
     before[number(to)] = number(from);
@@ -187,7 +185,7 @@ Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const Square
   const auto follow = [&](std::size_t start) {
     Line line;
     std::size_t k = start;
-    for (; k != kNone && !taken[k]; k = next[k]) {
+    for (; k != kNowhere && !taken[k]; k = next[k]) {
       taken[k] = true;
       line.places.push_back(crossings[k].clear);
     }
@@ -196,7 +194,7 @@ Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const Square
     if (line.places.size() > 1) out.push_back(std::move(line));
   };
   for (std::size_t k = 0; k < sides.size(); ++k) {
-    if (before[k] == kNone) follow(k);
+    if (before[k] == kNowhere) follow(k);
   }
   for (std::size_t k = 0; k < sides.size(); ++k) {
     if (!taken[k]) follow(k);
@@ -220,7 +218,7 @@ Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const Square
 /// Places between two neighbours where their chord keeps away from what is held.
 void LevelPasses::between(Vec2 a, Vec2 b, double z, int depth, std::vector<Vec2>& out) const {
   const double length = norm(b - a);
-  if (depth >= kMostHalvings || length <= 2.0 * share_) return;
+  if (depth >= kChordHalvings || length <= 2.0 * share_) return;
   const Vec2 right = (-1.0 / length) * left_normal(b - a);
   const Vec2 middle = 0.5 * (a + b);
   if (height(middle) > z || height(middle + share_ * right) > z) return;

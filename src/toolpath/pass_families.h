@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include "steps.h"
 
 namespace obvid::toolpath {
+
+inline constexpr double kMostLevels = 20'000.0;  ///< more is a typing error in a length
+/// Height of a tip that rests on nothing.
+inline constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 /// Passes side by side; neighbours in the list are neighbours on the part. An empty pass stands
 /// between groups that have nothing to do with each other.

@@ -18,14 +18,12 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kMostLevels = 20'000.0;  // more is a typing error in a length
-constexpr double kOutside = 1.05;         // radii that lines begin beside the stock
+constexpr double kOutside = 1.05;  // radii that lines begin beside the stock
 constexpr double kRampDeg = 5.0;
 constexpr double kMostLegs = 40.0;       // of a ramp up and down one stretch
 constexpr double kStepDown = 0.5;        // diameters
 constexpr double kLevelRounding = 1e-9;  // of a level: no further one for that
 constexpr int kHalvings = 12;            // of the spacing of places, to the end of a stretch
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 /// A line over the stock: height of the resting tip at places side by side.
 struct Line {
