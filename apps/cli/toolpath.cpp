@@ -102,10 +102,12 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
   const ToolpathReport& r = made.job.path.report;
   const std::string& unit = made.job.path.units;
   Facts facts;
-  const bool rough = r.levels > 0;
-  facts.add("passes", rough ? fmt::format("{} on {} levels", r.passes, r.levels)
-                            : fmt::format("{}, {} of them between others that left too much",
-                                          r.passes, r.added_passes));
+  const bool rough = std::isnan(r.hidden_area);
+  facts.add("passes",
+            rough ? fmt::format("{} on {} levels", r.passes, r.levels)
+                  : fmt::format("{}{}, {} of them between others that left too much", r.passes,
+                                r.levels > 0 ? fmt::format(", {} levels", r.levels) : "",
+                                r.added_passes));
   facts.add("length", fmt::format("{} {} at feed, {} {} rapid", significant(r.cutting_length, 5),
                                   unit, significant(r.rapid_length, 5), unit));
   facts.add("time", fmt::format("{} minutes at the stated feeds, without acceleration",
@@ -124,6 +126,16 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                         ? fmt::format("{} {}", significant(r.scallop.found, 3), unit)
                         : std::string("unbounded"),
                     toolpath_place(r.scallop.place), bound("{} nowhere exceeded", r.scallop.most)));
+  }
+  if (r.flat_left > 0.0) {
+    facts.add("flatter",
+              fmt::format("more than the scallop on {} of the surface, where levels are not meant "
+                          "for; {} at {}",
+                          area_share(r.flat_area, r.surface_area),
+                          std::isfinite(r.flat_left)
+                              ? fmt::format("up to {} {}", significant(r.flat_left, 3), unit)
+                              : std::string("no pass comes"),
+                          toolpath_place(r.flat_place)));
   }
   facts.add("gouges", fmt::format("{} {} the deepest found, {}; avoided by lifting at {} points",
                                   significant(r.gouge.found, 3), unit,

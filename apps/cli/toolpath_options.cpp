@@ -44,8 +44,8 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
   ToolpathOptions& plan = raw.command.job.plan;
   app.add_option("--strategy", raw.values.strategy,
                  "zigzag (parallel planes), isoparametric (along the patches' parameters), "
-                 "scallop (constant height between passes) or rough (a box of stock, level by "
-                 "level) [zigzag]")
+                 "scallop (constant height between passes), z-level (around walls at constant "
+                 "height) or rough (a box of stock, level by level) [zigzag]")
       ->type_name("NAME")
       ->group(group);
   app.add_option("--scallop", plan.scallop,
@@ -57,6 +57,11 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
       ->type_name("S")
       ->group(group);
   app.add_option("--angle", plan.angle_deg, "Of the passes against X, degrees [0]")
+      ->type_name("DEG")
+      ->group(group);
+  app.add_option("--steep-angle", plan.steep_deg,
+                 "Zigzag: walls that lean more are cut by levels [none]; z-level: leaning of walls "
+                 "for which the scallop is kept [45]")
       ->type_name("DEG")
       ->group(group);
   app.add_flag("--along-v", plan.along_v, "Isoparametric passes along v [along u]")->group(group);
@@ -77,7 +82,8 @@ void add_passes(CLI::App& app, RawToolpath& raw) {
 void add_roughing(CLI::App& app, RawToolpath& raw) {
   const char* group = "Roughing";
   ToolpathOptions& plan = raw.command.job.plan;
-  app.add_option("--step-down", plan.step_down, "Most of a level, units [half a diameter]")
+  app.add_option("--step-down", plan.step_down,
+                 "Most of a level, units [half a diameter; z-level: by scallop]")
       ->type_name("Z")
       ->group(group);
   app.add_option("--stock", raw.values.stock,

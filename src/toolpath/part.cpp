@@ -56,6 +56,11 @@ Vec2 offset_change(const CutterShape& cutter, Vec3 n, Vec3 dn) {
 
 }  // namespace
 
+double level_spacing(const Part& part) {
+  const double round = std::max(part.cutter().corner, part.cutter().flat());
+  return std::sqrt(8.0 * round * kStepShare * part.tolerance());
+}
+
 Result<Part> Part::make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
                         double allowance, const RunContext& run) {
   TessellationOptions options;

@@ -17,6 +17,11 @@ inline constexpr double kPrintShare = 0.3;     ///< points to printed blocks, wi
 /// lift it onto walls that it runs along.
 inline constexpr double kWallShare = 0.02;
 
+class Part;
+
+/// On a level no part can hide between two places of the tip that are so near to each other.
+[[nodiscard]] double level_spacing(const Part& part);
+
 /// Bends of a surface where a cutter touches it.
 struct Bends {
   Vec3 normal;  ///< upwards

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "obvid/core/run_context.h"
@@ -9,9 +11,17 @@
 
 namespace obvid::toolpath {
 
+inline constexpr double kMostLevels = 20'000.0;  ///< more is a typing error in a length
+/// Height of a tip that rests on nothing.
+inline constexpr double kNothing = -std::numeric_limits<double>::infinity();
+
 /// Passes side by side; neighbours in the list are neighbours on the part. An empty pass stands
 /// between groups that have nothing to do with each other.
 using Family = std::vector<Pass>;
+
+/// Normals with a larger z belong to places flatter than the angle from which on walls are cut on
+/// levels; nothing: no levels are asked for.
+[[nodiscard]] std::optional<double> flat_from(const ToolpathOptions& options);
 
 [[nodiscard]] Result<Family> zigzag(const Part& part, const ToolpathOptions& options,
                                     const StepRule& rule, Walker& walker, const RunContext& run);

@@ -56,6 +56,38 @@ Rail between(const Rail& a, const Rail& b) {
   return out;
 }
 
+void keep_flat(Pass& pass, double flat_from, double beyond) {
+  std::vector<std::vector<PassPoint>> pieces;
+  for (const auto& piece : pass.pieces) {
+    const std::size_t n = piece.size();
+    std::vector<bool> kept(n);
+    const auto spread = [&](auto number) {
+      double left = 0.0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const PassPoint& p = piece[number(k)];
+        if (p.place.normal.z > flat_from) {
+          left = beyond;
+        } else if (k > 0) {
+          left -= norm(p.place.tip - piece[number(k - 1)].place.tip);
+        }
+        if (left > 0.0) kept[number(k)] = true;
+      }
+    };
+    spread([](std::size_t k) { return k; });
+    spread([n](std::size_t k) { return n - 1 - k; });
+    bool open = false;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (kept[k]) {
+        if (!open) pieces.emplace_back();
+        pieces.back().push_back(piece[k]);
+      }
+      open = kept[k];
+    }
+  }
+  std::erase_if(pieces, [](const auto& piece) { return piece.size() < 2; });
+  pass.pieces = std::move(pieces);
+}
+
 Walker::Station Walker::resting(Vec2 axis, double t) const {
   const auto place = part_.drop(axis);
   if (!place) return std::nullopt;

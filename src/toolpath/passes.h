@@ -41,6 +41,10 @@ struct Pass {
   [[nodiscard]] bool empty() const { return pieces.empty(); }
 };
 
+/// Leaves of a pass what lies within `beyond` of places whose normal's z is larger than
+/// `flat_from`.
+void keep_flat(Pass& pass, double flat_from, double beyond);
+
 /// Follows rails with points so near to each other that the cutter, moved straight between
 /// neighbours, cuts nothing deeper than its share of the tolerance and leaves no more than that.
 class Walker {

@@ -26,6 +26,7 @@ constexpr double kCellOfRadius = 1.0 / 8.0, kCellOfStep = 0.25;
 constexpr double kDefaultSafe = 0.5;    // diameters above the highest point
 constexpr double kLeastSpindle = 0.5;   // revolutions a minute: printed as a whole number
 constexpr double kSteepestRamp = 90.0;  // degrees
+constexpr double kMostSteep = 90.0;     // degrees
 constexpr double kMostAngle = 1e6;      // degrees: beyond, the angle is lost in rounding
 
 Result<void> refuse(std::string what, double value, std::string hint = "") {
@@ -36,14 +37,12 @@ bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 Result<void> check_roughing(const ToolpathOptions& o) {
   if (o.strategy != ToolpathStrategy::kRough) {
-    if (!o.step_down && !o.stock && !o.ramp_deg) return {};
-    return refuse("step down, stock and ramp are for roughing", 0.0, "add --strategy rough");
+    if (!o.stock && !o.ramp_deg && (!o.step_down || flat_from(o))) return {};
+    return refuse("step down, stock and ramp are for roughing", 0.0,
+                  "add --strategy rough; levels take a step down");
   }
   if (o.scallop) {
     return refuse("roughing keeps no scallop", *o.scallop, "give the step over and the allowance");
-  }
-  if (o.step_down && !positive(*o.step_down)) {
-    return refuse("the step down must be greater than 0", *o.step_down);
   }
   if (o.ramp_deg && !(*o.ramp_deg > 0.0 && *o.ramp_deg < kSteepestRamp)) {
     return refuse("the ramp must lie between 0 and 90 degrees", *o.ramp_deg);
@@ -54,6 +53,23 @@ Result<void> check_roughing(const ToolpathOptions& o) {
       return refuse("the stock's second corner must lie above its first in x, y and z",
                     std::min({size.x, size.y, size.z}));
     }
+  }
+  return {};
+}
+
+Result<void> check_levels(const ToolpathOptions& o) {
+  const bool levels = o.strategy == ToolpathStrategy::kZLevel;
+  if (o.steep_deg) {
+    if (!levels && o.strategy != ToolpathStrategy::kZigzag) {
+      return refuse("a steep angle is for zigzag and levels", *o.steep_deg,
+                    "use --strategy zigzag or z-level");
+    }
+    if (!(*o.steep_deg > 0.0 && *o.steep_deg < kMostSteep)) {
+      return refuse("the steep angle must lie between 0 and 90 degrees", *o.steep_deg);
+    }
+  }
+  if (levels && o.step_over) {
+    return refuse("levels have no step over", *o.step_over, "give the scallop or the step down");
   }
   return {};
 }
@@ -74,8 +90,13 @@ Result<void> check_sizes(const ToolpathOptions& o) {
     return refuse("the spindle's speed must be more than 0.5 revolutions a minute", *o.spindle,
                   "programs hold whole numbers");
   }
+  if (o.step_down && !positive(*o.step_down)) {
+    return refuse("the step down must be greater than 0", *o.step_down);
+  }
   OBVID_TRY(check_roughing(o));
-  if (!o.scallop && !o.step_over) {
+  OBVID_TRY(check_levels(o));
+  const bool by_steps = o.strategy == ToolpathStrategy::kZLevel && o.step_down;
+  if (!o.scallop && !o.step_over && !by_steps) {
     return refuse("neither scallop nor step over is given", 0.0, "give one of them or both");
   }
   if (o.scallop && (!positive(*o.scallop) || *o.scallop >= radius)) {
@@ -101,6 +122,8 @@ Result<Family> family_of(const Part& part, const ToolpathOptions& options, const
       return zigzag(part, options, rule, walker, run);
     case ToolpathStrategy::kIsoparametric:
       return isoparametric(part, options, rule, walker, run);
+    case ToolpathStrategy::kZLevel:
+      return Family{};
     case ToolpathStrategy::kConstantScallop:
     case ToolpathStrategy::kRough:
       break;
@@ -130,6 +153,9 @@ void take_over(const SimulationReport& seen, double spacing, ToolpathReport& out
   out.unreached_area = seen.held_area;
   out.unreached_depth = seen.held;
   out.unreached_place = seen.held_place;
+  out.flat_left = seen.flat_left.found;
+  out.flat_place = seen.flat_left.place;
+  out.flat_area = seen.flat_area;
 }
 
 void judge(Toolpath& out, const ToolpathOptions& options) {
@@ -167,6 +193,15 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
             100.0 * r.unreached_area / r.surface_area, r.unreached_depth, out.units,
             place_text(r.unreached_place)),
         r.unreached_depth, "a smaller cutter reaches more");
+  }
+  if (r.flat_area > 0.0) {
+    const std::string left = std::isfinite(r.flat_left)
+                                 ? fmt::format("up to {:.3g} {}", r.flat_left, out.units)
+                                 : "no pass comes over it";
+    add(fmt::format("about {:.3g} % of the surface is flatter than levels are for and keeps too "
+                    "much: {} at {}",
+                    100.0 * r.flat_area / r.surface_area, left, place_text(r.flat_place)),
+        r.flat_left, "zigzag with --steep-angle cuts both");
   }
   if (r.hidden_area > 0.0) {
     out.warnings.push_back(
@@ -238,22 +273,34 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
   OBVID_TRY(family);
   const SurfaceCells cells = cells_of(*part, rule, options);
   std::vector<Nearest> reach(cells.cells().size());
+  std::optional<LevelPasses> levels;
+  if (flat_from(options)) {
+    levels.emplace(*part, options, rule);
+    OBVID_TRY(levels->lay(cells, run));
+  }
   ScallopSurvey survey(*part, options, rule, cells, reach, walker);
   const ToolpathReport fresh = out.report;
   std::size_t all_added = 0;
   double share = kScallopLimit;
   for (int attempt = 1;; ++attempt, share *= kLowerShare) {
-    const auto added = survey.complete(*family, share, run);
+    const auto added = survey.complete(*family, levels ? &*levels : nullptr, share, run);
     OBVID_TRY(added);
     all_added += *added;
     out.report = fresh;
     out.report.added_passes = all_added;
     out.report.lifted_points = lifted_points(*family);
-    lay_moves(*family, options, rule.level(), walker, out);
+    Family all;
+    if (levels) {
+      all = levels->in_order();
+      out.report.levels = levels->levels();
+    }
+    all.insert(all.end(), family->begin(), family->end());
+    lay_moves(all, options, rule.level(), walker, out);
     OBVID_TRY(finish(*part, cells, reach, options, run, out));
     const bool high = options.scallop && out.report.scallop.found > *options.scallop &&
                       std::isfinite(out.report.scallop.found);  // else more passes help no more
-    if (!high || attempt == kMostAttempts) break;
+    const bool stuck = levels && *added == 0 && attempt > 1;
+    if (!high || stuck || attempt == kMostAttempts) break;
   }
   judge(out, options);
   return out;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "level_passes.h"
 #include "obvid/exchange/internal/gcode/nc_program.h"
 #include "roughing.h"
 #include "steps.h"
@@ -42,6 +43,9 @@ Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cel
   OBVID_TRY(tell(run, "checking", 0.0));
   Simulation simulation(part, cells, reach, options.threads, chord);
   OBVID_TRY(simulation.cut(sweeps_of(*program, scale, part.field().high().z), run));
+  if (options.strategy == ToolpathStrategy::kZLevel) {
+    simulation.judge_flat_apart(*flat_from(options), options.scallop.value_or(options.tolerance));
+  }
   if (options.strategy == ToolpathStrategy::kRough) {
     return simulation.rough_report(options.tolerance, stock_of(part, options), run);
   }

@@ -18,14 +18,12 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kMostLevels = 20'000.0;  // more is a typing error in a length
-constexpr double kOutside = 1.05;         // radii that lines begin beside the stock
+constexpr double kOutside = 1.05;  // radii that lines begin beside the stock
 constexpr double kRampDeg = 5.0;
 constexpr double kMostLegs = 40.0;       // of a ramp up and down one stretch
 constexpr double kStepDown = 0.5;        // diameters
 constexpr double kLevelRounding = 1e-9;  // of a level: no further one for that
 constexpr int kHalvings = 12;            // of the spacing of places, to the end of a stretch
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 /// A line over the stock: height of the resting tip at places side by side.
 struct Line {
@@ -48,7 +46,7 @@ class Roughing {
         options_(options),
         stock_(stock_of(part, options)),
         frame_(pass_frame(part, options.angle_deg)),
-        spacing_(level_spacing()),
+        spacing_(level_spacing(part)),
         out_(out),
         list_(out) {}
 
@@ -77,13 +75,6 @@ class Roughing {
   }
 
  private:
-  /// On a level no part can hide between two places of the tip that are so near to each other.
-  [[nodiscard]] double level_spacing() const {
-    const CutterShape& cutter = part_.cutter();
-    const double round = std::max(cutter.corner, cutter.flat());
-    return std::sqrt(8.0 * round * kStepShare * part_.tolerance());
-  }
-
   [[nodiscard]] double height(double a, double b) const {
     const auto rest = part_.drop(frame_.at(a, b));
     return rest ? rest->tip.z : kNothing;

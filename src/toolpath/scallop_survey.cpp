@@ -42,14 +42,19 @@ ScallopSurvey::ScallopSurvey(const Part& part, const ToolpathOptions& options, c
       spacing_(cells.spacing()),
       scallop_(options.scallop.value_or(0.0)),
       print_(print_within(options)),
+      flat_from_(flat_from(options).value_or(-1.0)),
       simulation_(part, cells, reach, options.threads) {}
 
-Result<std::size_t> ScallopSurvey::complete(Family& family, double share, const RunContext& run) {
+Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels, double share,
+                                            const RunContext& run) {
   std::size_t count = 0;
   if (!(scallop_ > 0.0)) return count;
   std::vector<Sweep> sweeps;
   if (!begun_) {
     for (const Pass& pass : family) append_sweeps(pass, print_, sweeps);
+    if (levels != nullptr) {
+      for (const Pass& pass : levels->passes()) append_sweeps(pass, print_, sweeps);
+    }
   }
   begun_ = true;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -57,7 +62,18 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, double share, const 
     OBVID_TRY(tell(run, "scallops", part));
     OBVID_TRY(simulation_.cut(sweeps, run));
     sweeps.clear();
-    const auto extra = wanted(family, share * scallop_, run);
+    auto high = simulation_.above(share * scallop_, kScallopWithin * scallop_, run);
+    OBVID_TRY(high);
+    if (levels != nullptr) {
+      const auto wall = std::stable_partition(
+          high->begin(), high->end(), [&](const HighSpot& s) { return s.normal.z > flat_from_; });
+      const auto added = levels->add({wall, high->end()}, run);
+      OBVID_TRY(added);
+      for (const Pass& pass : *added) append_sweeps(pass, print_, sweeps);
+      count += added->size();
+      high->erase(wall, high->end());
+    }
+    const auto extra = wanted(family, *high, run);
     OBVID_TRY(extra);
     for (std::size_t k = extra->size(); k-- > 0;) {  // from the end: numbers before stay
       OBVID_TRY(may_go_on(run));
@@ -147,13 +163,12 @@ Vec2 ScallopSurvey::outside(const Rail& rail, const std::vector<HighSpot>& spots
   return farthest * frame_.across();
 }
 
-Result<std::vector<ScallopSurvey::Wanted>> ScallopSurvey::wanted(const Family& family, double limit,
+Result<std::vector<ScallopSurvey::Wanted>> ScallopSurvey::wanted(const Family& family,
+                                                                 const std::vector<HighSpot>& high,
                                                                  const RunContext& run) {
-  const auto high = simulation_.above(limit, kScallopWithin * scallop_, run);
-  OBVID_TRY(high);
   std::map<Sides, std::vector<HighSpot>> places;
   std::size_t seen = 0;
-  for (const HighSpot& spot : *high) {
+  for (const HighSpot& spot : high) {
     if (++seen % kSpotsUnasked == 0) OBVID_TRY(may_go_on(run));
     if (const auto both = sides(family, spot)) places[*both].push_back(spot);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "level_passes.h"
 #include "pass_families.h"
 #include "simulation.h"
 
@@ -15,7 +16,9 @@ class ScallopSurvey {
 
   /// Adds passes to the family where more stays than `share` of the scallop that is asked for;
   /// their number.
-  Result<std::size_t> complete(Family& family, double share, const RunContext& run);
+  /// With levels, they get what is missing on walls.
+  Result<std::size_t> complete(Family& family, LevelPasses* levels, double share,
+                               const RunContext& run);
 
  private:
   struct Wanted {
@@ -33,7 +36,8 @@ class ScallopSurvey {
     }
   };
 
-  [[nodiscard]] Result<std::vector<Wanted>> wanted(const Family& family, double limit,
+  [[nodiscard]] Result<std::vector<Wanted>> wanted(const Family& family,
+                                                   const std::vector<HighSpot>& high,
                                                    const RunContext& run);
   [[nodiscard]] Across across(const HighSpot& spot) const;
   [[nodiscard]] std::optional<double> across(const Rail& rail, const HighSpot& spot,
@@ -47,6 +51,7 @@ class ScallopSurvey {
   bool of_parameters_, along_v_;
   PassFrame frame_;
   double level_, spacing_, scallop_, print_;
+  double flat_from_;  ///< z of normals, where there are levels
   bool begun_ = false;
   Simulation simulation_;
 };

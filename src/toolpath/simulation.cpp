@@ -218,7 +218,12 @@ bool Simulation::find_above(std::size_t node, double limit, double within, HighS
   if (b.left > limit) {
     const Nearest& near = nearest(node);
     if (near.reach == Reach::kReached) {
-      spot = {b.left, cells_.place(node), cell.point, near.axis};
+      spot = {b.left,
+              cells_.place(node),
+              cell.point,
+              cell.normal,
+              part_.cutter().tip(cell.point, cell.normal),
+              near.axis};
       return true;
     }
     if (!at_edge(node, limit)) return false;
@@ -235,7 +240,15 @@ bool Simulation::find_inside(std::size_t node, double limit, double within, High
     if (left > std::max(limit, spot.height)) {
       const Nearest near = nearest(node, part);
       held = near.reach != Reach::kReached;
-      if (!held) spot = {left, part.place, part.cell.point, near.axis};
+      if (!held) {
+        const Cell& cell = part.cell;
+        spot = {left,
+                part.place,
+                cell.point,
+                cell.normal,
+                part_.cutter().tip(cell.point, cell.normal),
+                near.axis};
+      }
     }
     const int least = held ? kMostLevels - kEdgeLevels : 0;
     if (spot.height > 0.0) return false;  // one is enough

@@ -23,6 +23,8 @@ struct HighSpot {
   double height = 0.0;  ///< along the normal
   CellPlace place;
   Vec3 point;
+  Vec3 normal;
+  Vec3 tip;   ///< of a cutter that touches it
   Vec2 axis;  ///< where the cutter would come nearest to it
 };
 
@@ -33,9 +35,11 @@ struct Extreme {
 };
 
 struct SimulationReport {
-  Extreme left;       ///< where the cutter can touch the part
-  Extreme depth;      ///< of gouges
-  double held = 0.0;  ///< where it cannot: distance of the cutter from the part
+  Extreme left;            ///< where the cutter can touch the part
+  Extreme flat_left;       ///< likewise, where levels are not meant for: over the middles of cells
+  double flat_area = 0.0;  ///< cells of these with more than the limit over their middle
+  Extreme depth;           ///< of gouges
+  double held = 0.0;       ///< where it cannot: distance of the cutter from the part
   Vec3 held_place;
   double hidden_area = 0.0, held_area = 0.0, area = 0.0;
 };
@@ -66,6 +70,11 @@ class Simulation {
   Simulation(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
              std::size_t threads, double sway = 0.0);
 
+  /// Places whose normal's z is larger are judged apart; more than `limit` there is counted.
+  void judge_flat_apart(double flat_from, double limit) {
+    flat_from_ = flat_from;
+    flat_limit_ = limit;
+  }
   [[nodiscard]] Result<void> cut(const std::vector<Sweep>& sweeps, const RunContext& run);
   /// Where more than `limit` stays though the cutter can touch the part: one place of each cell at
   /// most. Heights within `within` above the limit can stay unseen.
@@ -134,6 +143,7 @@ class Simulation {
   const SurfaceCells& cells_;
   std::size_t threads_;
   double sway_;
+  double flat_from_ = 2.0, flat_limit_ = 0.0;
   std::vector<Sweep> sweeps_;
   std::vector<Numbers> of_tile_;
   std::vector<std::uint32_t> tile_of_;

@@ -93,6 +93,12 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
     if (cell.normal == Vec3{}) continue;
     const bool touched =
         nodes_[i].left <= part_.tolerance() || nearest_[i].reach == Reach::kReached;
+    if (cell.normal.z > flat_from_) {
+      if (!touched) continue;
+      raise_extreme(out.flat_left, nodes_[i].left, cell.point);
+      if (nodes_[i].left > flat_limit_) out.flat_area += cell.area;
+      continue;
+    }
     if (touched) raise_extreme(out.left, nodes_[i].left, cell.point);
     if (touched || at_edge(i, part_.tolerance())) high.push_back(i);
   }

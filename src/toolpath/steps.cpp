@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFloor = 0.1;       // of the level step
 constexpr double kOfDiameter = 0.8;  // flat bottoms overlap
+constexpr double kLeansAlike = 0.2;  // z of normals
 constexpr double kWall = 1e-6;       // z of normals taken for walls
 
 double bend_along(const Bends& bends, Vec3 direction) {
@@ -64,6 +65,12 @@ double StepRule::on_surface(double cutter_bend, double bend) const {
   return both > 0.0 ? std::sqrt(8.0 * scallop_ / both) : level_;
 }
 
+/// The tip moves faster than the contact over bulges, slower in hollows.
+double StepRule::tip_step(double cutter_bend, double bend) const {
+  if (!(cutter_bend > 0.0)) return level_;
+  return on_surface(cutter_bend, bend) * std::max(0.0, cutter_bend + bend) / cutter_bend;
+}
+
 StepForm StepRule::form(const Part& part, const Place& place) const {
   const Bends bends = part.bends(place);
   const Vec3 n = place.normal;
@@ -72,17 +79,27 @@ StepForm StepRule::form(const Part& part, const Place& place) const {
   const Vec2 down = sine > 0.0 ? Vec2{n.x / sine, n.y / sine} : Vec2{1.0, 0.0};
   const Vec3 slope{down.x * cosine, down.y * cosine, -sine}, level{-down.y, down.x, 0.0};
   const BodyBends body = body_bends(cutter_, scallop_, sine, cosine);
-  // the tip moves faster than the contact over bulges, slower in hollows
-  const auto tip_step = [&](double cutter_bend, double bend) {
-    if (!(cutter_bend > 0.0)) return level_;
-    return on_surface(cutter_bend, bend) * std::max(0.0, cutter_bend + bend) / cutter_bend;
-  };
   const double w_down =
       std::clamp(cosine * tip_step(body.down, bend_along(bends, slope)), floor_, level_);
   const double w_level = std::clamp(tip_step(body.level, bend_along(bends, level)), floor_, level_);
   const double a = 1.0 / (w_down * w_down), b = 1.0 / (w_level * w_level);
   return {a * down.x * down.x + b * down.y * down.y, (a - b) * down.x * down.y,
           a * down.y * down.y + b * down.x * down.x};
+}
+
+double StepRule::down(const Part& part, const Place& place, double cosine) const {
+  if (scallop_ <= 0.0) return level_;
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  double bend = 0.0;
+  const Vec3 n = place.normal;
+  if (!place.open && std::abs(n.z - cosine) < kLeansAlike) {
+    const double level = std::hypot(n.x, n.y);
+    const Vec3 slope{n.z * n.x / level, n.z * n.y / level, -level};
+    bend = bend_along(part.bends(place), slope);
+  }
+  const BodyBends body = body_bends(cutter_, scallop_, sine, cosine);
+  // stairs of sharp corners: steps down to the scallop itself
+  return std::clamp(sine * tip_step(body.down, bend), std::min(floor_, scallop_), level_);
 }
 
 double StepRule::across(const Part& part, const Place& place, Vec3 along) const {

@@ -35,8 +35,12 @@ class StepRule {
   [[nodiscard]] StepForm form(const Part& part, const Place& place) const;
   /// Distance of passes along the surface where the pass runs in the unit direction `along`.
   [[nodiscard]] double across(const Part& part, const Place& place, Vec3 along) const;
+  /// Distance of levels on a wall whose normal's z is `cosine`; bends of the surface at `place`
+  /// count where it leans alike.
+  [[nodiscard]] double down(const Part& part, const Place& place, double cosine) const;
 
  private:
+  [[nodiscard]] double tip_step(double cutter_bend, double bend) const;
   [[nodiscard]] double on_surface(double cutter_bend, double bend) const;
 
   CutterShape cutter_;

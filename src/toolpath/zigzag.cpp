@@ -45,6 +45,7 @@ Result<Family> zigzag(const Part& part, const ToolpathOptions& options, const St
                       Walker& walker, const RunContext& run) {
   const PassFrame frame = pass_frame(part, options.angle_deg);
   Family family;
+  const double flat = flat_from(options).value_or(-1.0);
   for (double b = frame.b0; b <= frame.b1;) {
     Rail rail;
     rail.axis = {frame.at(frame.a0, b), frame.at(frame.a1, b)};
@@ -54,9 +55,11 @@ Result<Family> zigzag(const Part& part, const ToolpathOptions& options, const St
     double step = rule.level();
     for (const auto& piece : pass->pieces) {
       for (const PassPoint& p : piece) {
+        if (p.place.normal.z <= flat) continue;
         step = std::min(step, rule.form(part, p.place).along(frame.across()));
       }
     }
+    if (options.steep_deg) keep_flat(*pass, flat, rule.level());
     if (!pass->empty()) family.push_back(std::move(*pass));
     b += step;
     const double share = (b - frame.b0) / (frame.b1 - frame.b0);

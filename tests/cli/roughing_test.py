@@ -208,8 +208,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "part.txt").write_text(grid_text())
-        subprocess.run([binary, "surface", "grid", "part.txt", "--units", "mm", "-o", "part.json", "-q"], cwd=folder,
-                       check=True)
+        subprocess.run([binary, "surface", "grid", "part.txt", "--spread", "uniform", "--units", "mm", "-o",
+                        "part.json", "-q"], cwd=folder, check=True)
         for cutter, diameter, corner, angle in (("flat", 6.0, 0.0, 0.0), ("bull", 8.0, 1.5, 90.0),
                                                 ("ball", 6.0, 3.0, 30.0)):
             report, gouge = check_rough(binary, folder, cutter, diameter, corner, angle)

@@ -27,6 +27,7 @@ enum class ToolpathStrategy {
   kZigzag,           ///< passes in parallel planes upright on XY
   kIsoparametric,    ///< passes touch along lines of the patches' parameters
   kConstantScallop,  ///< each pass lies as far from the last as the scallop allows, place by place
+  kZLevel,           ///< passes at constant height around the walls of the part
   kRough,  ///< a box of stock is taken off level by level, down to the part and its allowance
 };
 
@@ -43,14 +44,18 @@ struct ToolpathFeeds {
 struct ToolpathOptions {
   Cutter cutter;
   ToolpathStrategy strategy = ToolpathStrategy::kZigzag;
-  std::optional<double> scallop;      ///< greatest height of what stays between passes
-  std::optional<double> step_over;    ///< greatest distance of passes seen from above (zigzag,
-                                      ///< constant scallop) or along the surface (isoparametric)
-  double angle_deg = 0.0;             ///< of the passes against X; not for isoparametric ones
-  bool along_v = false;               ///< isoparametric: passes run along v, else along u
-  bool one_way = false;               ///< all passes in the same direction
-  double allowance = 0.0;             ///< along normals, what stays everywhere for later passes
-  std::optional<double> step_down{};  ///< roughing: most of a level [half the diameter]
+  std::optional<double> scallop;    ///< greatest height of what stays between passes
+  std::optional<double> step_over;  ///< greatest distance of passes seen from above (zigzag,
+                                    ///< constant scallop) or along the surface (isoparametric)
+  double angle_deg = 0.0;           ///< of the passes against X; not for isoparametric ones
+  bool along_v = false;             ///< isoparametric: passes run along v, else along u
+  bool one_way = false;             ///< all passes in the same direction
+  double allowance = 0.0;           ///< along normals, what stays everywhere for later passes
+  /// Roughing: most of a level [half the diameter]; levels of walls: likewise [by the scallop].
+  std::optional<double> step_down{};
+  /// Walls that lean from the level by at least so many degrees are cut on levels. With zigzag
+  /// (passes only where it is flatter) [none], with levels: for these the scallop is kept [45].
+  std::optional<double> steep_deg{};
   /// Roughing: low and high corner of the stock [the box of the part, wider by the allowance on its
   /// sides and on top].
   std::optional<std::array<Vec3, 2>> stock{};
@@ -113,8 +118,13 @@ struct ToolpathReport {
   double unreached_area = 0.0;
   double unreached_depth = 0.0;  ///< how far from the surface the cutter stays there at most, units
   Vec3 unreached_place;
+  /// With levels alone: the most that stays where the part is flatter than they are for, over the
+  /// middles of places `spacing` apart, and the area of those places where that is more than the
+  /// scallop (the tolerance, where none is given). The scallop is that of the walls then.
+  double flat_left = 0.0, flat_area = 0.0;
+  Vec3 flat_place;
   double safe_z = 0.0;
-  std::size_t levels = 0;            ///< of roughing
+  std::size_t levels = 0;            ///< of roughing and of walls
   std::size_t narrow_stretches = 0;  ///< too short for the ramp: left out
 };
 

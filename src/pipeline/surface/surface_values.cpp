@@ -243,6 +243,7 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
         return pick<ToolpathStrategy>({{"zigzag", ToolpathStrategy::kZigzag},
                                        {"isoparametric", ToolpathStrategy::kIsoparametric},
                                        {"scallop", ToolpathStrategy::kConstantScallop},
+                                       {"z-level", ToolpathStrategy::kZLevel},
                                        {"rough", ToolpathStrategy::kRough}},
                                       typed.strategy, "--strategy", plan.strategy);
       })

@@ -34,7 +34,8 @@ ToolpathOptions options_for(const ToolpathJob& job, const std::string& units) {
   plan.tolerance = job.tolerance.value_or(kTolerance / unit);
   if (plan.strategy == ToolpathStrategy::kRough) {
     plan.step_over = level_step(plan);
-  } else if (!plan.scallop && !plan.step_over) {
+  } else if (!plan.scallop && !plan.step_over &&
+             !(plan.strategy == ToolpathStrategy::kZLevel && plan.step_down)) {
     plan.scallop = kScallop * plan.cutter.diameter;
   }
   if (plan.cutter.kind == CutterKind::kBullNose) {
