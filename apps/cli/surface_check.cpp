@@ -48,8 +48,9 @@ Table patch_table(const SurfaceCheck& check) {
     const PatchReport& p = check.patches[i];
     table.row({p.name, fmt::format("{} x {}{}", p.degree_u, p.degree_v, p.rational ? " rat." : ""),
                fmt::format("{} x {}", p.count_u, p.count_v),
-               order_text(p.order_u) + ", " + order_text(p.order_v), significant(p.area, 4),
-               range_text(p.gaussian), range_text(p.mean)});
+               order_text(p.order_u) + ", " + order_text(p.order_v),
+               significant(p.area, p.trims > 0 ? 8 : 4), range_text(p.gaussian),
+               range_text(p.mean)});
   }
   return table;
 }
@@ -228,7 +229,7 @@ int run(const SurfaceCheckOptions& options) {
   ProgressBar bar(options.progress);
   bar.tell("reading", 0.0);
   std::vector<std::string> warnings;
-  const Result<SurfaceModel> model = read_surface(options.input, warnings);
+  const Result<SurfaceModel> model = read_surface(options.input, warnings, ReadTrims::kKept);
   if (!model) {
     bar.clear();
     return report(model.error());

@@ -66,6 +66,9 @@ constexpr std::array kKinds = {
     KindText{"offset", "At a distance along the normals, folds refused",
              "Surface (.json, STEP, IGES, BREP, control points)",
              "obvid surface offset skin.json --distance -2 -o inner.step"},
+    KindText{"trim", "The part above or below planes, inside or outside a closed contour",
+             "Surface (.json, STEP, IGES, BREP, control points)",
+             "obvid surface trim hull.json --plane z=1.8 --keep below -o bottom.step"},
     KindText{"convert", "A stored surface in another format",
              "Surface (.json, STEP, IGES, BREP, control points)",
              "obvid surface convert part.step -o part.glb"},
@@ -89,6 +92,7 @@ constexpr const char* kSurfaceHelp =
   obvid surface id GRID -o OUT                 integro-differential spline
   obvid surface scatter POINTS --tolerance T -o OUT  near points in any order
   obvid surface offset SURFACE --distance D -o OUT
+  obvid surface trim SURFACE --plane z=1.8 --keep below -o OUT   a part of it
   obvid surface convert SURFACE -o OUT         another format
   obvid surface check SURFACE                  curvature, joints, monotone sections
   obvid surface cut SURFACE -o OUT             sections by planes, lines drawing
@@ -239,6 +243,25 @@ struct KindOptions {
         ->type_name("DEG");
     app.add_flag("--drop-outliers", raw.values.drop_outliers,
                  "Leave out points that their neighbours pass by [named alone]");
+  }
+  void operator()(const TrimKind&) const {
+    app.add_option("--plane", raw.values.planes,
+                   "x=X, y=Y, z=Z, or NX,NY,NZ,D: all points with NX x + NY y + NZ z = D, input "
+                   "units; with several what is on the kept side of all stays")
+        ->type_name("PLANE");
+    app.add_option("--contour", raw.values.contour,
+                   "Closed contour, projected along --along: contour, curve of a drawing, points")
+        ->type_name("FILE");
+    app.add_option("--along", raw.values.along, "Direction of the projection: x, y or z [z]")
+        ->type_name("AXIS");
+    app.add_option("--keep", raw.values.keep,
+                   "above or below planes (above: where the normal points to); inside or outside a "
+                   "contour")
+        ->type_name("SIDE");
+    app.add_option("--tolerance", raw.values.tolerance,
+                   "Largest distance of trims from the exact cut, input units [1e-6 of the size]")
+        ->type_name("T");
+    add_contours(app, raw);
   }
   void operator()(const ConvertKind&) const {}
 

@@ -57,7 +57,11 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"row", count(s.row)},
                 {"up", text(s.up)},
                 {"steepest", number(s.steepest_deg)},
-                {"drop-outliers", flag(s.drop_outliers)}});
+                {"drop-outliers", flag(s.drop_outliers)},
+                {"plane", texts(s.planes)},
+                {"keep", text(s.keep)},
+                {"contour", text(s.contour)},
+                {"along", text(s.along)}});
   }
   if (known.formats) {
     SurfaceFormatValues& f = w.formats;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kFormat = "obvid-surface";
 constexpr int kVersion = 1;
+constexpr int kVersionOfTrims = 2;  ///< who does not know trims must not take whole patches
 
 void write_number(std::string& out, double value) {
   // "-0" would be read as the integer 0
@@ -40,6 +41,31 @@ std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+void write_trims(std::string& out, const std::vector<TrimLoop>& trims) {
+  format_into(out, ",\n   \"trims\": [");
+  for (std::size_t l = 0; l < trims.size(); ++l) {
+    format_into(out, "{}", l == 0 ? "\n    [" : ",\n    [");
+    for (std::size_t c = 0; c < trims[l].curves.size(); ++c) {
+      const NurbsCurve& curve = trims[l].curves[c];
+      format_into(out, "{}{{\"degree\": {}, \"knots\": ", c == 0 ? "" : ",\n     ", curve.degree);
+      write_list(out, curve.knots);
+      format_into(out, ", \"points\": [");
+      for (std::size_t i = 0; i < curve.points.size(); ++i) {
+        format_into(out, "{}", i == 0 ? "" : ", ");
+        write_list(out, {curve.points[i].x, curve.points[i].y});
+      }
+      format_into(out, "]");
+      if (!curve.weights.empty()) {
+        format_into(out, ", \"weights\": ");
+        write_list(out, curve.weights);
+      }
+      format_into(out, "}}");
+    }
+    format_into(out, "]");
+  }
+  format_into(out, "]");
+}
+
 void write_patch(std::string& out, const SurfacePatch& patch) {
   const NurbsSurface& s = patch.surface;
   format_into(out, "  {{\"name\": {}, \"degree_u\": {}, \"degree_v\": {},\n", quoted(patch.name),
@@ -59,6 +85,7 @@ void write_patch(std::string& out, const SurfacePatch& patch) {
     format_into(out, ",\n   \"weights\": ");
     write_list(out, s.weights);
   }
+  if (!patch.trims.empty()) write_trims(out, patch.trims);
   format_into(out, "}}");
 }
 
@@ -71,7 +98,7 @@ class SurfaceReader : private JsonValues {
     const Node format = field(root, "format");
     if (!failed() && word(format) != kFormat) refuse(format, "this is no surface file");
     const Node version = field(root, "version");
-    if (!failed() && integer(version, 1, kMaxInteger) != kVersion) {
+    if (!failed() && integer(version, 1, kMaxInteger) > kVersionOfTrims) {
       refuse(version, "this version of the format is not known");
     }
     if (const auto name = optional_field(root, "name")) model_.name = word(*name);
@@ -103,6 +130,28 @@ class SurfaceReader : private JsonValues {
     return {values[0], values[1], values[2]};
   }
 
+  NurbsCurve trim_curve(const Node& node) {
+    NurbsCurve out;
+    out.degree = static_cast<int>(integer(field(node, "degree"), 1, kMaxNurbsDegree));
+    if (!failed()) out.knots = numbers(field(node, "knots"));
+    if (failed()) return out;
+    each(field(node, "points"), [&](const Node& one) {
+      const std::vector<double> values = numbers(one);
+      if (failed()) return;
+      if (values.size() != 2) return refuse(one, "a place of a trim has two parameters");
+      out.points.push_back({values[0], values[1]});
+    });
+    if (failed()) return out;
+    if (const auto weights = optional_field(node, "weights")) out.weights = numbers(*weights);
+    return out;
+  }
+
+  TrimLoop trim_loop(const Node& node) {
+    TrimLoop out;
+    each(node, [&](const Node& one) { out.curves.push_back(trim_curve(one)); });
+    return out;
+  }
+
   SurfacePatch patch(const Node& node) {
     SurfacePatch out;
     NurbsSurface& s = out.surface;
@@ -118,7 +167,11 @@ class SurfaceReader : private JsonValues {
       if (const auto weights = optional_field(node, "weights")) s.weights = numbers(*weights);
     }
     if (failed()) return out;
-    if (auto good = check(s); !good) refuse(node, good.error().what);
+    if (const auto trims = optional_field(node, "trims")) {
+      each(*trims, [&](const Node& one) { out.trims.push_back(trim_loop(one)); });
+    }
+    if (failed()) return out;
+    if (auto good = check(out); !good) refuse(node, good.error().what);
     return out;
   }
 
@@ -138,8 +191,8 @@ std::string surface_json(const SurfaceModel& model) {
   format_into(out,
               "{{\"format\": \"{}\", \"version\": {},\n \"name\": {}, \"units\": {}, "
               "\"units_source\": \"{}\",\n \"patches\": [",
-              kFormat, kVersion, quoted(model.name), quoted(model.units.name),
-              to_string(model.units.source));
+              kFormat, is_trimmed(model) ? kVersionOfTrims : kVersion, quoted(model.name),
+              quoted(model.units.name), to_string(model.units.source));
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
     format_into(out, "{}", i == 0 ? "\n" : ",\n");
     write_patch(out, model.patches[i]);

@@ -13,6 +13,7 @@
 #include "measure.h"
 #include "obvid/mesh/mesh.h"
 #include "patch_mesher.h"
+#include "trimmed.h"
 
 namespace obvid {
 namespace {
@@ -175,9 +176,33 @@ Result<Mesh> tessellate(const NurbsSurface& surface, const TessellationOptions& 
 
 Result<std::vector<Mesh>> tessellate(const SurfaceModel& model, const TessellationOptions& options,
                                      const RunContext& run) {
-  Patches patches{surfaces_of(model), {}};
-  for (const SurfacePatch& patch : model.patches) patches.names.push_back(patch.name);
-  return Tessellator(patches, options, run).run();
+  Patches patches;
+  for (const SurfacePatch& patch : model.patches) {
+    if (!patch.trims.empty()) continue;
+    patches.surfaces.push_back(&patch.surface);
+    patches.names.push_back(patch.name);
+  }
+  auto whole = patches.surfaces.empty() ? Result<std::vector<Mesh>>(std::vector<Mesh>{})
+                                        : Tessellator(patches, options, run).run();
+  if (!whole || patches.surfaces.size() == model.patches.size()) return whole;
+  std::vector<Mesh> meshes;
+  auto next = whole->begin();
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    const SurfacePatch& patch = model.patches[i];
+    if (patch.trims.empty()) {
+      meshes.push_back(std::move(*next++));
+      continue;
+    }
+    auto mesh = mesh::tessellate_trimmed(patch, options, run);
+    if (!mesh) {
+      Error error = mesh.error();
+      error.index = static_cast<std::ptrdiff_t>(i);
+      if (error.where.empty()) error.where = patch.name;
+      return fail(std::move(error));
+    }
+    meshes.push_back(std::move(*mesh));
+  }
+  return meshes;
 }
 
 }  // namespace obvid

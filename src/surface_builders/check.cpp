@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "check_joints.h"
 #include "check_lines.h"
 #include "climb.h"
 #include "obvid/surface/internal/topology.h"
+#include "obvid/surface/internal/trim.h"
 
 namespace obvid {
 namespace {
@@ -34,12 +36,14 @@ struct Extreme {
 
 /// The extreme near that place. Not to where du x dv shrinks to less than half: the surface ends in
 /// a point there, its curvature may have no bound, and nothing but the steps would decide it.
-Peak climbed_on(const NurbsSurface& s, const Extreme& one, const Peak& from) {
+Peak climbed_on(const NurbsSurface& s, const TrimRegion* region, const Extreme& one,
+                const Peak& from) {
   constexpr double kLeastArea = 0.5;
   const auto area_of = [](const SurfaceJet& jet) { return norm(cross(jet.du, jet.dv)); };
   const double least = kLeastArea * area_of(evaluate(s, from.u.at, from.v.at));
   return climbed(
       [&](double u, double v) {
+        if (region != nullptr && !region->contains(u, v)) return std::nan("");
         const SurfaceJet jet = evaluate(s, u, v);
         if (!(area_of(jet) >= least)) return std::nan("");
         return one.sign * curvature(jet).*(one.quantity);
@@ -131,7 +135,12 @@ SurfacePlace place_of(const NurbsSurface& s, double u, double v) {
   return {u, v, evaluate(s, u, v).point};
 }
 
-Result<Measured> measured(const NurbsSurface& s, std::size_t n, const RunContext& run) {
+/// `region`: what of the surface is there; nothing: all.
+Result<Measured> measured(const NurbsSurface& s, const TrimRegion* region, std::size_t n,
+                          const RunContext& run) {
+  const auto is_there = [&](double u, double v) {
+    return region == nullptr || region->contains(u, v);
+  };
   constexpr std::array kQuantities{&SurfaceCurvature::gaussian, &SurfaceCurvature::mean,
                                    &SurfaceCurvature::k1, &SurfaceCurvature::k2};
   std::vector<Extreme> extremes;
@@ -149,6 +158,7 @@ Result<Measured> measured(const NurbsSurface& s, std::size_t n, const RunContext
     const Node& v = along_v[j];
     for (std::size_t i = 0; i < along_u.size(); ++i) {
       const Node& u = along_u[i];
+      if (!is_there(u.at, v.at)) continue;
       const SurfaceJet jet = evaluate(s, u.at, v.at);
       out.area += norm(cross(jet.du, jet.dv)) * u.weight * v.weight;
       const SurfaceCurvature k = curvature(jet);
@@ -168,7 +178,7 @@ Result<Measured> measured(const NurbsSurface& s, std::size_t n, const RunContext
   for (std::size_t q = 0; q < extremes.size(); ++q) {
     for (const Peak& start : peaks[q].highest()) {
       OBVID_TRY(may_go_on(run));
-      const Peak top = climbed_on(s, extremes[q], start);
+      const Peak top = climbed_on(s, region, extremes[q], start);
       if (!(top.value > most[q])) continue;
       most[q] = top.value;
       at[q] = place_of(s, top.u.at, top.v.at);
@@ -177,6 +187,7 @@ Result<Measured> measured(const NurbsSurface& s, std::size_t n, const RunContext
   std::size_t ways = 0;
   for (const Way& way : ways_out(s, along_u, along_v)) {
     if (++ways % kWaysUnasked == 0) OBVID_TRY(may_go_on(run));
+    if (!is_there(way.u + way.du, way.v + way.dv) || !is_there(way.u, way.v)) continue;
     if (!vanishes(s, way)) continue;
     std::array<SurfaceCurvature, kApproach + 1> along;
     bool tangent = true;
@@ -215,10 +226,19 @@ Result<PatchReport> report_of(const SurfacePatch& patch, std::size_t samples,
   report.order_u = order_of(s.knots_u, s.degree_u);
   report.order_v = order_of(s.knots_v, s.degree_v);
   report.rational = !s.weights.empty();
-  const auto measures = measured(s, samples, run);
+  const bool trimmed = !patch.trims.empty();
+  const TrimRegion region(patch);
+  const auto measures = measured(s, trimmed ? &region : nullptr, samples, run);
   OBVID_TRY(measures);
   const Measured& found = *measures;
+  report.trims = patch.trims.size();
   report.area = found.area;
+  if (trimmed) {
+    const auto area = area_of(patch, run);
+    OBVID_TRY(area);
+    report.area = area->value;
+    report.area_error = area->error;
+  }
   report.gaussian = found.curvature.gaussian;
   report.mean = found.curvature.mean;
   report.k1 = found.curvature.k1;
@@ -236,7 +256,14 @@ Result<PatchReport> report_of(const SurfacePatch& patch, std::size_t samples,
 }  // namespace
 
 CurvatureExtents curvature_extents(const NurbsSurface& surface, std::size_t samples) {
-  return measured(surface, samples, {})->curvature;  // nobody stops it
+  return measured(surface, nullptr, samples, {})->curvature;  // nobody stops it
+}
+
+CurvatureExtents curvature_extents(const SurfacePatch& patch) {
+  if (patch.trims.empty()) return curvature_extents(patch.surface);
+  constexpr std::size_t kSamples = 65;
+  const TrimRegion region(patch);
+  return measured(patch.surface, &region, kSamples, {})->curvature;
 }
 
 Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions& options,
@@ -255,9 +282,14 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
   const double meeting = options.meeting.value_or(kMeeting * result.size);
   auto joints = joints_of(model, topology, meeting, run);
   OBVID_TRY(joints);
-  result.joints = std::move(*joints);
+  const auto trimmed = [&](std::size_t i) { return !model.patches[i].trims.empty(); };
+  std::copy_if(joints->begin(), joints->end(), std::back_inserter(result.joints),
+               [&](const JointReport& joint) {
+                 return !trimmed(joint.patch[0]) && !trimmed(joint.patch[1]);
+               });
   for (const TopologyEdge& edge : topology.edges) {
-    if (!edge.point && edge.uses.size() == 1) ++result.free_borders;
+    if (edge.point || edge.uses.size() != 1 || trimmed(edge.uses.front().patch)) continue;
+    ++result.free_borders;
   }
   return result;
 }

@@ -858,7 +858,9 @@ class Surfaces(unittest.TestCase):
             program("surface", "grid", self.example("wavy_grid.csv"), "-o", grid)
             for kind, inputs, second, options, typed in (
                     ("coons", [us[0], vs[2], us[2], vs[0]], [], None, []), ("gordon", us, vs, None, ["--across", *vs]),
-                    ("offset", [grid], [], {"distance": 0.5}, ["--distance", "0.5"])):
+                    ("offset", [grid], [], {"distance": 0.5}, ["--distance", "0.5"]),
+                    ("trim", [grid], [], {"plane": ["x=10", "1,1,0,50"], "keep": "below"},
+                     ["--plane", "x=10", "--plane", "1,1,0,50", "--keep", "below"])):
                 with self.subTest(kind=kind):
                     told, _ = program("surface", kind, *inputs, *typed, "--json")
                     handle, report, failed = surface(kind, [read(one) for one in inputs], options,

@@ -9,8 +9,8 @@
 
 namespace obvid {
 
-/// Stored surface, `obvid-surface` version 1 (docs/formats.md): patches as NURBS, numbers that read
-/// back to the same double.
+/// Stored surface, `obvid-surface` version 1, with trims 2 (docs/formats.md): patches as NURBS,
+/// numbers that read back to the same double.
 [[nodiscard]] std::string surface_json(const SurfaceModel& model);
 
 /// Reads a stored surface. Fields of other programs are passed over. `name` stands in errors.

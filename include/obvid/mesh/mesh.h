@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "obvid/core/run_context.h"
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/surface/nurbs_surface.h"
 #include "obvid/surface/surface.h"
 
@@ -44,7 +44,8 @@ struct TessellationOptions {
 /// than allowed, or a cusp that no triangles come near.
 [[nodiscard]] Result<Mesh> tessellate(const NurbsSurface& surface,
                                       const TessellationOptions& options);
-/// All patches; vertices of borders that two patches share are the same points: borders are shared
+/// All patches, of trimmed ones what is there; vertices of borders that two whole patches share are
+/// the same points (trimmed ones have points of their own): borders are shared
 /// when they are the same curve from corner to corner (either way, at any pace) within 1e-7 of the
 /// model's size and a tenth of the chord tolerance. `Error::index`: the patch.
 [[nodiscard]] Result<std::vector<Mesh>> tessellate(const SurfaceModel& model,

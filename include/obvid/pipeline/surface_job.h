@@ -17,6 +17,7 @@
 #include "obvid/surface/surface.h"
 #include "obvid/surface_builders/internal/grid.h"
 #include "obvid/surface_builders/internal/scatter.h"
+#include "obvid/surface_cut/internal/plane_section.h"
 
 namespace obvid {
 
@@ -92,11 +93,18 @@ struct ScatterKind {
   double steepest = 85.0 / 180.0 * std::numbers::pi;  ///< rad, what neighbours may force
   bool drop_outliers = false;                         ///< left out, in place of named alone
 };
+/// A part of a surface: above planes or below them, inside or outside a closed contour.
+struct TrimKind {
+  std::vector<CutPlane> planes{};         ///< above: where the normal points to
+  std::optional<SurfaceInput> contour{};  ///< in the plane across `along`, which is projected
+  std::size_t along = 2;                  ///< axis of the projection: 0 x, 1 y, 2 z
+  bool keep_positive = true;              ///< above, inside; else below, outside
+};
 /// A surface as it is.
 struct ConvertKind {};
 
 using SurfaceKind = std::variant<SkinKind, RuledKind, RevolveKind, CoonsKind, GordonKind, GridKind,
-                                 OffsetKind, IdKind, ScatterKind, ConvertKind>;
+                                 OffsetKind, IdKind, ScatterKind, TrimKind, ConvertKind>;
 
 /// Where curves come from.
 struct CurveReading {
@@ -140,10 +148,15 @@ struct MadeSurface {
 /// What is to be said where section contours were formed but are not proved (E501).
 [[nodiscard]] std::optional<Error> not_proved(const MadeSurface& made);
 
+/// What becomes of the trims of patches that are read: whole patches with a warning for each, or
+/// patches with their trims, for what minds them.
+enum class ReadTrims { kTakenOff, kKept };
+
 /// A surface from a file: stored (.json), STEP, IGES, BREP, control points (.cpt, .cptw, .csv).
 /// `warnings` get what was left out.
 [[nodiscard]] Result<SurfaceModel> read_surface(const SurfaceInput& input,
-                                                std::vector<std::string>& warnings);
+                                                std::vector<std::string>& warnings,
+                                                ReadTrims trims = ReadTrims::kTakenOff);
 
 /// A curve of space from a file: a contour, a curve of a drawing, or points: in a plane the fair
 /// contour through them, else the C2 cubic by chord lengths (with a warning).

@@ -100,11 +100,24 @@ struct NurbsForm {
 /// of knots; those of `check` for each curve.
 [[nodiscard]] Result<NurbsForm> to_nurbs(const Surface& surface, double tolerance);
 
-/// One patch of a model with its name.
+/// A closed line in the plane of a patch's parameters (x is u, y is v): each curve begins where the
+/// one before ends, the first where the last one does. What is there lies to its left.
+struct TrimLoop {
+  std::vector<NurbsCurve> curves;
+};
+
+/// One patch of a model with its name, and what of it is there: the parameters that an odd number
+/// of loops goes around; without loops all of it.
 struct SurfacePatch {
   std::string name;
   NurbsSurface surface;
+  std::vector<TrimLoop> trims{};
 };
+
+/// The surface as `check(NurbsSurface)` has it, and its loops: curves as `check(NurbsCurve)` has
+/// them, that meet end to end within 1e-9 of the domain and do not leave it by more. Errors: those
+/// of both; E203 otherwise.
+[[nodiscard]] Result<void> check(const SurfacePatch& patch);
 
 /// What is written to files: patches in order, neighbours share borders where they meet.
 struct SurfaceModel {
@@ -112,6 +125,10 @@ struct SurfaceModel {
   Units units;
   std::vector<SurfacePatch> patches;
 };
+
+/// Makes all patches whole; a sentence about each that was trimmed.
+[[nodiscard]] std::vector<std::string> take_off_trims(SurfaceModel& model);
+[[nodiscard]] bool is_trimmed(const SurfaceModel& model);
 
 /// The surfaces of all patches, in order; valid as long as the model is.
 [[nodiscard]] std::vector<const NurbsSurface*> surfaces_of(const SurfaceModel& model);

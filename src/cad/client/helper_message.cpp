@@ -49,7 +49,8 @@ void fields(auto& io, IsA<CadCurve> auto& c) { io(c.name, c.geometry); }
 void fields(auto& io, IsA<NurbsSurface> auto& s) {
   io(s.degree_u, s.degree_v, s.knots_u, s.knots_v, s.points, s.weights);
 }
-void fields(auto& io, IsA<SurfacePatch> auto& p) { io(p.name, p.surface); }
+void fields(auto& io, IsA<TrimLoop> auto& loop) { io(loop.curves); }
+void fields(auto& io, IsA<SurfacePatch> auto& p) { io(p.name, p.surface, p.trims); }
 void fields(auto& io, IsA<SurfaceModel> auto& m) { io(m.name, m.units, m.patches); }
 void fields(auto& io, IsA<CadWriteOptions> auto& o) { io(o.format, o.units, o.face_width); }
 void fields(auto& io, IsA<CadSurfaces> auto& s) { io(s.model, s.warnings); }
@@ -146,7 +147,7 @@ Result<CadSurfaces> unpacked_surfaces(std::string_view bytes, const Error& other
   if (!result) return fail(otherwise);
   if (!*result) return *std::move(result);
   for (const SurfacePatch& patch : (*result)->model.patches) {
-    OBVID_TRY(check(patch.surface));
+    OBVID_TRY(check(patch));
   }
   return *std::move(result);
 }

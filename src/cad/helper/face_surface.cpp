@@ -23,6 +23,7 @@
 #include <numbers>
 #include <utility>
 
+#include "face_trims.h"
 #include "obvid/surface/surface.h"
 #include "splines.h"
 
@@ -185,7 +186,13 @@ FaceSurface surface_of(const TopoDS_Face& face) {
     out.refused = "is no surface of this program: " + made.error().what;
     return out;
   }
-  out.surface = face.Orientation() == TopAbs_REVERSED ? reversed_u(*made) : *std::move(made);
+  const bool turned = face.Orientation() == TopAbs_REVERSED;
+  if (out.trimmed) {
+    if (const auto loops = trims_of(face, surface, box.u, box.v, *made)) {
+      out.trims = turned ? with_u_reversed(*loops, domain_u(*made)) : *loops;
+    }
+  }
+  out.surface = turned ? reversed_u(*made) : *std::move(made);
   return out;
 }
 

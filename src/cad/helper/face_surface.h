@@ -4,8 +4,9 @@
 #include <TopoDS_Face.hxx>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "obvid/surface/nurbs_surface.h"
+#include "obvid/surface/surface.h"
 
 namespace obvid::cad {
 
@@ -14,6 +15,7 @@ struct FaceSurface {
   std::optional<NurbsSurface> surface;  ///< normal as the face has it
   std::string refused;                  ///< why there is none: "has no limits", ...
   bool trimmed = false;                 ///< the face covers a part of the box only
+  std::vector<TrimLoop> trims;          ///< then: which; empty where its boundary is not understood
   double deviation = 0.0;               ///< > 0: approximated within this, in the file's lengths
 };
 

@@ -23,6 +23,7 @@
 #include "borders.h"
 #include "creases.h"
 #include "splines.h"
+#include "trimmed_faces.h"
 
 namespace obvid::cad {
 namespace {
@@ -277,22 +278,91 @@ Result<Parts> parts_of(const SurfaceModel& model, double scale) {
 
 bool is_valid(const TopoDS_Shape& shape) { return BRepCheck_Analyzer(shape).IsValid(); }
 
+Error not_valid(const std::string& name) {
+  return error(ErrorCode::kInternal, "the CAD kernel finds no valid face on this surface")
+      .where(name)
+      .hint("look at it with `obvid surface check`");
+}
+
+Result<void> check_size(const SurfaceModel& model, double size) {
+  if (size > 0.0 && size < kLargest) return {};
+  return error(ErrorCode::kSizeOutOfRange, fmt::format("the size of the model is {:.3g} mm", size))
+      .where(model.name)
+      .hint("check the points and their unit")
+      .value(size);
+}
+
+/// Of the size: what the kernel may be off where it makes curves in space of those of parameters.
+constexpr double kEdges = 1e-8;
+
+/// Faces of one patch with its trims, named.
+Result<void> add_trimmed(SurfacePatch patch, double scale, double size, NamedFaces& out) {
+  for (Vec3& p : patch.surface.points) p = scale * p;
+  if (auto fine = check(patch); !fine) {
+    Error error = fine.error();
+    error.where = patch.name;
+    return fail(std::move(error));
+  }
+  const auto faces = trimmed_faces(patch, std::max(Precision::Confusion(), kEdges * size));
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    out.faces.push_back(faces[k]);
+    out.names.push_back(faces.size() == 1
+                            ? patch.name
+                            : fmt::format("{}, part {} of {}", patch.name, k + 1, faces.size()));
+  }
+  return {};
+}
+
+/// With trims: each face for itself, then edges that lie on each other made one.
+Result<NamedFaces> trimmed_faces_of(const SurfaceModel& model, double scale) {
+  const double size = scale * size_of(model);
+  OBVID_TRY(check_size(model, size));
+  NamedFaces out;
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    SurfacePatch patch = model.patches[i];
+    if (patch.name.empty()) patch.name = fmt::format("patch {}", i + 1);
+    if (!patch.trims.empty()) {
+      OBVID_TRY(add_trimmed(std::move(patch), scale, size, out));
+      continue;
+    }
+    SurfaceModel alone;
+    alone.patches.push_back(std::move(patch));
+    auto parts = parts_of(alone, scale);
+    OBVID_TRY(parts);
+    std::vector<const NurbsSurface*> pointers;
+    for (const NurbsSurface& one : parts->surfaces) pointers.push_back(&one);
+    const Topology topology = topology_of(pointers, kSameBorder * size);
+    for (TopoDS_Face& face :
+         Builder(parts->surfaces, joints_of(parts->surfaces, topology, JoinedWith::kItself))
+             .faces()) {
+      out.faces.push_back(std::move(face));
+    }
+    out.names.insert(out.names.end(), parts->names.begin(), parts->names.end());
+  }
+  for (std::size_t i = 0; i < out.faces.size(); ++i) {
+    if (!is_valid(out.faces[i])) return fail(not_valid(out.names[i]));
+  }
+  std::vector<TopoDS_Face> joined = out.faces;
+  out.shape = sewn(joined, kSameBorder * size);
+  if (is_valid(out.shape)) {
+    out.faces = std::move(joined);
+  } else {
+    out.shape = together({out.faces.begin(), out.faces.end()});
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
+  if (is_trimmed(model)) return trimmed_faces_of(model, scale);
   auto parts = parts_of(model, scale);
   OBVID_TRY(parts);
   const std::vector<NurbsSurface>& patches = parts->surfaces;
   std::vector<const NurbsSurface*> pointers;
   for (const NurbsSurface& patch : patches) pointers.push_back(&patch);
   const double size = size_of(pointers);
-  if (!(size > 0.0 && size < kLargest)) {
-    return error(ErrorCode::kSizeOutOfRange,
-                 fmt::format("the size of the model is {:.3g} mm", size))
-        .where(model.name)
-        .hint("check the points and their unit")
-        .value(size);
-  }
+  OBVID_TRY(check_size(model, size));
   const Topology topology = topology_of(pointers, kSameBorder * size);
   Builder builder(patches, joints_of(patches, topology, JoinedWith::kAll));
   std::vector<TopoDS_Face> faces = builder.faces();
@@ -308,11 +378,7 @@ Result<NamedFaces> faces_of(const SurfaceModel& model, double scale) {
       apart = Builder(patches, joints_of(patches, topology, JoinedWith::kItself)).faces();
     }
     for (const std::size_t i : group.patches) {
-      if (!is_valid(apart[i])) {
-        return error(ErrorCode::kInternal, "the CAD kernel finds no valid face on this surface")
-            .where(parts->names[i])
-            .hint("look at it with `obvid surface check`");
-      }
+      if (!is_valid(apart[i])) return fail(not_valid(parts->names[i]));
       faces[i] = apart[i];
       shapes.push_back(apart[i]);
     }

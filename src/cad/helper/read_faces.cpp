@@ -40,14 +40,17 @@ bool add_face(const TopoDS_Face& face, std::size_t number, const std::string& gi
     out.warnings.push_back(fmt::format("{} was left out: it {}", name, made.refused));
     return false;
   }
-  if (made.trimmed) {
-    out.warnings.push_back(name + " is trimmed: the whole box of its parameters was taken");
+  if (made.trimmed && made.trims.empty()) {
+    out.warnings.push_back(name +
+                           " is trimmed in a way that is not understood: the whole box of its "
+                           "parameters was taken");
   }
   if (made.deviation > 0.0) {
     out.warnings.push_back(
         fmt::format("{} is an offset, approximated within {:.2g} mm", name, made.deviation));
   }
-  out.model.patches.push_back({given.empty() ? plain : given, *std::move(made.surface)});
+  out.model.patches.push_back(
+      {given.empty() ? plain : given, *std::move(made.surface), std::move(made.trims)});
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "obvid/surface/internal/trim.h"
 #include "space/paths.h"
 
 namespace obvid::picture {
@@ -100,9 +101,57 @@ std::vector<Vec3> isoline(const NurbsSurface& surface, const PictureCamera& came
   return line;
 }
 
-void add_isolines(TwoPaths& paths, const Scene& scene, std::size_t patch, bool of_u, int cells) {
-  const NurbsSurface& surface = scene.model.patches[patch].surface;
-  const DrawnPatch& drawn = scene.patches[patch];
+/// Lines and borders of what is there of a trimmed patch.
+class TrimmedLines {
+ public:
+  TrimmedLines(const Scene& scene, std::size_t patch)
+      : scene_(scene), patch_(scene.model.patches[patch]), region_(patch_) {}
+
+  void add_isolines(TwoPaths& paths, bool of_u, int cells) const {
+    constexpr int kLinePlaces = 400;
+    const NurbsSurface& s = patch_.surface;
+    const Range range = of_u ? domain_u(s) : domain_v(s), along = of_u ? domain_v(s) : domain_u(s);
+    for (int k = 1; k < cells; ++k) {
+      const double at = range.at(static_cast<double>(k) / cells);
+      std::vector<Vec3> line;
+      for (int i = 0; i <= kLinePlaces; ++i) {
+        const double t = along.at(static_cast<double>(i) / kLinePlaces);
+        const double u = of_u ? at : t, v = of_u ? t : at;
+        if (region_.contains(u, v)) {
+          line.push_back(scene_.camera.project(evaluate(s, u, v).point));
+        } else if (!line.empty()) {
+          paths.add(line, scene_.depth, kThin);
+          line.clear();
+        }
+      }
+      if (!line.empty()) paths.add(line, scene_.depth, kThin);
+    }
+  }
+  void add_borders(TwoPaths& paths) const {
+    constexpr int kBorderPlaces = 16, kLeast = 64;
+    for (const TrimLoop& loop : patch_.trims) {
+      for (const NurbsCurve& curve : loop.curves) {
+        const Range range = domain(curve);
+        const int n = std::max(kLeast, kBorderPlaces * static_cast<int>(curve.knots.size()));
+        std::vector<Vec3> line;
+        for (int i = 0; i <= n; ++i) {
+          const Vec2 p = evaluate(curve, range.at(static_cast<double>(i) / n)).point;
+          line.push_back(scene_.camera.project(evaluate(patch_.surface, p.x, p.y).point));
+        }
+        paths.add(line, scene_.depth, kThin);
+      }
+    }
+  }
+
+ private:
+  const Scene& scene_;
+  const SurfacePatch& patch_;
+  TrimRegion region_;
+};
+
+void add_isolines(TwoPaths& paths, const Scene& scene, const DrawnPatch& drawn, bool of_u,
+                  int cells) {
+  const NurbsSurface& surface = scene.model.patches[drawn.patch].surface;
   const Range range = of_u ? domain_u(surface) : domain_v(surface);
   for (int k = 1; k < cells; ++k) {
     const double at = range.at(static_cast<double>(k) / cells);
@@ -111,10 +160,9 @@ void add_isolines(TwoPaths& paths, const Scene& scene, std::size_t patch, bool o
   }
 }
 
-void add_borders(TwoPaths& paths, const Scene& scene, std::size_t patch,
+void add_borders(TwoPaths& paths, const Scene& scene, const DrawnPatch& drawn,
                  const std::array<bool, 4>& real) {
-  const NurbsSurface& surface = scene.model.patches[patch].surface;
-  const DrawnPatch& drawn = scene.patches[patch];
+  const NurbsSurface& surface = scene.model.patches[drawn.patch].surface;
   const Range u = domain_u(surface), v = domain_v(surface);
   const std::array<double, 4> at = {u.from, u.to, v.from, v.to};
   for (std::size_t k = 0; k < real.size(); ++k) {
@@ -181,13 +229,23 @@ std::string surface_lines(const Scene& scene, const SurfacePictureOptions& optio
   const bool isolines = options.colouring == SurfaceColouring::kIsolines;
   const bool thin = is_curvature(options.colouring);
   const auto real = real_borders(scene.model);
-  for (std::size_t k = 0; k < scene.patches.size(); ++k) {
+  for (const DrawnPatch& drawn : scene.patches) {
+    add_outlines(outlines, scene, drawn);
+    if (!scene.model.patches[drawn.patch].trims.empty()) continue;
     if (isolines || thin) {
-      add_isolines(u, scene, k, true, options.isolines_u);
-      add_isolines(v, scene, k, false, options.isolines_v);
+      add_isolines(u, scene, drawn, true, options.isolines_u);
+      add_isolines(v, scene, drawn, false, options.isolines_v);
     }
-    add_borders(borders, scene, k, real[k]);
-    add_outlines(outlines, scene, scene.patches[k]);
+    add_borders(borders, scene, drawn, real[drawn.patch]);
+  }
+  for (std::size_t k = 0; k < scene.model.patches.size(); ++k) {
+    if (scene.model.patches[k].trims.empty()) continue;
+    const TrimmedLines lines(scene, k);
+    if (isolines || thin) {
+      lines.add_isolines(u, true, options.isolines_u);
+      lines.add_isolines(v, false, options.isolines_v);
+    }
+    lines.add_borders(borders);
   }
   return group(element(isolines ? "iso u" : "iso", u.seen.take()) +
                element(isolines ? "iso v" : "iso", v.seen.take()) +

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
+
+#include "obvid/surface/internal/trim.h"
 
 namespace obvid::picture {
 namespace {
@@ -89,18 +92,53 @@ std::size_t cells(double wanted) {
                     kMostRasterCells);
 }
 
+void add_vertex(const NurbsSurface& surface, double size, double u, double v,
+                SurfaceColouring colouring, DrawnPatch& patch) {
+  const SurfaceCurvature k = curvature_at(surface, size, u, v);
+  patch.points.push_back(evaluate(surface, u, v).point);
+  patch.normals.push_back(k.normal);
+  if (is_curvature(colouring)) {
+    patch.values.push_back(quantity(colouring, principal_at(surface, size, u, v)));
+  }
+}
+
+/// The bands of a trimmed patch, n x m cells over the whole domain; rows are nearer to each other
+/// towards the ends of a band, where trims may turn.
+void add_bands(const SurfacePatch& patch, std::size_t number, std::size_t n, std::size_t m,
+               SurfaceColouring colouring, std::vector<DrawnPatch>& out) {
+  constexpr double kLeastCells = 8.0;
+  const NurbsSurface& surface = patch.surface;
+  const double size = size_of(surface);
+  const TrimRegion region(patch);
+  for (const TrimBand& band : region.bands()) {
+    const double high = band.v.length() / domain_v(surface).length();
+    const double wide = region.across(band, band.v.at(0.5)).length() / domain_u(surface).length();
+    const auto cells_of = [&](double share, std::size_t all) {
+      return std::ceil(std::max(kLeastCells, share * static_cast<double>(all)));
+    };
+    DrawnPatch drawn;
+    drawn.patch = number;
+    const double columns = cells_of(wide, n), rows = cells_of(high, m);
+    for (double k = 0.0; k <= columns; ++k) drawn.us.push_back(k / columns);
+    for (double k = 0.0; k <= rows; ++k) {
+      drawn.vs.push_back(0.5 - 0.5 * std::cos(std::numbers::pi * k / rows));
+    }
+    for (const double part : drawn.vs) {
+      const double v = band.v.at(part);
+      const Range across = region.across(band, v);
+      for (const double s : drawn.us) {
+        add_vertex(surface, size, across.at(s), v, colouring, drawn);
+      }
+    }
+    out.push_back(std::move(drawn));
+  }
+}
+
 DrawnPatch evaluated(const NurbsSurface& surface, double size, std::vector<double> us,
                      std::vector<double> vs, SurfaceColouring colouring) {
   DrawnPatch patch;
   for (const double v : vs) {
-    for (const double u : us) {
-      const SurfaceCurvature k = curvature_at(surface, size, u, v);
-      patch.points.push_back(evaluate(surface, u, v).point);
-      patch.normals.push_back(k.normal);
-      if (is_curvature(colouring)) {
-        patch.values.push_back(quantity(colouring, principal_at(surface, size, u, v)));
-      }
-    }
+    for (const double u : us) add_vertex(surface, size, u, v, colouring, patch);
   }
   patch.us = std::move(us);
   patch.vs = std::move(vs);
@@ -128,9 +166,14 @@ std::vector<DrawnPatch> drawn_patches(const SurfaceModel& model, SurfaceColourin
     const double ratio = plan.v.total() > 0.0 ? plan.u.total() / plan.v.total() : 1.0;
     const std::size_t n = cells(std::sqrt(facets * ratio));
     const std::size_t m = cells(facets / static_cast<double>(n));
+    if (!model.patches[i].trims.empty()) {
+      add_bands(model.patches[i], i, n, m, colouring, patches);
+      continue;
+    }
     const NurbsSurface& surface = model.patches[i].surface;
     patches.push_back(
         evaluated(surface, size_of(surface), plan.u.divided(n), plan.v.divided(m), colouring));
+    patches.back().patch = i;
   }
   return patches;
 }

@@ -9,9 +9,10 @@
 namespace obvid::picture {
 
 /// A patch divided into quadrilaterals, finer where it bends: vertex i of row j stands at
-/// j * us.size() + i.
+/// j * us.size() + i. A trimmed patch has one for each of its bands.
 struct DrawnPatch {
-  std::vector<double> us, vs;
+  std::size_t patch = 0;       ///< of the model
+  std::vector<double> us, vs;  ///< parameters; of a band: parts of it
   std::vector<Vec3> points;
   std::vector<Vec3> normals;
   std::vector<double> values;  ///< of a curvature colouring, else empty
@@ -19,7 +20,8 @@ struct DrawnPatch {
   [[nodiscard]] std::size_t vertex(std::size_t i, std::size_t j) const { return j * us.size() + i; }
 };
 
-/// About `most_facets` cells in all, at least one of each patch.
+/// About `most_facets` cells in all, at least one of each patch, in the order of the patches; of
+/// trimmed patches more.
 [[nodiscard]] std::vector<DrawnPatch> drawn_patches(const SurfaceModel& model,
                                                     SurfaceColouring colouring,
                                                     std::size_t most_facets);

@@ -60,7 +60,7 @@ Result<void> check_scene(const SurfaceModel& model, const SurfacePictureOptions&
                            static_cast<double>(model.patches.size())));
   }
   for (const SurfacePatch& patch : model.patches) {
-    OBVID_TRY(check(patch.surface));
+    OBVID_TRY(check(patch));
   }
   for (std::size_t i = 0; i < options.lines.size(); ++i) {
     for (const Vec3 p : options.lines[i].points) {
@@ -113,7 +113,9 @@ SheetTexts texts_of(const SurfaceModel& model, const std::vector<DrawnPatch>& pa
   texts.title = plain_text(options.title.empty() ? model.name : options.title);
   texts.units = plain_text(model.units.text());
   texts.facts = size_text(box_of_patches(patches).size(), texts.units);
-  if (patches.size() > 1) texts.facts += " · " + std::to_string(patches.size()) + " patches";
+  if (model.patches.size() > 1) {
+    texts.facts += " · " + std::to_string(model.patches.size()) + " patches";
+  }
   return texts;
 }
 

@@ -19,7 +19,10 @@ Result<CadSurfaces> read_faces(const std::string& path) { return read_cad_surfac
 
 }  // namespace
 
-Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::string>& warnings) {
+namespace {
+
+/// With all trims.
+Result<SurfaceModel> read_trimmed(const SurfaceInput& input, std::vector<std::string>& warnings) {
   const std::string& path = input.name;
   if (input.points) {
     return error(ErrorCode::kUnsupported, "points are no surface")
@@ -46,6 +49,16 @@ Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::st
   OBVID_TRY(surfaces);
   warnings.insert(warnings.end(), surfaces->warnings.begin(), surfaces->warnings.end());
   return std::move(surfaces->model);
+}
+
+}  // namespace
+
+Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::string>& warnings,
+                                  ReadTrims trims) {
+  auto model = read_trimmed(input, warnings);
+  if (!model || trims == ReadTrims::kKept) return model;
+  for (std::string& told : take_off_trims(*model)) warnings.push_back(std::move(told));
+  return model;
 }
 
 }  // namespace obvid

@@ -56,6 +56,9 @@ Result<SurfaceDeviation> measured_against(const SurfaceModel& model, const Surfa
   OBVID_TRY(tell(run, "deviation", 0.0));
   SurfaceDeviation out;
   out.against = against.name;
+  if (is_trimmed(model)) {
+    warnings.push_back("distances are measured from whole patches, without their trims");
+  }
   const NearestOnModel on_this(model);
   if (!reference->surface) {
     out.points = true;
@@ -88,6 +91,12 @@ Result<CheckedSurface> check_surface(const SurfaceModel& model, const SurfaceChe
   auto check = check_surface(model, job.check, run);
   OBVID_TRY(check);
   out.check = std::move(*check);
+  if (is_trimmed(model)) {
+    out.warnings.push_back(
+        "trimmed patches: areas and ranges of curvature are those inside the trims; lines of "
+        "constant "
+        "parameters run over whole patches, borders of trimmed ones are not compared");
+  }
   if (!job.against) return out;
   auto deviation = measured_against(model, *job.against, job.check.samples, out.warnings, run);
   OBVID_TRY(deviation);

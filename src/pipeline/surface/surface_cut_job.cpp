@@ -12,6 +12,7 @@
 #include "obvid/core/internal/parallel.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/pipeline/fit.h"
+#include "obvid/surface_cut/internal/inside_trims.h"
 
 namespace obvid {
 namespace {
@@ -157,6 +158,12 @@ void add_warnings(MadeSurfaceCut& made) {
 
 Result<void> measure(const SurfaceModel& model, const SurfaceCutJob& job, const RunContext& run,
                      MadeSurfaceCut& made) {
+  if (is_trimmed(model)) {
+    return error(ErrorCode::kUnsupported,
+                 "what floats is measured of whole patches, these are trimmed")
+        .where(model.name)
+        .hint("the draught itself needs no trim: give the surface as it was before");
+  }
   auto found = displaced(model, {*job.draught, job.half}, run);
   OBVID_TRY(found);
   if (!(found->volume.value > 0.0)) {
@@ -217,7 +224,7 @@ Result<MadeSurfaceCut> cut_surface(const SurfaceModel& model, const SurfaceCutJo
         failed[i] = found.error();
         return;
       }
-      one.section = std::move(*found);
+      one.section = inside_trims(std::move(*found), model, one.plane);
       if (!job.fair) return;
       for (const SectionBranch& branch : one.section.branches) {
         one.fair.push_back(fair_branch(one, branch, *job.fair, made.units, asked));

@@ -6,6 +6,7 @@
 
 #include "obvid/core/internal/typed_numbers.h"
 #include "obvid/pipeline/internal/job_values.h"
+#include "obvid/pipeline/internal/surface_values.h"
 #include "obvid/pipeline/surface_cut_job.h"
 
 namespace obvid {
@@ -42,18 +43,24 @@ Result<void> positive_length(const std::optional<double>& value, const char* opt
 
 }  // namespace
 
+Result<CutPlane> plane_of(const std::string& typed, const char* option) {
+  const auto numbers = typed_numbers(typed);
+  const auto bad = [&](const char* why) {
+    return fail(bad_option("'" + typed + "' " + why, option,
+                           "give NX,NY,NZ,D: all points with NX x + NY y + NZ z = D"));
+  };
+  if (!numbers || numbers->size() != 4) return bad("is no plane");
+  const Vec3 normal{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  const double length = std::hypot(normal.x, normal.y, normal.z);
+  if (!(length > 0.0 && std::isfinite(length))) return bad("has no normal");
+  return CutPlane{unit(normal / length), (*numbers)[3] / length};
+}
+
 Result<void> set_surface_cut(const SurfaceCutValues& typed, SurfaceCutJob& job) {
   for (const std::string& text : typed.planes) {
-    const auto numbers = typed_numbers(text);
-    const auto bad = [&](const char* why) {
-      return fail(bad_option("'" + text + "' " + why, "--plane",
-                             "give NX,NY,NZ,D: all points with NX x + NY y + NZ z = D"));
-    };
-    if (!numbers || numbers->size() != 4) return bad("is no plane");
-    const Vec3 normal{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-    const double length = std::hypot(normal.x, normal.y, normal.z);
-    if (!(length > 0.0 && std::isfinite(length))) return bad("has no normal");
-    job.planes.push_back({unit(normal / length), (*numbers)[3] / length});
+    const auto plane = plane_of(text, "--plane");
+    OBVID_TRY(plane);
+    job.planes.push_back(*plane);
   }
   OBVID_TRY(set_places(typed.stations, "--stations", job.stations));
   OBVID_TRY(set_places(typed.waterlines, "--waterlines", job.waterlines));

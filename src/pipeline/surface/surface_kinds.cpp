@@ -251,10 +251,15 @@ Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job, con
   return made;
 }
 
+Result<MadeSurface> make_kind(const TrimKind& kind, const SurfaceJob& job, const RunContext& run) {
+  OBVID_TRY(need(job, 1, 1, "one surface"));
+  return made_trimmed({kind.planes, kind.contour, kind.along, kind.keep_positive}, job, run);
+}
+
 Result<MadeSurface> make_kind(const ConvertKind&, const SurfaceJob& job, const RunContext&) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings);
+  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept);
   OBVID_TRY(model);
   made.model = std::move(*model);
   made.kind = "as stored";

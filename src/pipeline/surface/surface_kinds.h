@@ -40,6 +40,8 @@ inline constexpr double kSurfaceTolerance = 1e-5;
                                             const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_kind(const ScatterKind& kind, const SurfaceJob& job,
                                             const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const TrimKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_kind(const ConvertKind& kind, const SurfaceJob& job,
                                             const RunContext& run);
 
@@ -52,6 +54,17 @@ inline constexpr double kSurfaceTolerance = 1e-5;
 [[nodiscard]] Result<MadeSurface> made_near_points(ScatterOptions options,
                                                    const std::optional<Vec3>& up,
                                                    const SurfaceJob& job, const RunContext& run);
+
+/// What a surface is trimmed by.
+struct TrimmedBy {
+  const std::vector<CutPlane>& planes;
+  const std::optional<SurfaceInput>& contour;
+  std::size_t along;
+  bool keep_positive;
+};
+/// The part of the job's surface on that side.
+[[nodiscard]] Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
+                                               const RunContext& run);
 
 /// A surface of one patch as NURBS within the job's tolerance, or 1e-5 of `size`.
 [[nodiscard]] Result<MadeSurface> made_of(const Surface& surface, const std::string& name,

@@ -186,7 +186,8 @@ std::string surface_check_json(const SurfaceModel& model, const CheckedSurface& 
     json.begin_object().pair("name", p.name).pair("degree_u", p.degree_u);
     json.pair("degree_v", p.degree_v).pair("count_u", p.count_u).pair("count_v", p.count_v);
     json.pair("order_u", p.order_u).pair("order_v", p.order_v).pair("rational", p.rational);
-    json.pair("area", p.area).pair("without_normal", p.without_normal);
+    json.pair("trims", p.trims).pair("area", p.area).pair("area_error", p.area_error);
+    json.pair("without_normal", p.without_normal);
     add_extent(json, "gaussian", p.gaussian);
     add_extent(json, "mean", p.mean);
     add_extent(json, "k1", p.k1);
@@ -242,7 +243,7 @@ CurvatureExtremes extremes_of(const SurfaceCheck& check) {
 CurvatureExtremes extremes_of(const SurfaceModel& model) {
   SurfaceCheck check;
   for (const SurfacePatch& patch : model.patches) {
-    const CurvatureExtents found = curvature_extents(patch.surface);
+    const CurvatureExtents found = curvature_extents(patch);
     PatchReport& report = check.patches.emplace_back();
     report.gaussian = found.gaussian;
     report.mean = found.mean;

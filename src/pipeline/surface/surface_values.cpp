@@ -15,10 +15,10 @@ namespace {
 
 const std::map<std::string, SurfaceKind>& surface_kinds() {
   static const std::map<std::string, SurfaceKind> all = {
-      {"skin", SkinKind{}},      {"ruled", RuledKind{}},   {"revolve", RevolveKind{}},
-      {"coons", CoonsKind{}},    {"gordon", GordonKind{}}, {"grid", GridKind{}},
-      {"offset", OffsetKind{}},  {"id", IdKind{}},         {"scatter", ScatterKind{}},
-      {"convert", ConvertKind{}}};
+      {"skin", SkinKind{}},     {"ruled", RuledKind{}},    {"revolve", RevolveKind{}},
+      {"coons", CoonsKind{}},   {"gordon", GordonKind{}},  {"grid", GridKind{}},
+      {"offset", OffsetKind{}}, {"id", IdKind{}},          {"scatter", ScatterKind{}},
+      {"trim", TrimKind{}},     {"convert", ConvertKind{}}};
   return all;
 }
 
@@ -88,6 +88,13 @@ Result<void> set_kind(const SurfaceValues& raw, RuledKind& kind) {
     kind.apex = *apex;
   }
   return set_kind(raw, kind.strips);
+}
+
+/// "x", "Y", ... as 0, 1, 2.
+std::optional<std::size_t> axis_number(const std::string& typed) {
+  if (typed.size() != 1) return std::nullopt;
+  const std::size_t at = std::string("xyzXYZ").find(typed);
+  return at == std::string::npos ? std::nullopt : std::optional(at % 3);
 }
 
 /// "x", "y", "z" or "X,Y,Z".
@@ -174,6 +181,50 @@ Result<void> set_kind(const SurfaceValues& raw, ScatterKind& kind) {
     kind.steepest = *raw.steepest_deg * kOneDegree;
   }
   kind.drop_outliers = raw.drop_outliers;
+  return {};
+}
+
+/// "NX,NY,NZ,D" as sections have it, or "z=1.5".
+Result<CutPlane> trimming_plane(const std::string& typed) {
+  const std::size_t equals = typed.find('=');
+  if (equals == std::string::npos) return plane_of(typed, "--plane");
+  const auto axis = axis_number(typed.substr(0, equals));
+  const auto offset = typed_number(typed.substr(equals + 1));
+  if (!axis || !offset || !std::isfinite(*offset)) {
+    return fail(bad_option("'" + typed + "' is no plane", "--plane",
+                           "give z=1.5, or NX,NY,NZ,D: all points with NX x + NY y + NZ z = D"));
+  }
+  return CutPlane{{*axis == 0 ? 1.0 : 0.0, *axis == 1 ? 1.0 : 0.0, *axis == 2 ? 1.0 : 0.0},
+                  *offset};
+}
+
+Result<void> set_kind(const SurfaceValues& raw, TrimKind& kind) {
+  if (raw.planes.empty() == !raw.contour) {
+    return fail(bad_option("a trim needs planes or a contour, and not both", "",
+                           "give --plane z=1.5 or --contour FILE"));
+  }
+  for (const std::string& typed : raw.planes) {
+    const auto plane = trimming_plane(typed);
+    OBVID_TRY(plane);
+    kind.planes.push_back(*plane);
+  }
+  const std::string keep = raw.keep.value_or("");
+  const char* sides =
+      raw.contour ? "give --keep inside or --keep outside" : "give --keep above or --keep below";
+  if (keep != (raw.contour ? "inside" : "above") && keep != (raw.contour ? "outside" : "below")) {
+    return fail(
+        bad_option(keep.empty() ? "a trim keeps one side" : "'" + keep + "' is no side of it",
+                   "--keep", sides));
+  }
+  kind.keep_positive = keep == "inside" || keep == "above";
+  if (raw.contour) {
+    if (raw.contour->empty()) return fail(bad_option("no file is named", "--contour", ""));
+    kind.contour = SurfaceInput(*raw.contour);
+  }
+  const auto along = axis_number(raw.along);
+  if (!along)
+    return fail(bad_option("'" + raw.along + "' is no axis", "--along", "give x, y or z"));
+  kind.along = *along;
   return {};
 }
 

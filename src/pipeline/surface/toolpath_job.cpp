@@ -60,6 +60,13 @@ Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan
 
 Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
                                    const RunContext& run) {
+  if (is_trimmed(model)) {
+    SurfaceModel whole = model;
+    auto told = take_off_trims(whole);
+    auto made = make_toolpath(whole, job, run);
+    if (made) made->warnings.insert(made->warnings.begin(), told.begin(), told.end());
+    return made;
+  }
   const ToolpathOptions options = options_for(job, model.units.name);
   OBVID_TRY(check_effort(model, options));
   auto path = plan(model, options, run);

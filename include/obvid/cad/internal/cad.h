@@ -92,11 +92,12 @@ struct CadSurfaces {
 
 /// All faces of a STEP, IGES or BREP file, normals as the file has them; format by content. Planes,
 /// cylinders, cones, spheres, tori, extrusions, revolutions and B-splines exactly; offsets within
-/// 1e-6 of the model's size, which a warning says. A trimmed face gives the whole box of its
-/// parameters, with a warning that names it; faces of degree above 9 or without limits are left out
-/// with a warning. Lengths in mm (of BREP files as they are).
-/// Errors: E301, E310 no helper, E314 when the kernel cannot read the file, E311 when it has no
-/// faces that could be taken, E103.
+/// 1e-6 of the model's size, which a warning says. Trimmed faces have their boundary as loops of
+/// parameters (within 1e-7 of their size where the kernel has other parameters than we); where that
+/// is not understood they are the whole box of their parameters, with a warning that names it;
+/// faces of degree above 9 or without limits are left out with a warning. Lengths in mm (of BREP
+/// files as they are). Errors: E301, E310 no helper, E314 when the kernel cannot read the file,
+/// E311 when it has no faces that could be taken, E103.
 [[nodiscard]] Result<CadSurfaces> read_cad_surfaces(const std::string& path,
                                                     const CadRun& run = {});
 

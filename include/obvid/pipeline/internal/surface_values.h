@@ -17,9 +17,13 @@ namespace obvid {
 // with the name of the option as the command line has it.
 
 /// Kinds of surfaces by name, nothing said of them yet: "skin", "ruled", "revolve", "coons",
-/// "gordon", "grid", "id", "offset", "scatter", "convert". Error: E201 with the nearest name.
+/// "gordon", "grid", "id", "offset", "scatter", "trim", "convert". Error: E201 with the nearest
+/// name.
 [[nodiscard]] Result<SurfaceKind> surface_kind_named(const std::string& name);
 [[nodiscard]] std::vector<std::string> surface_kind_names();
+
+/// "NX,NY,NZ,D": all points with NX x + NY y + NZ z = D. Error: E203.
+[[nodiscard]] Result<CutPlane> plane_of(const std::string& typed, const char* option);
 
 struct SurfaceValues {
   std::optional<double> tolerance, spacing, light, fair_across, distance, angle_deg, steepest_deg;
@@ -28,6 +32,10 @@ struct SurfaceValues {
   std::string direction, apex, axis = "x", axis_point, up = "best";  ///< "X,Y,Z"
   bool near = false, control = false, straight = false, smooth = false;
   bool drop_outliers = false;
+  std::vector<std::string> planes;     ///< as of `SurfaceCutValues`, or "z=1.5"
+  std::optional<std::string> keep;     ///< "above", "below"; "inside", "outside"
+  std::optional<std::string> contour;  ///< path of a file
+  std::string along = "z";             ///< "x", "y", "z"
 };
 
 /// Into the job, whose kind is known: its own values, and those of all kinds.

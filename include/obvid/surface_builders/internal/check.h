@@ -44,6 +44,8 @@ struct CurvatureExtents {
 /// patch are not looked for. All 0 without a tangent plane.
 [[nodiscard]] CurvatureExtents curvature_extents(const NurbsSurface& surface,
                                                  std::size_t samples = 65);
+/// Of what is there of a patch.
+[[nodiscard]] CurvatureExtents curvature_extents(const SurfacePatch& patch);
 
 /// Curvature along the lines of one family of parameters.
 struct LineReport {
@@ -61,7 +63,9 @@ struct PatchReport {
   int order_u = 0, order_v = 0;  ///< of continuity at inner knots, by their multiplicities; the
                                  ///< degree where there are none
   bool rational = false;
-  double area = 0.0;               ///< units^2, by quadrature: good to some 1e-4
+  std::size_t trims = 0;           ///< loops; 0: the whole patch is there
+  double area = 0.0;               ///< units^2, by quadrature: of whole patches good to some 1e-4
+  double area_error = 0.0;         ///< of trimmed patches: what the last step of it changed
   Extent gaussian, mean, k1, k2;   ///< as of `curvature_extents`; 1/units^2 and 1/units
   std::size_t without_normal = 0;  ///< samples where the surface has no tangent plane (poles)
   LineReport along_u;              ///< lines v = const
@@ -91,7 +95,8 @@ struct SurfaceCheck {
   double size = 0.0;  ///< diagonal of the control points' box, units
   std::vector<PatchReport> patches;
   std::vector<JointReport> joints;
-  std::size_t free_borders = 0;  ///< sides that share their edge with none, points not counted
+  std::size_t free_borders = 0;  ///< sides that share their edge with none, points not counted;
+                                 ///< none of trimmed patches
 };
 
 struct CheckOptions {
@@ -110,6 +115,9 @@ inline constexpr double kMeeting = 1e-5;
 /// both borders and climbed to from the best; where the borders run at different speeds, in fewer
 /// spans when there are more than 256. Curvature of lines is that of curves in space, with the sign
 /// that their mean plane gives; steps below 1e-6 of a line's largest curvature are rounding.
+/// Of trimmed patches area and ranges of curvature are those of what is there (a raster of the
+/// whole patch, its places outside left out; climbing stays inside; all 0 where no place of it is
+/// inside); lines run over the whole patch; borders are not compared.
 [[nodiscard]] Result<SurfaceCheck> check_surface(const SurfaceModel& model,
                                                  const CheckOptions& options = {},
                                                  const RunContext& run = {});

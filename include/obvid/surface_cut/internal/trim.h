@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
+#include "obvid/surface/surface.h"
+#include "obvid/surface_cut/internal/plane_section.h"
+
+namespace obvid {
+
+struct TrimOptions {
+  double tolerance = 0.0;     ///< units, > 0: of the trims from the exact cut
+  bool keep_positive = true;  ///< what lies where the normal of a plane points to; inside a contour
+};
+
+/// A part of a model.
+struct TrimmedModel {
+  SurfaceModel model;
+  double deviation = 0.0;   ///< units: of trims from the exact cut along the surface, as measured
+  std::size_t whole = 0;    ///< patches that stay as they were
+  std::size_t cut = 0;      ///< patches (or halves) that are trimmed by this
+  std::size_t dropped = 0;  ///< patches of which nothing is left
+};
+
+/// The part of a model on one side of a plane. The lines are those of `ModelCutter`, as cubic
+/// curves of the parameters within the tolerance; a new trim goes along old ones where these are on
+/// that side. Patches that close on themselves and are cut become two halves, so that no trim
+/// crosses a seam. A patch that only touches the plane stays whole or goes.
+///
+/// Errors: those of `ModelCutter` (E203 the tolerance); E310 a cut that ends elsewhere than on the
+/// border of what is there, or a closed patch with trims (`where`: the patch); E311 nothing is
+/// left; E502 a line that does not come within the tolerance; E103.
+[[nodiscard]] Result<TrimmedModel> trimmed(const SurfaceModel& model, const CutPlane& plane,
+                                           const TrimOptions& options, const RunContext& run = {});
+
+/// A closed curve in a plane, projected along the normal of the frame.
+struct ProjectedContour {
+  Frame frame;
+  std::vector<NurbsCurve> curves;  ///< end to end, in coordinates of the frame; not crossing itself
+};
+
+/// The part of a model inside of a contour, or outside. Each patch is looked at on a raster of at
+/// least 8 x 8 places in every span (256 x 256 in all): parts of it inside or outside that hold no
+/// place of the raster are missed, which is measured nowhere. The distance from a contour is that
+/// of its nearest point. Errors: as above; E203 a contour that is not closed.
+[[nodiscard]] Result<TrimmedModel> trimmed(const SurfaceModel& model,
+                                           const ProjectedContour& contour,
+                                           const TrimOptions& options, const RunContext& run = {});
+
+}  // namespace obvid

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "obvid/core/internal/figures.h"
+#include "obvid/surface/internal/trim.h"
+#include "obvid/surface_cut/internal/trim.h"
+#include "surface/surface_kinds.h"
+
+namespace obvid::pipeline_detail {
+namespace {
+
+constexpr double kTrimTolerance = 1e-6;  ///< of the size
+
+/// The contour in the plane across the axis. One that lies in z = 0 is taken in the coordinates of
+/// that plane, as `surface cut` writes sections: y, z across x; x, z across y.
+ProjectedContour projected(const SpaceCurve& curve, std::size_t along) {
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const std::array<Frame, 3> frames = {Frame{{}, y, z}, Frame{{}, x, z}, Frame{{}, x, y}};
+  const Frame& frame = frames[along];
+  const bool flat =
+      std::all_of(curve.points.begin(), curve.points.end(), [](Vec3 p) { return p.z == 0.0; });
+  NurbsCurve plane{curve.degree, curve.knots, {}, curve.weights};
+  for (const Vec3 p : curve.points)
+    plane.points.push_back(flat ? Vec2{p.x, p.y} : frame.in_plane(p));
+  return {frame, {std::move(plane)}};
+}
+
+struct Sums {
+  std::size_t trims = 0;
+  PatchArea area;
+};
+
+Result<Sums> sums_of(const SurfaceModel& model, const RunContext& run) {
+  Sums out;
+  for (const SurfacePatch& patch : model.patches) {
+    const auto area = area_of(patch, run);
+    OBVID_TRY(area);
+    out.area.value += area->value;
+    out.area.error += area->error;
+    out.trims += patch.trims.size();
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
+                                 const RunContext& run) {
+  MadeSurface made;
+  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept);
+  OBVID_TRY(model);
+  made.model = std::move(*model);
+  const TrimOptions options{job.tolerance.value_or(kTrimTolerance * obvid::size_of(made.model)),
+                            by.keep_positive};
+  const auto take = [&](Result<TrimmedModel> part) -> Result<void> {
+    OBVID_TRY(part);
+    made.deviation = std::max(made.deviation, part->deviation);
+    made.facts.emplace_back("left", fmt::format("{} whole, {} trimmed, {} gone", part->whole,
+                                                part->cut, part->dropped));
+    made.model = std::move(part->model);
+    return {};
+  };
+  if (by.contour) {
+    auto curve = read_space_curve(*by.contour, job.curves);
+    OBVID_TRY(curve);
+    const std::array both{made.model.units, curve->units};
+    OBVID_TRY(common_units(both, curve->name));
+    made.warnings.insert(made.warnings.end(), curve->warnings.begin(), curve->warnings.end());
+    OBVID_TRY(take(trimmed(made.model, projected(curve->curve, by.along), options, run)));
+    made.kind = fmt::format("part {} a contour", by.keep_positive ? "inside" : "outside");
+  }
+  for (const CutPlane& plane : by.planes) {
+    OBVID_TRY(take(trimmed(made.model, plane, options, run)));
+    made.kind = fmt::format("part {} {}", by.keep_positive ? "above" : "below",
+                            by.planes.size() == 1 ? "a plane" : "planes");
+  }
+  const auto sums = sums_of(made.model, run);
+  OBVID_TRY(sums);
+  const std::string unit = made.model.units.text();
+  made.facts.emplace_back("trims", fmt::format("{}, within {} {} of the cut, as measured",
+                                               counted(sums->trims, "loop", "loops"),
+                                               significant(made.deviation, 3), unit));
+  made.facts.emplace_back(
+      "area", fmt::format("{} {}^2, last step {}", significant(sums->area.value, 10), unit,
+                          significant(sums->area.error, 2)));
+  return made;
+}
+
+}  // namespace obvid::pipeline_detail
