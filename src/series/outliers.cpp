@@ -31,7 +31,11 @@ constexpr double kMostOfAll = 0.1;
 class Search {
  public:
   Search(const std::vector<Vec2>& points, const std::vector<bool>& kept)
-      : points_(points), kept_(kept), before_(points.size()), behind_(points.size()), gone_(points.size(), false) {
+      : points_(points),
+        kept_(kept),
+        before_(points.size()),
+        behind_(points.size()),
+        gone_(points.size(), false) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       before_[i] = i - 1;  // beyond all of the first
       behind_[i] = i + 1;
@@ -86,8 +90,8 @@ class Search {
     for (std::size_t i = 0; i < n; ++i) {
       if (size_[i] <= limit_ * out_.deviation) continue;
       const std::size_t first = i - std::min(i, kAround), last = std::min(n - 1, i + kAround);
-      scale_[i] = std::max(scale_[i], deviation_of({size_.begin() + at(first),
-                                                    size_.begin() + at(last) + 1}));
+      scale_[i] = std::max(scale_[i],
+                           deviation_of({size_.begin() + at(first), size_.begin() + at(last) + 1}));
     }
     return {};
   }

@@ -107,5 +107,49 @@ TEST(CurveOrder, OfFewManyAndEqualPointsIsRefused) {
   EXPECT_EQ(order_along_curve({{0, 0}, {1, 0}, {0, 0}}).error().code, ErrorCode::kOutOfOrder);
 }
 
+/// A symmetric section with a thin end, closed form (NACA 00xx), cosine spacing: near its end both
+/// sides are nearer to each other than neighbours are.
+Row thin_section(int steps, double thickness) {
+  Row row;
+  const auto half = [&](double x) {
+    return 5.0 * thickness *
+           (0.2969 * std::sqrt(x) - 0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x -
+            0.1015 * x * x * x * x);
+  };
+  const auto at = [&](int k) { return 0.5 - 0.5 * std::cos(3.141592653589793 * k / steps); };
+  for (int k = steps; k >= 0; --k) row.push_back({at(k), half(at(k))});
+  for (int k = 1; k <= steps; ++k) row.push_back({at(k), -half(at(k))});
+  return row;
+}
+
+TEST(CurveOrder, OfAThinEndIsThatOfTheOutline) {
+  const Row row = thin_section(40, 0.12);
+  const std::size_t n = row.size();
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    for (const double scale : {1e-9, 1.0, 1e9}) {
+      const auto found = found_order(row, seed, scale);
+      ASSERT_EQ(found.size(), n) << seed;
+      const std::size_t way = (found[1] + n - found[0]) % n;
+      EXPECT_TRUE(way == 1 || way == n - 1);
+      for (std::size_t k = 1; k < n; ++k) EXPECT_EQ((found[k] + n - found[k - 1]) % n, way);
+    }
+  }
+}
+
+TEST(CurveOrder, OfARowFromSideToSideIsNeverGiven) {
+  // two straight sides, nearer to each other than points along them: the shortest row goes zigzag
+  Row strip;
+  for (int k = 0; k < 12; ++k) {
+    strip.push_back({1.0 * k, 0.0});
+    strip.push_back({1.0 * k + 0.5, 0.7});
+  }
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const auto found = found_order(strip, seed);  // even indices lie on one side
+    std::size_t across = 0;
+    for (std::size_t k = 1; k < found.size(); ++k) across += (found[k] + found[k - 1]) % 2;
+    EXPECT_LE(across, 2U);
+  }
+}
+
 }  // namespace
 }  // namespace obvid

@@ -233,6 +233,11 @@ std::string order_text(const PointSeries& series, const CurveOrder& found) {
       "--unordered: {} points were put in the order of their shortest row; neighbours are at most "
       "{} {} apart, the ends {}",
       found.order.size(), significant(found.largest_step, 4), unit, significant(found.gap, 4));
+  if (found.is_outline) {
+    text +=
+        "; it is the shortest closed way that was found, opened at its longest step: look at it "
+        "before you rely on it";
+  }
   if (found.gap <= kMayClose * found.largest_step) text += ": --closed closes the contour";
   return text;
 }
