@@ -163,6 +163,19 @@ std::vector<CutLine> lines_of(const PlaneSection& section, const NurbsSurface& s
     return runs_along_u(side) ? Vec2{p.u, far ? v.to : v.from} : Vec2{far ? u.to : u.from, p.v};
   };
   std::vector<CutLine> out;
+  // but for what begins and ends in a pole and hardly leaves it: sections end there within 1e-6 of
+  // the size, and by more than one way
+  const auto keep = [&](CutLine line) {
+    constexpr double kAtPole = 4e3;  // times `small`: smaller loops count as touching, too
+    const auto point = [&](Vec2 at) { return evaluate(s, at.x, at.y).point; };
+    if (line.places.empty()) return;
+    const Vec3 first = point(line.places.front());
+    const bool returns = norm(point(line.places.back()) - first) <= small;
+    const bool leaves = std::any_of(line.places.begin(), line.places.end(), [&](Vec2 at) {
+      return norm(point(at) - first) > (returns && !line.closed ? kAtPole : 1.0) * small;
+    });
+    if (leaves) out.push_back(std::move(line));
+  };
   for (const SectionBranch& branch : section.branches) {
     std::vector<SectionPoint> points = branch.points;
     bool closed = branch.closed;
@@ -186,11 +199,11 @@ std::vector<CutLine> lines_of(const PlaneSection& section, const NurbsSurface& s
       }
       if (i > 0) {
         line.places.push_back(pole_beside(*side, points[i - 1]));
-        out.push_back(std::exchange(line, {}));
+        keep(std::exchange(line, {}));
       }
       if (i + 1 < points.size()) line.places.push_back(pole_beside(*side, points[i + 1]));
     }
-    if (line.places.size() > 1) out.push_back(std::move(line));
+    keep(std::move(line));
   }
   return out;
 }
