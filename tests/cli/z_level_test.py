@@ -19,7 +19,7 @@ import tempfile
 
 import numpy as np
 
-WIDE, TOLERANCE, SCALLOP, STEEP = 24.0, 0.01, 0.1, 40.0
+WIDE, TOLERANCE, SCALLOP, STEEP = 24.0, 0.01, 0.2, 40.0
 MIDDLE = 0.5 * WIDE
 
 
@@ -116,7 +116,7 @@ def judge(binary, folder, name, part, cutter, diameter, corner, *strategy):
     out, report, text = program(binary, folder, part, *given, *(["--corner-radius", str(corner)] if cutter == "bull"
                                                                  else []))
     moves, radius = feed_moves(text), 0.5 * diameter
-    points, normals = part.points(1500)
+    points, normals = part.points(800)
     gouge = depth_in(radius, corner, moves, points).max()
     assert gouge <= TOLERANCE, f"{name}: {gouge} mm into the part"
     assert gouge <= report["gouge"]["most"] + 1e-3, (name, gouge)
@@ -170,7 +170,7 @@ def main():
         out, report, text = program(binary, folder, dome, "--strategy", "z-level", "--step-down", "2", "--cutter",
                                     "flat")
         moves = feed_moves(text)
-        gouge = depth_in(3.0, 0.0, moves, dome.points(1500)[0]).max()
+        gouge = depth_in(3.0, 0.0, moves, dome.points(800)[0]).max()
         assert gouge <= TOLERANCE, f"flat: {gouge} mm into the part"
         heights = sorted({round(a[2], 3) for a, b in moves if a[2] == b[2] and np.linalg.norm(b - a) > 0.1})
         assert len(heights) == report["levels"] and max(np.diff(heights)) <= 2.0 + 2e-3, (heights, report)
