@@ -57,7 +57,7 @@ void expect_surface_refused(const std::string& text, std::string_view place) {
 
 TEST(SurfaceJson, EveryBrokenRuleIsNamedByItsPath) {
   expect_surface_refused(changed("obvid-surface", "obvid-contour"), "/format");
-  expect_surface_refused(changed("\"version\": 1", "\"version\": 2"), "/version");
+  expect_surface_refused(changed("\"version\": 1", "\"version\": 3"), "/version");
   expect_surface_refused(changed("\"degree_u\": 1", "\"degree_u\": 10"), "/patches/0/degree_u");
   expect_surface_refused(changed("\"degree_v\": 1", "\"degree_v\": 0"), "/patches/0/degree_v");
   expect_surface_refused(changed("[0, 0, 1, 1]", "[0, 0, \"1\", 1]"), "/patches/0/knots_u/2");

@@ -111,7 +111,27 @@ class Row {
   Row(const Course& course, const std::vector<std::string>& words, Sheet& sheet)
       : file_(course.file), coordinate_(course.ends.coordinate), words_(words), sheet_(sheet) {}
 
+  /// By the longest piece, or by any that is as long but for rounding.
   void check(const Stretch& stretch) {
+    const Real longest = whole_length(file_.pieces[stretch.longest]);
+    const Real blur = kTableRoundings * std::max(longest, coordinate_);
+    for (std::size_t k = 0; k < stretch.pieces; ++k) {
+      Stretch by = stretch;
+      by.longest = (stretch.first + k) % file_.pieces.size();
+      if (by.longest == stretch.longest) continue;
+      if (whole_length(file_.pieces[by.longest]) < longest - blur) continue;
+      Sheet trial;
+      Row(file_, coordinate_, words_, trial).check_by(by);
+      if (trial.wrong() == 0) return check_by(by);
+    }
+    check_by(stretch);
+  }
+
+ private:
+  Row(const ContourFile& file, Real coordinate, const std::vector<std::string>& words, Sheet& sheet)
+      : file_(file), coordinate_(coordinate), words_(words), sheet_(sheet) {}
+
+  void check_by(const Stretch& stretch) {
     const Piece& piece = file_.pieces[stretch.longest];
     const Point start = stored_start(piece);
     if (const auto* line = std::get_if<Line>(&piece)) {
@@ -142,7 +162,6 @@ class Row {
     });
   }
 
- private:
   inline static const std::string kClaim = "text: line or arc ";
 
   void figure(const std::string& name, std::size_t column, Real value, Real blur) {

@@ -110,6 +110,13 @@ double distance_from(const CubicSpline& spline, Vec2 p, double u) {
   return norm(evaluate(spline, u).point - p);
 }
 
+Error rounding_keeps_off(double deviation) {
+  return error(ErrorCode::kToleranceNotReached,
+               "rounding of the coordinates keeps cubic spans from the tolerance")
+      .hint("allow more, or move the contour near the origin")
+      .value(deviation);
+}
+
 class CubicBuilder {
  public:
   CubicBuilder(const Contour& contour, Watch& watch)
@@ -156,6 +163,10 @@ class CubicBuilder {
     if (closed_) points.pop_back();
     if (watch_.cancelled()) return fail(cancelled_error());
     auto spline = cubic_spline(points, options);
+    if (!spline &&
+        spline.error().code == ErrorCode::kOutOfOrder) {  // they fall together in doubles
+      return fail(rounding_keeps_off(blur()));
+    }
     OBVID_TRY(spline);
     watch_.spend(kStepsOfSpan * static_cast<double>(places.size()));
     CubicAlong out{std::move(*spline), 0.0};
@@ -187,13 +198,6 @@ class CubicBuilder {
   Watch& watch_;
   double largest_ = 0.0;  // coordinate
 };
-
-Error rounding_keeps_off(double deviation) {
-  return error(ErrorCode::kToleranceNotReached,
-               "rounding of the coordinates keeps cubic spans from the tolerance")
-      .hint("allow more, or move the contour near the origin")
-      .value(deviation);
-}
 
 /// Fewest spans, nearly: grown by the fourth root of what is missing, then cut in halves of what is
 /// left between a number that does and one that does not.

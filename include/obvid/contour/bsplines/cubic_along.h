@@ -21,7 +21,8 @@ struct CubicAlong {
 /// within the tolerance. Curvature is continuous but no longer monotone by construction: near a
 /// spiral it mostly is, which `certify` can tell span by span.
 /// Errors: E203 a tolerance that is not greater than 0; E311 no pieces; E310 a corner (`index`: the
-/// joint); E502 not reached with 65,536 spans (`value`: the deviation); E103 ended by `watch`.
+/// joint); E502 not reached with 65,536 spans (`value`: the deviation), or places fall together in
+/// doubles (`value`: their rounding); E103 ended by `watch`.
 /// Cost: some ten splines of the final size.
 [[nodiscard]] Result<CubicAlong> cubic_along(const Contour& contour, double tolerance,
                                              Watch* watch = nullptr);
