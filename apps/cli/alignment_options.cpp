@@ -105,6 +105,7 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   app.add_flag("--csv", raw.csv, "Table of elements as CSV on standard output, as -o NAME.csv");
   app.add_flag("--json", command.json, "JSON on standard output instead of the table");
   app.add_flag("-q,--quiet", command.quiet, "Print nothing but errors and warnings");
+  app.add_flag("--no-progress", command.no_progress, "No progress bar");
   app.footer(with_exit_codes(
       "Elements join with common tangents; curvature steps only where the points ask for it.\n"
       "Examples:\n"

@@ -98,6 +98,7 @@ class SurfaceReader : private JsonValues {
     const Node format = field(root, "format");
     if (!failed() && word(format) != kFormat) refuse(format, "this is no surface file");
     const Node version = field(root, "version");
+    if (!failed()) has_trims_ = integer(version, 1, kMaxInteger) == kVersionOfTrims;
     if (!failed() && integer(version, 1, kMaxInteger) > kVersionOfTrims) {
       refuse(version, "this version of the format is not known");
     }
@@ -168,6 +169,7 @@ class SurfaceReader : private JsonValues {
     }
     if (failed()) return out;
     if (const auto trims = optional_field(node, "trims")) {
+      if (!has_trims_) refuse(*trims, "version 1 of the format has no trims");
       each(*trims, [&](const Node& one) { out.trims.push_back(trim_loop(one)); });
     }
     if (failed()) return out;
@@ -182,6 +184,7 @@ class SurfaceReader : private JsonValues {
   }
 
   SurfaceModel model_;
+  bool has_trims_ = false;
 };
 
 }  // namespace

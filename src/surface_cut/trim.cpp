@@ -107,7 +107,7 @@ class Trimmer {
       return error(ErrorCode::kUnsupported,
                    "a trimmed patch that closes on itself is not trimmed again")
           .where(patch.name)
-          .hint("give all planes at once, or trim it in another system");
+          .hint("divide it at its seam first, or trim it in another system");
     }
     std::size_t whole = 0;
     for (const SurfacePatch& half : halves) {

@@ -359,7 +359,14 @@ Result<void> LevelPasses::lay(const SurfaceCells& cells, const RunContext& run) 
     OBVID_TRY(keep(std::move(*pass)));
     at_.push_back(z);
     if (z <= low) break;
-    z = std::max(low, z - down);
+    const double next = std::max(low, z - down);
+    if (!(next < z) || static_cast<double>(at_.size()) >= kMostLevels) {
+      return error(ErrorCode::kBadOption,
+                   fmt::format("more than {} levels would be needed", kMostLevels))
+          .hint("allow a larger scallop, or take a cutter with a rounder corner")
+          .value(down);
+    }
+    z = next;
     OBVID_TRY(tell(run, "levels", (high - z) / (high - low)));
   }
   levels_ = at_.size();
