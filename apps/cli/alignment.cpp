@@ -107,7 +107,7 @@ int run(const AlignmentCommand& command) {
     warn(heights->warnings);
     job.heights = std::move(*heights);
   }
-  ProgressBar bar(!command.quiet && !command.no_progress && !command.json);
+  ProgressBar bar(command.progress);
   const auto made = alignment_report(*series, job, bar.progress());
   bar.clear();
   warn(series->warnings);

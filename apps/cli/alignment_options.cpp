@@ -23,7 +23,7 @@ struct RawAlignment {
       least_vertical;
   AlignmentValues typed;
   std::string format;  ///< of what -o sends to standard output
-  bool csv = false;
+  bool csv = false, no_progress = false;
   FormatValues reading;
 };
 
@@ -105,7 +105,7 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   app.add_flag("--csv", raw.csv, "Table of elements as CSV on standard output, as -o NAME.csv");
   app.add_flag("--json", command.json, "JSON on standard output instead of the table");
   app.add_flag("-q,--quiet", command.quiet, "Print nothing but errors and warnings");
-  app.add_flag("--no-progress", command.no_progress, "No progress bar");
+  app.add_flag("--no-progress", raw.no_progress, "No progress bar");
   app.footer(with_exit_codes(
       "Elements join with common tangents; curvature steps only where the points ask for it.\n"
       "Examples:\n"
@@ -133,6 +133,7 @@ Result<void> check_alignment(RawAlignment& raw) {
   OBVID_TRY(settle_streams(command, raw.format, raw.csv));
   if (raw.csv) command.outputs.emplace_back("-.csv");
   if (raw.csv) command.quiet = true;
+  command.progress = !raw.no_progress && !command.quiet && !command.json;
   command.input = input_or_pipe(command.input);
   if (command.input.empty()) {
     return fail(usage("alignment needs a file of points", "see obvid alignment --help"));

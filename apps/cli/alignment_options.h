@@ -23,7 +23,7 @@ struct AlignmentCommand {
   std::optional<Units> units;
   bool json = false;
   bool quiet = false;
-  bool no_progress = false;
+  bool progress = true;
 };
 
 }  // namespace obvid

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/curve/internal/basis.h"
 #include "obvid/surface/internal/trim.h"
 
 namespace obvid::mesh {
@@ -62,8 +63,7 @@ class TrimmedMesher {
   std::vector<double> lines_along(bool along_u) const {
     constexpr int kPlaces = 5;
     const std::vector<double>& knots = along_u ? s_.knots_u : s_.knots_v;
-    std::vector<double> across = along_u ? s_.knots_v : s_.knots_u;
-    across.erase(std::unique(across.begin(), across.end()), across.end());
+    const std::vector<double> across = distinct(along_u ? s_.knots_v : s_.knots_u);
     std::vector<double> out{knots.front()};
     for (std::size_t i = 1; i < knots.size(); ++i) {
       const Range span{knots[i - 1], knots[i]};
@@ -117,7 +117,7 @@ class TrimmedMesher {
       }
     }
     std::sort(levels.begin(), levels.end());
-    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+    levels = distinct(std::move(levels));
     std::vector<double> out{levels.front()};
     for (std::size_t i = 1; i < levels.size(); ++i) halve(band, {levels[i - 1], levels[i]}, 0, out);
     return out;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "obvid/curve/internal/basis.h"
 #include "obvid/numeric/internal/gauss.h"
 #include "obvid/numeric/internal/root.h"
 
@@ -15,12 +16,6 @@ namespace {
 
 constexpr int kPlacesForTurns = 16;
 constexpr double kMeets = 1e-9;  // of the domain
-
-std::vector<double> spans_of(const std::vector<double>& knots) {
-  std::vector<double> out = knots;
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
 
 Result<void> check_loop(const TrimLoop& loop, const Range& u, const Range& v) {
   const auto bad = [](const char* what) { return error(ErrorCode::kBadOption, what); };
@@ -87,7 +82,7 @@ TrimRegion::TrimRegion(const SurfacePatch& patch) : patch_(patch) {
 }
 
 void TrimRegion::cut(const NurbsCurve& curve) {
-  const std::vector<double> spans = spans_of(curve.knots);
+  const std::vector<double> spans = distinct(curve.knots);
   const auto slope = [&](double t) { return evaluate(curve, t).d1.y; };
   std::vector<double> turns{spans.front()};
   double before = spans.front(), slope_before = slope(before);
@@ -191,7 +186,7 @@ class AreaOf {
       : surface_(patch.surface),
         region_(patch),
         run_(run),
-        knots_(spans_of(patch.surface.knots_u)) {
+        knots_(distinct(patch.surface.knots_u)) {
     const double size = size_of(surface_);
     small_ = kSmall * size * size;
   }

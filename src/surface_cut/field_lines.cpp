@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "obvid/curve/internal/basis.h"
 #include "obvid/numeric/internal/root.h"
 
 namespace obvid {
@@ -15,8 +16,7 @@ namespace {
 /// Lines of the raster: knots, and equal parts between them.
 std::vector<double> raster_of(const std::vector<double>& knots) {
   constexpr std::size_t kLeastPerSpan = 8, kLeast = 33, kMost = 256;
-  std::vector<double> spans = knots;
-  spans.erase(std::unique(spans.begin(), spans.end()), spans.end());
+  const std::vector<double> spans = distinct(knots);
   const std::size_t n = spans.size() - 1;
   const std::size_t each = std::max<std::size_t>(
       1, std::min(std::max(kLeastPerSpan, (kLeast + n - 1) / n), kMost / std::min(n, kMost)));

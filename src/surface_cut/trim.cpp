@@ -11,7 +11,6 @@
 #include "contour_field.h"
 #include "field_lines.h"
 #include "obvid/core/internal/parallel.h"
-#include "obvid/geom/internal/box.h"
 #include "obvid/surface/internal/topology.h"
 #include "trim_patch.h"
 
@@ -143,12 +142,7 @@ class Trimmer {
 /// from there they go on at another parameter.
 std::vector<CutLine> lines_of(const PlaneSection& section, const NurbsSurface& s, double small) {
   std::array<std::optional<Vec3>, 4> pole{};
-  for (const PatchSide side : kPatchSides) {
-    const SpaceCurve border = border_of(s, side);
-    Box3 box;
-    box.add_all(border.points);
-    if (box.diagonal() <= small) pole[side] = border.points.front();
-  }
+  for (const PatchSide side : kPatchSides) pole[side] = pole_of(s, side, small);
   // sections are decided a little beside the plane: they need not end in the pole to the last bit
   const auto at_pole = [&](const SectionPoint& p) -> std::optional<PatchSide> {
     for (const PatchSide side : kPatchSides) {

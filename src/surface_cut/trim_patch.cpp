@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "obvid/curve/internal/basis.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/numeric/internal/root.h"
-#include "obvid/surface/internal/topology.h"
 #include "obvid/surface/internal/trim.h"
 
 namespace obvid {
@@ -62,12 +62,7 @@ class PatchTrimmer {
         u_(domain_u(s_)),
         v_(domain_v(s_)),
         loops_(patch.trims.empty() ? std::vector<TrimLoop>{outline_of(s_)} : patch.trims) {
-    for (const PatchSide side : kPatchSides) {
-      const SpaceCurve border = border_of(s_, side);
-      Box3 box;
-      box.add_all(border.points);
-      pole_[side] = box.diagonal() <= small_;
-    }
+    for (const PatchSide side : kPatchSides) pole_[side] = pole_of(s_, side, small_).has_value();
   }
 
   Result<TrimmedPatch> made(const std::vector<CutLine>& lines) {
@@ -126,8 +121,7 @@ class PatchTrimmer {
     }
     out.insert(out.end(), curve.knots.begin(), curve.knots.end());
     std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
+    return distinct(std::move(out));
   }
 
   void find_crossings() {
@@ -385,14 +379,12 @@ class PatchTrimmer {
 
   /// Borders in the cut and the cut itself: no area between them.
   [[nodiscard]] bool is_nothing(const TrimLoop& loop) const {
-    Box2 box;
     double area = 0.0;
     std::vector<Vec2> outline;
     for (const NurbsCurve& curve : loop.curves) {
       for (const double t : places_of(curve)) outline.push_back(evaluate(curve, t).point);
     }
     for (std::size_t i = 0; i < outline.size(); ++i) {
-      box.add(outline[i]);
       area += 0.5 * cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
     }
     constexpr double kNothing = 1e-9;  // of the domain
@@ -417,6 +409,14 @@ class PatchTrimmer {
 };
 
 }  // namespace
+
+std::optional<Vec3> pole_of(const NurbsSurface& surface, PatchSide side, double small) {
+  const SpaceCurve border = border_of(surface, side);
+  Box3 box;
+  box.add_all(border.points);
+  if (!(box.diagonal() <= small)) return std::nullopt;
+  return border.points.front();
+}
 
 Result<TrimmedPatch> trimmed_patch(const SurfacePatch& patch, const CuttingField& field,
                                    const std::vector<CutLine>& lines, bool keep_positive,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/surface/internal/topology.h"
 #include "obvid/surface/surface.h"
 #include "trim_line.h"
 
@@ -14,6 +16,10 @@ struct CutLine {
   std::vector<Vec2> places;  ///< of closed ones the first is not repeated
   bool closed = false;
 };
+
+/// The point that a side is, where its control points lie no farther apart than `small`.
+[[nodiscard]] std::optional<Vec3> pole_of(const NurbsSurface& surface, PatchSide side,
+                                          double small);
 
 /// What is left of a patch, and what was measured of its new trims.
 struct TrimmedPatch {

@@ -210,6 +210,16 @@ Nearest Simulation::nearest(std::size_t node, const Piece& piece) {
   return nearest_to(part_, piece.cell.point, piece.cell.normal, first);
 }
 
+HighSpot Simulation::spot_at(const Piece& piece, Vec2 axis) const {
+  const Cell& cell = piece.cell;
+  return {piece.bounds.left,
+          piece.place,
+          cell.point,
+          cell.normal,
+          part_.cutter().tip(cell.point, cell.normal),
+          axis};
+}
+
 // The highest place of a cell that the cutter reaches.
 bool Simulation::find_above(std::size_t node, double limit, double within, HighSpot& spot) {
   const CellBounds& b = nodes_[node];
@@ -218,12 +228,7 @@ bool Simulation::find_above(std::size_t node, double limit, double within, HighS
   if (b.left > limit) {
     const Nearest& near = nearest(node);
     if (near.reach == Reach::kReached) {
-      spot = {b.left,
-              cells_.place(node),
-              cell.point,
-              cell.normal,
-              part_.cutter().tip(cell.point, cell.normal),
-              near.axis};
+      spot = spot_at({cells_.place(node), cell, b}, near.axis);
       return true;
     }
     if (!at_edge(node, limit)) return false;
@@ -240,15 +245,7 @@ bool Simulation::find_inside(std::size_t node, double limit, double within, High
     if (left > std::max(limit, spot.height)) {
       const Nearest near = nearest(node, part);
       held = near.reach != Reach::kReached;
-      if (!held) {
-        const Cell& cell = part.cell;
-        spot = {left,
-                part.place,
-                cell.point,
-                cell.normal,
-                part_.cutter().tip(cell.point, cell.normal),
-                near.axis};
-      }
+      if (!held) spot = spot_at(part, near.axis);
     }
     const int least = held ? kMostLevels - kEdgeLevels : 0;
     if (spot.height > 0.0) return false;  // one is enough

@@ -132,6 +132,7 @@ class Simulation {
   [[nodiscard]] bool at_edge(std::size_t node, double limit) const;
   [[nodiscard]] Result<void> look_into_reach(double limit,
                                              const RunContext& run);  ///< nodes with more than that
+  [[nodiscard]] HighSpot spot_at(const Piece& piece, Vec2 axis) const;
   [[nodiscard]] bool find_above(std::size_t node, double limit, double within, HighSpot& spot);
   [[nodiscard]] bool find_inside(std::size_t node, double limit, double within, HighSpot& spot);
   [[nodiscard]] Result<void> report_depth(double allowed, SimulationReport& out,

@@ -122,7 +122,7 @@ class Row {
       if (whole_length(file_.pieces[by.longest]) < longest - blur) continue;
       Sheet trial;
       Row(file_, coordinate_, words_, trial).check_by(by);
-      if (trial.wrong() == 0) return check_by(by);
+      if (trial.wrong() == 0) return sheet_.add(trial);
     }
     check_by(stretch);
   }
