@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The longest processor time between two questions whether to go on, for jobs of the C interface.
+"""The longest time between two questions whether to go on, for jobs of the C interface: of the clock, and of
+all threads' processors.
 
 benches/cancellation.py LIBOBVID_C.SO [POINTS [SECTIONS...]]
 
@@ -35,17 +36,20 @@ def main():
     series, error = C.c_void_p(), C.c_void_p()
     lib.obvid_points((C.c_double * len(flat))(*flat), C.c_size_t(count), C.byref(series), C.byref(error))
 
+    def now():
+        return time.perf_counter(), time.process_time()
+
     asked = []
-    run = Run(None, PROGRESS(0), CANCELLED(lambda _: asked.append(time.process_time()) or 0))
+    run = Run(None, PROGRESS(0), CANCELLED(lambda _: asked.append(now()) or 0))
 
     def measured(name, work):
-        asked[:] = [time.process_time()]
+        asked[:] = [now()]
         code = work()
-        asked.append(time.process_time())
-        longest = max(b - a for a, b in zip(asked, asked[1:]))
-        whole = asked[-1] - asked[0]
+        asked.append(now())
+        clock, busy = (max(b[k] - a[k] for a, b in zip(asked, asked[1:])) for k in (0, 1))
+        whole = asked[-1][1] - asked[0][1]
         said = f", E{code}" if code else ""
-        print(f"{name:24} {1e3 * longest:7.1f} ms of {whole:7.2f} s, {len(asked)} questions{said}")
+        print(f"{name:24} {1e3 * clock:7.1f} ms, busy {1e3 * busy:7.1f} ms of {whole:7.2f} s, {len(asked)} questions{said}")
 
     def fit(options):
         contour, report = C.c_void_p(), C.c_void_p()
@@ -67,6 +71,14 @@ def main():
     measured("verify", lambda: lib.obvid_verify(contour, C.byref(run), C.byref(report), None))
     for name in ["analyse", "region", "compare"]:
         measured(name, lambda: job(name, {}))
+
+    def export(ending, options):
+        files = C.c_void_p()
+        return lib.obvid_export(contour, ending.encode(), json.dumps(options).encode(), C.byref(run), C.byref(files), None)
+
+    for ending, options in [("json", {}), ("svg", {}), ("svg", {"svg": "drawing"}), ("step", {}), ("dxf", {}),
+                            ("dxf", {"dxf": "arcs"}), ("dxf", {"dxf": "cubic"}), ("nc", {}), ("csv", {}), ("html", {})]:
+        measured(" ".join(["export", ending, *options.values()]), lambda: export(ending, options))
 
     examples = pathlib.Path(__file__).resolve().parent.parent / "examples"
 

@@ -15,6 +15,7 @@ target_include_directories(obvid_c PRIVATE "${PROJECT_SOURCE_DIR}/src/capi"
                            INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(obvid_c PRIVATE obvid_flags nlohmann_json::nlohmann_json)
+obvid_for_words(obvid_c)
 if(TARGET pugixml::static)  # before the shared one, which then is not needed
   target_link_libraries(obvid_c PRIVATE pugixml::static)
 endif()

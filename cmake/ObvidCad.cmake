@@ -33,5 +33,6 @@ target_include_directories(obvid_cad_helper PRIVATE "${PROJECT_SOURCE_DIR}/src/c
 target_include_directories(obvid_cad_helper SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
 target_link_libraries(obvid_cad_helper PRIVATE obvid_flags fmt::fmt obvid::cad Threads::Threads
                       TKSTEP TKIGES TKShHealing TKPrim TKBRep TKGeomBase TKTopAlgo TKXSBase TKG3d TKMath TKernel)
+obvid_for_words(obvid_cad_helper)
 # where the program looks, seen from bin, whatever the system calls its folders
 install(TARGETS obvid_cad_helper RUNTIME DESTINATION libexec/obvid)

@@ -34,7 +34,7 @@ int main(void) {
     return told(error);
   }
   printf("middle %.3f %.3f, radius %.3f\n", point[0], point[1], 1.0 / curvature);
-  if (obvid_export(contour, "dxf", NULL, &files, &error)) return told(error);
+  if (obvid_export(contour, "dxf", NULL, NULL, &files, &error)) return told(error);
   size_t size = 0;
   if (obvid_files_data(files, 0, &size) != NULL) printf("%zu bytes of DXF\n", size);
   obvid_files_free(files);

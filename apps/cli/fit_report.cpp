@@ -246,6 +246,9 @@ Facts summary(const Fit& fit, const Written& written) {
     facts.add("taken over", kept);
   }
   facts.add("fairness", fairness_text(report));
+  if (const int crossings = fit.certificate.self_intersections; crossings > 0) {
+    facts.add("self-intersections", std::to_string(crossings));
+  }
   if (promises_monotone(contour.carrier)) add_bounds(facts, fit);
   const GivenReport& given = report.given;
   const std::size_t ranges = given.heading_ranges + given.curvature_ranges;

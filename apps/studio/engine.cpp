@@ -198,7 +198,7 @@ json fit_of(const json& request, const std::function<bool()>& cancelled) {
     obvid_files* made = nullptr;
     obvid_error* failed = nullptr;
     json files;
-    obvid_export(contour.get(), "json", nullptr, &made, &failed);
+    obvid_export(contour.get(), "json", nullptr, nullptr, &made, &failed);
     put_files(made, files);
     const Held<obvid_error> held(failed);
     if (failed == nullptr) out["contour"] = files["files"][0]["text"];
@@ -283,7 +283,7 @@ json exported(const json& request, const std::function<bool()>& cancelled) {
   obvid_files* made = nullptr;
   if (contour) {
     obvid_export(contour.get(), text_in(request, "format", "json").c_str(),
-                 options_of(request).c_str(), &made, call.error());
+                 options_of(request).c_str(), call.run(), &made, call.error());
   }
   call.put_into(out);
   put_files(made, out);

@@ -27,7 +27,7 @@ extern "C" {
 #endif
 
 /* Changes when a program that was compiled with an older header no longer runs. */
-#define OBVID_ABI 1
+#define OBVID_ABI 2
 
 OBVID_API int obvid_abi(void);
 /* "0.1.0"; the library's, never freed. */
@@ -213,7 +213,8 @@ OBVID_API int obvid_fit_space(const obvid_input* input, const char* options, con
 OBVID_API int obvid_stored_space(const obvid_input* input, obvid_space** space,
                                  obvid_error** error);
 /* Proves them again, as obvid_verify does a contour. */
-OBVID_API int obvid_verify_space(const obvid_space* space, char** report, obvid_error** error);
+OBVID_API int obvid_verify_space(const obvid_space* space, const obvid_run* run, char** report,
+                                 obvid_error** error);
 
 OBVID_API size_t obvid_space_parts(const obvid_space* space);
 OBVID_API int obvid_space_closed(const obvid_space* space);
@@ -229,7 +230,7 @@ OBVID_API int obvid_space_evaluate(const obvid_space* space, size_t part, const 
                                    double* torsion, obvid_error** error);
 /* "json", "step", "iges", "brep", "dxf", "csv", "sldcrv". */
 OBVID_API int obvid_space_export(const obvid_space* space, const char* ending, const char* options,
-                                 obvid_files** files, obvid_error** error);
+                                 const obvid_run* run, obvid_files** files, obvid_error** error);
 OBVID_API void obvid_space_free(obvid_space* space);
 
 /* ---- surfaces ---------------------------------------------------------------------------------
@@ -314,7 +315,7 @@ OBVID_API void obvid_surface_free(obvid_surface* surface);
 /* The contour in a format, named by its file extension: "json", "svg", "step", "dxf", "nc", "csv",
  * ... */
 OBVID_API int obvid_export(const obvid_contour* contour, const char* ending, const char* options,
-                           obvid_files** files, obvid_error** error);
+                           const obvid_run* run, obvid_files** files, obvid_error** error);
 /* Most formats are one file. `suffix` goes between name and ending; the texts are the handle's. */
 OBVID_API size_t obvid_files_count(const obvid_files* files);
 OBVID_API const char* obvid_files_suffix(const obvid_files* files, size_t file);

@@ -17,7 +17,7 @@ namespace {
 constexpr Known kFiles{.formats = true};
 
 Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, const char* ending,
-                                              const char* options) {
+                                              const char* options, const obvid_run* run) {
   Result<Request> request = request_of(options, kFiles);
   OBVID_TRY(request);
   const auto format = format_of("contour." + std::string(ending));
@@ -39,7 +39,7 @@ Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, cons
     (void)take_units(other.contour.units, *request->units);
     stored = &other;
   }
-  Result<Exported> made = export_contour(*stored, *format, formats);
+  Result<Exported> made = export_contour(*stored, *format, formats, context_of(run));
   OBVID_TRY(made);
   auto out = std::make_unique<obvid_files>();
   out->files = std::move(made->files);
@@ -136,9 +136,9 @@ int obvid_derivatives(const obvid_contour* contour, const double* at, size_t n, 
 }
 
 int obvid_export(const obvid_contour* contour, const char* ending, const char* options,
-                 obvid_files** files, obvid_error** error) {
+                 const obvid_run* run, obvid_files** files, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
-    auto out = files_of(*contour, ending, options);
+    auto out = files_of(*contour, ending, options, run);
     OBVID_TRY(out);
     *files = out->release();
     return {};

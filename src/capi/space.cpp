@@ -55,9 +55,9 @@ Result<SpaceJob> space_job_of(const obvid_input& input, const SpaceSeries& serie
 }
 
 /// What a file of the curves would say of them.
-Result<StoredSpaceChain> as_stored(const obvid_space& space) {
+Result<StoredSpaceChain> as_stored(const obvid_space& space, const RunContext& run) {
   if (space.stored) return *space.stored;
-  const auto nurbs = chain_nurbs(space.chain, std::nullopt);
+  const auto nurbs = chain_nurbs(space.chain, std::nullopt, run);
   OBVID_TRY(nurbs);
   return space_chain_from_json(space_chain_json(space.chain, *nurbs), "curve");
 }
@@ -80,12 +80,13 @@ int obvid_fit_space(const obvid_input* input, const char* options, const obvid_r
     if (request->units) series->units = *request->units;
     const Result<SpaceJob> job = space_job_of(*input, *series, *request);
     OBVID_TRY(job);
-    Result<SpaceChain> made = fit_space_chain(*series, *job, context_of(run));
+    const RunContext context = context_of(run);
+    Result<SpaceChain> made = fit_space_chain(*series, *job, context);
     OBVID_TRY(made);
     const std::optional<Error> broken = broken_promise(*made);
     std::string text;
     if (report != nullptr) {
-      const auto nurbs = chain_nurbs(*made, std::nullopt);
+      const auto nurbs = chain_nurbs(*made, std::nullopt, context);
       OBVID_TRY(nurbs);
       text = space_chain_json(*made, *nurbs);
     }
@@ -110,13 +111,16 @@ int obvid_stored_space(const obvid_input* input, obvid_space** space, obvid_erro
   });
 }
 
-int obvid_verify_space(const obvid_space* space, char** report, obvid_error** error) {
+int obvid_verify_space(const obvid_space* space, const obvid_run* run, char** report,
+                       obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
-    const auto stored = as_stored(*space);
+    const RunContext context = context_of(run);
+    const auto stored = as_stored(*space, context);
     OBVID_TRY(stored);
-    const SpaceChainVerification found = verify(*stored);
-    if (report != nullptr) *report = text_of(space_verification_json(*stored, found));
-    if (const auto broken = broken_promise(*stored, found)) return fail(*broken);
+    const Result<SpaceChainVerification> found = verify(*stored, context);
+    OBVID_TRY(found);
+    if (report != nullptr) *report = text_of(space_verification_json(*stored, *found));
+    if (const auto broken = broken_promise(*stored, *found)) return fail(*broken);
     return {};
   });
 }
@@ -174,13 +178,13 @@ int obvid_space_evaluate(const obvid_space* space, size_t part, const double* at
 }
 
 int obvid_space_export(const obvid_space* space, const char* ending, const char* options,
-                       obvid_files** files, obvid_error** error) {
+                       const obvid_run* run, obvid_files** files, obvid_error** error) {
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kSpaceFiles);
     OBVID_TRY(request);
     SpaceChain chain = space->chain;
     if (request->units) (void)take_units(chain, *request->units);
-    const auto nurbs = chain_nurbs(chain, request->formats.tolerance);
+    const auto nurbs = chain_nurbs(chain, request->formats.tolerance, context_of(run));
     OBVID_TRY(nurbs);
     Result<Exported> made =
         export_space(chain, *nurbs, "." + std::string(ending), request->formats);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crossings.h"
+#include "obvid/certify/internal/crossings.h"
 #include "joints.h"
 #include "known_pieces.h"
 #include "obvid/certify/internal/limits.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crossings.h"
+#include "obvid/certify/internal/crossings.h"
 
 #include <algorithm>
 #include <array>
@@ -344,6 +344,18 @@ class CrossingCount {
 int count_crossings(const Contour& contour, std::span<const std::size_t> turning) {
   if (contour.pieces.empty() || (contour.pieces.size() < 2 && turning.empty())) return 0;
   return CrossingCount(contour, turning).run();
+}
+
+int count_crossings_of_chords(std::span<const Vec2> points, bool closed) {
+  Contour chords;
+  chords.closed = closed;
+  const std::size_t n = points.size();
+  const std::size_t count = n < 2 ? 0 : closed ? n : n - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    chords.pieces.emplace_back(LinePiece{points[i], points[(i + 1) % n]});
+    chords.runs.push_back({i, i, 0});
+  }
+  return count_crossings(chords);
 }
 
 }  // namespace obvid

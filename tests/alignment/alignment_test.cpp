@@ -167,7 +167,7 @@ TEST(Alignment, ATransitionIsOneClothoid) {
 }
 
 TEST(Alignment, KeepsLeastLengthsAndRadii) {
-  const auto points = disturbed(road_points(kRoad, 5.0), 0.002);
+  const auto points = disturbed(road_points(kRoad, 10.0), 0.002);
   for (const double tolerance : {0.5, 2.0, 8.0}) {
     const std::vector<double> all(points.size(), tolerance);
     const auto free = fit_alignment(points, all);

@@ -128,7 +128,7 @@ def stored(handle, options=None):
 def export(contour, ending, options=None):
     files, size = C.c_void_p(), C.c_size_t()
     chosen = json.dumps(options).encode() if options is not None else None
-    call(lib.obvid_export, contour, ending.encode(), chosen, C.byref(files))
+    call(lib.obvid_export, contour, ending.encode(), chosen, None, C.byref(files))
     data = lib.obvid_files_data(files, C.c_size_t(0), C.byref(size))
     out = C.string_at(data, size.value)
     lib.obvid_files_free(files)
@@ -166,7 +166,7 @@ def export_space(space, ending, options=None):
     """Texts of the files, by their suffixes."""
     files, size, out = C.c_void_p(), C.c_size_t(), {}
     chosen = json.dumps(options).encode() if options is not None else None
-    call(lib.obvid_space_export, space, ending.encode(), chosen, C.byref(files))
+    call(lib.obvid_space_export, space, ending.encode(), chosen, None, C.byref(files))
     for i in range(lib.obvid_files_count(files)):
         data = lib.obvid_files_data(files, C.c_size_t(i), C.byref(size))
         suffix = lib.obvid_files_suffix
@@ -487,7 +487,7 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
                 again = C.c_void_p()
                 call(lib.obvid_stored_space, read(stem + ".json"), C.byref(again))
                 for one in [space, again]:
-                    text = call(lib.obvid_verify_space, one, C.byref(verified), report=verified)
+                    text = call(lib.obvid_verify_space, one, None, C.byref(verified), report=verified)
                     self.same(text + "\n", "verify", stem + ".json", "--json")
                 lib.obvid_space_free(again)
                 lib.obvid_space_free(space)
@@ -652,7 +652,7 @@ class CurvesInSpace(unittest.TestCase):
         text = export_space(space, "json")[""].replace('"turn": 1.57', '"turn": 1.58')
         again = C.c_void_p()
         call(lib.obvid_stored_space, text_input(text), C.byref(again))
-        failed = refused(503, lambda: call(lib.obvid_verify_space, again, C.byref(said),
+        failed = refused(503, lambda: call(lib.obvid_verify_space, again, None, C.byref(said),
                                            report=said))
         self.assertFalse(json.loads(failed.report)["holds"])
         self.assertEqual(failed.category, 5)

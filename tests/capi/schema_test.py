@@ -195,7 +195,7 @@ class Reports(unittest.TestCase):
             self.holds("fit_space", json.loads(report))
             out = C.c_void_p()
             self.holds("verify_space", json.loads(
-                c.call(c.lib.obvid_verify_space, space, C.byref(out), report=out)))
+                c.call(c.lib.obvid_verify_space, space, None, C.byref(out), report=out)))
             c.lib.obvid_space_free(space)
 
     def test_of_surfaces(self):
@@ -278,9 +278,9 @@ class Options(unittest.TestCase):
             yield name, lambda o, name=name: c.call(getattr(lib, "obvid_" + name), points, o, None, ref(text))
         yield "worksheet", lambda o: c.call(lib.obvid_worksheet, points, o, b"csv", None, ref(out))
         yield "stored", lambda o: c.call(lib.obvid_stored, drawn, o, None, ref(out))
-        yield "export", lambda o: c.call(lib.obvid_export, contour, b"dxf", o, ref(out))
+        yield "export", lambda o: c.call(lib.obvid_export, contour, b"dxf", o, None, ref(out))
         yield "fit_space", lambda o: c.call(lib.obvid_fit_space, c.space_points(c.rail()), o, None, None, None)
-        yield "space_export", lambda o: c.call(lib.obvid_space_export, space, b"dxf", o, ref(out))
+        yield "space_export", lambda o: c.call(lib.obvid_space_export, space, b"dxf", o, None, ref(out))
         yield "surface_make", lambda o: c.call(lib.obvid_surface_make, b"grid", inputs, C.c_size_t(1), None, C.c_size_t(0),
                                                o, None, ref(out), ref(text))
         yield "surface_export", lambda o: c.call(lib.obvid_surface_export, surface, b"stl", o, None, ref(out))

@@ -267,6 +267,11 @@ class Case:
         return self.faults
 
 
+def busy_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def main():
     program, examples, case_file = sys.argv[1:4]
     public = pathlib.Path(sys.argv[4] if len(sys.argv) > 4 else "")
@@ -294,13 +299,14 @@ def main():
             print("skipped: " + data["name"] + f" ({', '.join(missing)} is not among the public data)")
             skipped += 1
             continue
+        before = busy_seconds()
         try:
             faults = Case(data, str(pathlib.Path(program).resolve()), pathlib.Path(examples),
                           public).run()
         except LeftToTheWhole:
             left += 1
             continue
-        print(("FAILED: " if faults else "passed: ") + data["name"])
+        print(("FAILED: " if faults else "passed: ") + f"{data['name']} ({busy_seconds() - before:.1f} s of processor time)")
         for fault in faults:
             print("    " + fault)
         failed += bool(faults)

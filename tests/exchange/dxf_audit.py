@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What ezdxf, an independent reader, makes of a DXF file.
 
-usage: dxf_audit.py audit FILE     one line per error or repair; nothing when all is well
+usage: dxf_audit.py audit FILE...  one line per error or repair, the file in front of it; nothing when all is well
        dxf_audit.py extent FILE    KIND COUNT per kind, then "length L", then "box X0 Y0 X1 Y1"
        dxf_audit.py points FILE N  points of all curves, N to a piece, in order, "x y" each
 """
@@ -17,10 +17,10 @@ DRAWN = {"LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE", "LWPOLYLINE", "POLYLINE"}
 FLATNESS = 1e-5  # of the size of the curve
 
 
-def audit(doc):
-    auditor = doc.audit()
+def audit(name):
+    auditor = ezdxf.readfile(name).audit()
     for entry in auditor.errors + auditor.fixes:
-        print(entry.code, entry.message)
+        print(f"{name}:", entry.code, entry.message)
 
 
 def flattened(entity):
@@ -85,10 +85,12 @@ def points(doc, count):
 
 
 def main():
-    doc = ezdxf.readfile(sys.argv[2])
     if sys.argv[1] == "audit":
-        audit(doc)
-    elif sys.argv[1] == "extent":
+        for name in sys.argv[2:]:
+            audit(name)
+        return
+    doc = ezdxf.readfile(sys.argv[2])
+    if sys.argv[1] == "extent":
         extent(doc)
     else:
         points(doc, int(sys.argv[3]))

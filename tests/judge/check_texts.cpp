@@ -59,6 +59,8 @@ class TextCheck {
     }
     shapes.end();
     verdict_must_name_gaps();
+    const double crossings = figure(certificate_, "self_intersections").value.value_or(0.0);
+    say(tells_crossings_ == (crossings > 0.0), "self-intersections are told", "", crossings);
   }
 
   void verify() {
@@ -497,7 +499,8 @@ class TextCheck {
       figure_is("verify " + label, s.figures.empty() ? "" : s.figures[0],
                 figure(certificate_, label.c_str()).value);
     } else if (label == "self-intersections") {
-      figure_is("verify " + label, s.figures.empty() ? "" : s.figures[0],
+      tells_crossings_ = true;
+      figure_is(command + " " + label, s.figures.empty() ? "" : s.figures[0],
                 figure(certificate_, "self_intersections").value);
     } else if (s.shape == "yes" || s.shape == "no") {
       yes_no(label, s.shape == "yes");
@@ -535,6 +538,7 @@ class TextCheck {
   const Json& report_;
   const Json& certificate_;
   std::string header_, verdict_;
+  bool tells_crossings_ = false;
 };
 
 /// Members of `a` that `b` has too must be the same.

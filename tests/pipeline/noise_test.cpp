@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../common/angles.h"
+#include "../common/long_runs.h"
 #include "obvid/pipeline/fit.h"
 #include "oracle_curves.h"
 
@@ -19,7 +20,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kNoisySeries = 500;
+const int kNoisySeries = test::cases_of(500, 4);
 constexpr double kLeastNoise = 1e-6, kMostNoise = 1e-3;  // of the diagonal of all points
 
 double diagonal(const std::vector<Vec2>& points) {

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "../common/long_runs.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/why_not.h"
@@ -51,9 +52,9 @@ double told_percent(const std::vector<std::string>& warnings) {
 }
 
 TEST(ParabolaRoom, ParabolasOfTheLeastLargestCurvatureSayHowFarTheyAreFromIt) {
-  constexpr int kOvals = 5;
+  const int kOvals = test::cases_of(5, 2);
   int told = 0, formed = 0;
-  for (std::uint64_t seed = 1; seed <= kOvals; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(kOvals); ++seed) {
     const PointSeries series = oval(seed);
     FitJob job;
     job.prefer = Prefer::kLeastCurvature;

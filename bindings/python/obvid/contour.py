@@ -70,8 +70,9 @@ def exported(function: Any, handle: int, ending: str, options: Json) -> Exported
     names = {k.replace("_", "-"): v for k, v in options.items()}
     if "profile" in names:
         names["for"] = names.pop("profile")
-    if function(handle, ending.encode(), options_text(names), C.byref(out), C.byref(error)):
-        raise raise_error(error)
+    with Run(None, None) as run:
+        if function(handle, ending.encode(), options_text(names), run, C.byref(out), C.byref(error)):
+            raise raise_error(error)
     return taken_files(out)
 
 

@@ -11,7 +11,7 @@ from typing import Any, Dict, List, NamedTuple, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ErrorStruct, lib, raise_error, taken_text
+from ._library import ErrorStruct, Run, lib, raise_error, taken_text
 from .contour import exported, only_text, write_all
 from .errors import NotProvedError
 from .reports import Array, Json
@@ -211,7 +211,8 @@ class SpaceCurve:
     def verify(self) -> SpaceVerification:
         """Proves the curve again from its numbers alone."""
         out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
-        code = lib.obvid_verify_space(self._handle, C.byref(out), C.byref(error))
+        with Run(None, None) as run:
+            code = lib.obvid_verify_space(self._handle, run, C.byref(out), C.byref(error))
         text = taken_text(out)
         if code:
             raised = raise_error(error)

@@ -9,6 +9,7 @@
 #include "obvid/alignment/transition.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/exchange/internal/dxf/write.h"
 #include "obvid/exchange/internal/gcode/gcode.h"
 #include "obvid/exchange/internal/points/airfoil.h"
@@ -59,8 +60,10 @@ struct Exported {
 /// The contour in a format of another system. CAD formats get one NURBS curve, joined as
 /// `nurbs_of` says; contours of lines and arcs alone stay lines and arcs; clothoids are
 /// followed by a C2 cubic within the tolerance, which the remarks tell. Errors: those of the
-/// formats.
+/// formats; E103 where it was cancelled, asked before and while curves are followed that a format
+/// does not hold.
 [[nodiscard]] Result<Exported> export_contour(const StoredContour& stored, FileFormat format,
-                                              const ExportOptions& options = {});
+                                              const ExportOptions& options = {},
+                                              const RunContext& run = {});
 
 }  // namespace obvid

@@ -121,12 +121,15 @@ struct SpaceNurbs {
   double deviation = 0.0;  ///< units, an upper bound apart from rounding; 0: exact
 };
 /// A planar curve exactly, as its contour is; others as a C2 cubic by arc length within the
-/// tolerance (> 0, units). Errors: E502 where a hundred thousand spans are not enough.
-[[nodiscard]] Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance);
+/// tolerance (> 0, units). Errors: E502 where a hundred thousand spans are not enough; E103 where
+/// `watch` ends it.
+[[nodiscard]] Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance,
+                                             Watch* watch = nullptr);
 
 /// One curve for each part; `tolerance` in units, default 1e-6 of the size of the chain.
 [[nodiscard]] Result<std::vector<SpaceNurbs>> chain_nurbs(const SpaceChain& chain,
-                                                          std::optional<double> tolerance);
+                                                          std::optional<double> tolerance,
+                                                          const RunContext& run = {});
 
 /// Largest extent of the points, units.
 [[nodiscard]] double size_of(const SpaceFit& fit);
@@ -156,6 +159,8 @@ struct SpaceVerification {
 /// Proves both contours again, each as a contour file, and compares what the file says of frame,
 /// points, heights, curvature, torsion, moves and the NURBS curve with what follows from them.
 [[nodiscard]] SpaceVerification verify(const StoredSpace& stored);
+/// The same; error E103 where it was cancelled.
+[[nodiscard]] Result<SpaceVerification> verify(const StoredSpace& stored, const RunContext& run);
 /// What the curve fails in: a false claim first.
 [[nodiscard]] std::optional<Error> broken_promise(const StoredSpace& stored,
                                                   const SpaceVerification& found);
@@ -171,6 +176,9 @@ struct SpaceChainVerification {
 /// Verifies every part, that the parts have the points of the chain and meet in its corners, and
 /// the angles there.
 [[nodiscard]] SpaceChainVerification verify(const StoredSpaceChain& stored);
+/// The same; error E103 where it was cancelled.
+[[nodiscard]] Result<SpaceChainVerification> verify(const StoredSpaceChain& stored,
+                                                    const RunContext& run);
 [[nodiscard]] std::optional<Error> broken_promise(const StoredSpaceChain& stored,
                                                   const SpaceChainVerification& found);
 /// Of one curve as above.

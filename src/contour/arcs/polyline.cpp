@@ -23,14 +23,17 @@ constexpr double kMostChordTurn = 1.5;      // of the contour beside a chord, ra
 
 class Chords {
  public:
-  Chords(const Track& track, double tolerance) : track_(track), tolerance_(tolerance) {}
+  Chords(const Track& track, double tolerance, Watch* watch)
+      : track_(track), tolerance_(tolerance), watch_(watch) {}
 
-  /// Appends the points after the first one. False when no chord is near enough.
+  /// Appends the points after the first one. False when no chord is near enough, or at the end that
+  /// the watch says.
   bool follow(double from, double to, std::vector<Vec2>& out) const {
     double span = to - from;
     const double least = kShortestChord * track_.length();
     for (double s = from; to - s > least;) {
       const double step = longest(s, to, std::max(span, least), least);
+      if (is_to_end(watch_)) return false;
       if (step == 0.0 || static_cast<double>(out.size()) > kMostPoints) return false;
       span = step;
       s = s + step < to ? s + step : to;
@@ -90,6 +93,7 @@ class Chords {
 
   const Track& track_;
   double tolerance_;
+  Watch* watch_;
 };
 
 double expected_chords(const Contour& contour, double tolerance) {
@@ -121,7 +125,7 @@ std::vector<Piece> as_pieces(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-Result<PolylineAlong> polyline_along(const Contour& contour, double tolerance) {
+Result<PolylineAlong> polyline_along(const Contour& contour, double tolerance, Watch* watch) {
   if (!(tolerance > 0.0)) {
     return error(ErrorCode::kBadOption, "the tolerance must be greater than 0").value(tolerance);
   }
@@ -138,10 +142,12 @@ Result<PolylineAlong> polyline_along(const Contour& contour, double tolerance) {
     out.points.assign(1, start_point(contour.pieces.front()));
     for (const arcs::SmoothPart& stretch : track.stretches()) {
       const double from = track.start_of(stretch.first), to = track.start_of(stretch.end);
-      if (!Chords(track, within).follow(from, to, out.points))
-        return fail(chords_not_near(tolerance));
+      const bool near = Chords(track, within, watch).follow(from, to, out.points);
+      if (has_ended(watch)) return fail(cancelled_error());
+      if (!near) return fail(chords_not_near(tolerance));
     }
-    out.deviation = path_distance(contour.pieces, as_pieces(out.points));
+    out.deviation = path_distance(contour.pieces, as_pieces(out.points), watch);
+    if (has_ended(watch)) return fail(cancelled_error());
     if (out.deviation <= tolerance) return out;
     within *= kOfChordTolerance * tolerance / out.deviation;
   }

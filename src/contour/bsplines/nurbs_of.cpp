@@ -26,10 +26,10 @@ void append(NurbsCurve& curve, const NurbsCurve& next) {
 }
 
 /// C2 cubics along the parts between corners.
-Result<ContourNurbs> cubics_along(const Contour& contour, double tolerance) {
+Result<ContourNurbs> cubics_along(const Contour& contour, double tolerance, Watch* watch) {
   ContourNurbs out;
   for (const Contour& part : smooth_parts(contour)) {
-    const auto cubic = cubic_along(part, tolerance);
+    const auto cubic = cubic_along(part, tolerance, watch);
     OBVID_TRY(cubic);
     const NurbsCurve curve = as_nurbs(cubic->spline);
     if (out.curve.points.empty()) {
@@ -44,12 +44,12 @@ Result<ContourNurbs> cubics_along(const Contour& contour, double tolerance) {
 
 }  // namespace
 
-Result<ContourNurbs> nurbs_of(const Contour& contour, const NurbsOptions& options) {
+Result<ContourNurbs> nurbs_of(const Contour& contour, const NurbsOptions& options, Watch* watch) {
   const bool clothoids =
       std::any_of(contour.pieces.begin(), contour.pieces.end(),
                   [](const Piece& piece) { return std::holds_alternative<ClothoidPiece>(piece); });
   if (clothoids && options.clothoid_tolerance) {
-    return cubics_along(contour, *options.clothoid_tolerance);
+    return cubics_along(contour, *options.clothoid_tolerance, watch);
   }
   if (options.joined) {
     auto joined = joined_nurbs(contour);

@@ -49,8 +49,8 @@ double within(double angle, double turn) {
 
 class DxfDrawer {
  public:
-  DxfDrawer(const Contour& contour, const DxfOptions& options)
-      : contour_(contour), options_(options), layer_(safe_name(options.layer)) {}
+  DxfDrawer(const Contour& contour, const DxfOptions& options, Watch* watch)
+      : contour_(contour), options_(options), watch_(watch), layer_(safe_name(options.layer)) {}
 
   Result<DxfText> run() {
     find_extents();
@@ -209,7 +209,7 @@ class DxfDrawer {
       for (const Ellipse& one : *conics) ellipse(one);
       return {};
     }
-    auto made = nurbs_of(part, {true, options_.tolerance});
+    auto made = nurbs_of(part, {true, options_.tolerance}, watch_);
     if (!made && made.error().code == ErrorCode::kNotProved) {
       // the contour may be proved: it is this format that does not hold such a spline
       Error error = made.error();
@@ -237,7 +237,7 @@ class DxfDrawer {
   }
 
   Result<void> cubic(const Contour& part, bool closed) {
-    const auto along = cubic_along(part, options_.tolerance);
+    const auto along = cubic_along(part, options_.tolerance, watch_);
     OBVID_TRY(along);
     result_.deviation = std::max(result_.deviation, along->deviation);
     spline(as_nurbs(along->spline), closed);
@@ -245,7 +245,7 @@ class DxfDrawer {
   }
 
   Result<void> arcs() {
-    auto along = arcs_along(contour_, options_.tolerance);
+    auto along = arcs_along(contour_, options_.tolerance, watch_);
     OBVID_TRY(along);
     result_.deviation = along->deviation;
     if (options_.profile == DxfProfile::kArcsR12) {
@@ -286,6 +286,7 @@ class DxfDrawer {
 
   const Contour& contour_;
   const DxfOptions& options_;
+  Watch* watch_;
   std::string layer_;
   DxfWriter out_;
   DxfText result_;
@@ -296,7 +297,7 @@ class DxfDrawer {
 
 std::string dxf_unit(const Units& units) { return unit_code(units) != 0 ? units.name : ""; }
 
-Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options) {
+Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options, Watch* watch) {
   if (!(options.tolerance > 0.0)) {
     return error(ErrorCode::kBadOption, "the tolerance must be greater than 0")
         .value(options.tolerance);
@@ -304,7 +305,7 @@ Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options) {
   if (contour.pieces.empty() || contour.joints.empty()) {
     return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
-  return DxfDrawer(contour, options).run();
+  return DxfDrawer(contour, options, watch).run();
 }
 
 }  // namespace obvid

@@ -29,8 +29,8 @@ constexpr int kToleranceTrials = 5;
 
 class Program {
  public:
-  Program(const Contour& contour, const GcodeOptions& options)
-      : contour_(contour), options_(options), inches_(contour.units.name == "in") {
+  Program(const Contour& contour, const GcodeOptions& options, Watch* watch)
+      : contour_(contour), options_(options), watch_(watch), inches_(contour.units.name == "in") {
     scale_ = *unit_ratio(contour.units.name, inches_ ? "in" : "mm");
     decimals_ =
         options.decimals.value_or(exchange::gcode_decimals(options.tolerance * scale_, inches_));
@@ -45,7 +45,8 @@ class Program {
       if (!path.holds(largest_coordinate())) return fail(too_large());
       path.start_at(start_point(contour_.pieces.front()));
       OBVID_TRY(follow(path, within));
-      deviation = path_distance(contour_.pieces, path.pieces()) + path.radius_mismatch();
+      deviation = path_distance(contour_.pieces, path.pieces(), watch_) + path.radius_mismatch();
+      if (has_ended(watch_)) return fail(cancelled_error());
       if (path.pieces().empty()) return fail(nothing_left());
       if (deviation <= options_.tolerance) return finished(path, deviation);
       if (path.lost_arcs()) return fail(too_large());
@@ -95,7 +96,7 @@ class Program {
   }
 
   Result<void> arcs(GcodePath& path, double within) const {
-    const auto along = arcs_along(contour_, within);
+    const auto along = arcs_along(contour_, within, watch_);
     OBVID_TRY(along);
     for (const Piece& piece : along->pieces) {
       if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
@@ -108,7 +109,7 @@ class Program {
   }
 
   Result<void> lines(GcodePath& path, double within) const {
-    const auto along = polyline_along(contour_, within);
+    const auto along = polyline_along(contour_, within, watch_);
     OBVID_TRY(along);
     for (const Vec2 p : along->points) path.line_to(p);
     return {};
@@ -116,7 +117,7 @@ class Program {
 
   Result<void> splines(GcodePath& path, double within) const {
     for (const Contour& part : smooth_parts(contour_, false)) {
-      const auto along = cubic_along(part, within);
+      const auto along = cubic_along(part, within, watch_);
       OBVID_TRY(along);
       for (const RationalBezier& span : bezier_pieces(along->spline)) path.follow_cubic(span);
     }
@@ -163,6 +164,7 @@ class Program {
 
   const Contour& contour_;
   const GcodeOptions& options_;
+  Watch* watch_;
   bool inches_;
   double scale_ = 1.0;  ///< machine units in a unit of the contour
   double unit_ = 0.0;   ///< the last printed digit, units of the contour
@@ -213,9 +215,9 @@ double default_feed(std::string_view units) {
   return units == "in" ? kInches : kMillimetres;
 }
 
-Result<GcodeText> gcode_text(const Contour& contour, const GcodeOptions& options) {
+Result<GcodeText> gcode_text(const Contour& contour, const GcodeOptions& options, Watch* watch) {
   OBVID_TRY(check(contour, options));
-  return Program(contour, options).run();
+  return Program(contour, options, watch).run();
 }
 
 }  // namespace obvid

@@ -28,12 +28,13 @@ constexpr double kMostArcTurn = 3.0;
 class SvgDrawer {
  public:
   SvgDrawer(const Contour& contour, const SvgDrawingOptions& options, double millimetres,
-            double within)
-      : contour_(contour), options_(options), within_(within), mm_(millimetres) {}
+            double within, Watch* watch)
+      : contour_(contour), options_(options), within_(within), mm_(millimetres), watch_(watch) {}
 
   Result<SvgDrawing> run() {
     move(start_point(contour_.pieces.front()));
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
+      if (is_to_end(watch_)) return fail(cancelled_error());
       if (!add(contour_.pieces[i])) {
         return error(ErrorCode::kToleranceNotReached, "no cubic is near enough to a piece")
             .where("piece " + std::to_string(i + 1))
@@ -43,7 +44,8 @@ class SvgDrawer {
       }
     }
     if (contour_.closed) path_ += "Z";
-    if (inexact_) result_.deviation = path_distance(contour_.pieces, drawn_);
+    if (inexact_) result_.deviation = path_distance(contour_.pieces, drawn_, watch_);
+    if (has_ended(watch_)) return fail(cancelled_error());
     result_.text = sheet();
     return std::move(result_);
   }
@@ -198,6 +200,7 @@ class SvgDrawer {
   const SvgDrawingOptions& options_;
   double within_;  ///< of places of a piece from their cubic
   double mm_;
+  Watch* watch_;
   std::string path_;
   std::vector<Piece> drawn_;
   bool inexact_ = false;
@@ -207,7 +210,8 @@ class SvgDrawer {
 
 }  // namespace
 
-Result<SvgDrawing> svg_drawing(const Contour& contour, const SvgDrawingOptions& options) {
+Result<SvgDrawing> svg_drawing(const Contour& contour, const SvgDrawingOptions& options,
+                               Watch* watch) {
   if (!(options.tolerance > 0.0)) {
     return error(ErrorCode::kBadOption, "the tolerance must be greater than 0")
         .value(options.tolerance);
@@ -220,7 +224,7 @@ Result<SvgDrawing> svg_drawing(const Contour& contour, const SvgDrawingOptions& 
   constexpr int kTrials = 3;
   double within = kOfCubicTolerance * options.tolerance;
   for (int trial = 0;; ++trial) {
-    auto made = SvgDrawer(contour, options, *millimetres, within).run();
+    auto made = SvgDrawer(contour, options, *millimetres, within, watch).run();
     if (!made || made->deviation <= options.tolerance) return made;
     if (trial == kTrials) {
       return error(ErrorCode::kToleranceNotReached, "the drawing is not near enough")

@@ -86,7 +86,7 @@ bool only_lines_and_arcs(const ContourExport& e) {
 }
 
 Result<NurbsCurve> one_curve(const ContourExport& e, Exported& out) {
-  auto made = nurbs_of(e.contour, {true, e.tolerance});
+  auto made = nurbs_of(e.contour, {true, e.tolerance}, e.watch);
   OBVID_TRY(made);
   if (made->deviation > 0.0) {
     out.remarks.push_back(
@@ -138,7 +138,7 @@ Result<Exported> dxf_file(const ContourExport& e) {
   write.profile = e.options.dxf;
   const bool arcs = write.profile == DxfProfile::kArcs || write.profile == DxfProfile::kArcsR12;
   write.tolerance = arcs ? e.arc_tolerance : e.tolerance;
-  auto made = dxf_text(e.contour, write);
+  auto made = dxf_text(e.contour, write, e.watch);
   OBVID_TRY(made);
   Exported out = one_file(std::move(made->text));
   const std::string entities =
@@ -164,7 +164,7 @@ Result<Exported> gcode_file(const ContourExport& e) {
   write.feed = e.options.feed;
   write.name = e.options.name;
   write.tolerance = e.options.tolerance ? *e.options.tolerance : gcode_tolerance(e);
-  auto made = gcode_text(e.contour, write);
+  auto made = gcode_text(e.contour, write, e.watch);
   OBVID_TRY(made);
   Exported out = one_file(std::move(made->text));
   out.remarks.push_back(
@@ -176,7 +176,7 @@ Result<Exported> gcode_file(const ContourExport& e) {
 Result<Exported> drawing(const ContourExport& e) {
   SvgDrawingOptions write;
   write.tolerance = e.arc_tolerance;
-  auto made = svg_drawing(e.contour, write);
+  auto made = svg_drawing(e.contour, write, e.watch);
   OBVID_TRY(made);
   Exported out = one_file(std::move(made->text));
   out.remarks.push_back(fmt::format("true scale, at most {:.3g} {} from the contour",
@@ -410,12 +410,14 @@ ContourWriter contour_writer_of(FileFormat format) {
 }  // namespace pipeline_detail
 
 Result<Exported> export_contour(const StoredContour& stored, FileFormat format,
-                                const ExportOptions& options) {
+                                const ExportOptions& options, const RunContext& run) {
   using namespace pipeline_detail;
+  OBVID_TRY(may_go_on(run));
+  Watch watch(run);
   const double size = bounding_diagonal(places_of(stored.contour));
   return contour_writer_of(format)({stored, stored.contour, options, size,
                                     options.tolerance.value_or(kExportTolerance * size),
-                                    options.tolerance.value_or(kDefaultForArcs * size)});
+                                    options.tolerance.value_or(kDefaultForArcs * size), &watch});
 }
 
 }  // namespace obvid

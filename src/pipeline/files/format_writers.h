@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/run_context.h"
 #include "obvid/mesh/mesh.h"
 #include "obvid/pipeline/export.h"
@@ -21,6 +22,7 @@ struct ContourExport {
   double size = 0.0;           ///< diagonal of its box
   double tolerance = 0.0;      ///< of curves that the format cannot hold
   double arc_tolerance = 0.0;  ///< of arcs, chords and samples
+  Watch* watch = nullptr;
 };
 
 /// A surface that is written; what several files need is made once.

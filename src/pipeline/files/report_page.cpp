@@ -62,6 +62,9 @@ std::string contour_rows(const Contour& contour) {
 std::string gap_rows(const Contour& contour, const Certificate& certificate) {
   std::string out = figure_row("joint gaps", gaps_text(contour.carrier, certificate.gaps));
   if (certificate.corners > 0) out += figure_row("corners", std::to_string(certificate.corners));
+  if (certificate.self_intersections > 0) {
+    out += figure_row("self-intersections", std::to_string(certificate.self_intersections));
+  }
   return out;
 }
 

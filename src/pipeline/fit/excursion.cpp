@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "fit/parts.h"
+#include "obvid/certify/internal/crossings.h"
 #include "obvid/core/internal/figures.h"
 
 namespace obvid::pipeline_detail {
@@ -84,6 +85,18 @@ std::optional<std::string> warn_of_excursion(const Contour& contour,
       "a corner say what is meant",
       at->from + 1, at->to + 1, significant(worst, 3), contour.units.text(),
       significant(worst / extent, 2));
+}
+
+std::optional<std::string> warn_of_crossings(const Contour& contour,
+                                             const Certificate& certificate) {
+  const int found = certificate.self_intersections;
+  if (found == 0 || found <= count_crossings_of_chords(contour.points, contour.closed)) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "the contour crosses itself {}, more often than the chords between its points: no outline of "
+      "a part does; points in between, less --noise or a corner say what is meant",
+      found == 1 ? "once" : fmt::format("{} times", found));
 }
 
 }  // namespace obvid::pipeline_detail

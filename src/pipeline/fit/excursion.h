@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/certify/certificate.h"
 #include "obvid/curve/contour.h"
 
 namespace obvid::pipeline_detail {
@@ -15,5 +16,10 @@ namespace obvid::pipeline_detail {
 /// parts beside it do what was asked for. Invariant under motions and scaling. Cost O(pieces).
 [[nodiscard]] std::optional<std::string> warn_of_excursion(const Contour& contour,
                                                            const std::vector<bool>& given);
+
+/// A warning about a contour that crosses itself more often than the chords between its points do.
+/// Both are counted, not proved (`count_crossings`). Cost O(points log points) where it crosses.
+[[nodiscard]] std::optional<std::string> warn_of_crossings(const Contour& contour,
+                                                           const Certificate& certificate);
 
 }  // namespace obvid::pipeline_detail

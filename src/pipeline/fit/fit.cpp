@@ -781,6 +781,9 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   if (auto warning = warn_of_excursion(out.contour, has_given_data(*prepared))) {
     out.warnings.push_back(std::move(*warning));
   }
+  if (auto warning = warn_of_crossings(out.contour, out.certificate)) {
+    out.warnings.push_back(std::move(*warning));
+  }
   watch.tell("done", 1.0);
   return out;
 }

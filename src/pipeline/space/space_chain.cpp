@@ -333,10 +333,12 @@ Result<SpaceChain> fit_space_chain(const SpaceSeries& series, const SpaceJob& jo
 double size_of(const SpaceChain& chain) { return chain_extent(chain.points); }
 
 Result<std::vector<SpaceNurbs>> chain_nurbs(const SpaceChain& chain,
-                                            std::optional<double> tolerance) {
+                                            std::optional<double> tolerance,
+                                            const RunContext& run) {
+  Watch watch(run);
   std::vector<SpaceNurbs> out;
   for (const SpaceFit& part : chain.parts) {
-    auto made = space_nurbs(part, tolerance.value_or(kChainTolerance * size_of(chain)));
+    auto made = space_nurbs(part, tolerance.value_or(kChainTolerance * size_of(chain)), &watch);
     OBVID_TRY(made);
     out.push_back(std::move(*made));
   }
@@ -388,8 +390,16 @@ std::optional<std::string> take_units(SpaceChain& chain, const Units& given) {
 }
 
 SpaceChainVerification verify(const StoredSpaceChain& stored) {
+  return *verify(stored, RunContext{});
+}
+
+Result<SpaceChainVerification> verify(const StoredSpaceChain& stored, const RunContext& run) {
   SpaceChainVerification out;
-  for (const StoredSpace& part : stored.parts) out.parts.push_back(verify(part));
+  for (const StoredSpace& part : stored.parts) {
+    auto found = verify(part, run);
+    OBVID_TRY(found);
+    out.parts.push_back(std::move(*found));
+  }
   if (stored.corners.empty()) return out;
   out.false_claim = ChainClaims(stored).run();
   out.not_checked = {"/name", "/units", "/units_source",

@@ -28,8 +28,12 @@ constexpr std::ptrdiff_t kSpansBeyond = 40;
 /// The C2 cubic through places of a curve, and how far it is from it.
 class CubicOfSpace {
  public:
-  CubicOfSpace(const SpaceShape& shape, bool closed, double tolerance)
-      : shape_(shape), closed_(closed), tolerance_(tolerance), joints_(apart(shape.joints())) {}
+  CubicOfSpace(const SpaceShape& shape, bool closed, double tolerance, Watch* watch)
+      : shape_(shape),
+        closed_(closed),
+        tolerance_(tolerance),
+        watch_(watch),
+        joints_(apart(shape.joints())) {}
 
   Result<SpaceNurbs> run() const {
     for (std::size_t parts = 1; parts * joints_.size() < kMostSpans; parts *= 2) {
@@ -39,7 +43,8 @@ class CubicOfSpace {
       auto curve = closed_ ? round_the_seam(std::move(points), nodes) : interpolated(points, nodes);
       OBVID_TRY(curve);
       const double deviation =
-          pipeline_detail::distance_bound(shape_, *curve, kBetweenPart * tolerance_);
+          pipeline_detail::distance_bound(shape_, *curve, kBetweenPart * tolerance_, watch_);
+      if (has_ended(watch_)) return fail(cancelled_error());
       if (deviation <= tolerance_) return SpaceNurbs{std::move(*curve), deviation};
     }
     return error(ErrorCode::kToleranceNotReached,
@@ -101,6 +106,7 @@ class CubicOfSpace {
   const SpaceShape& shape_;
   bool closed_;
   double tolerance_;
+  Watch* watch_;
   std::vector<double> joints_;
 };
 
@@ -153,7 +159,8 @@ std::vector<std::pair<double, SpacePlace>> equal_places(const SpaceFit& fit, std
 
 namespace pipeline_detail {
 
-double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic, double between) {
+double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic, double between,
+                      Watch* watch) {
   // the second derivative of the cubic is linear between knots, and that of the curve is bounded by
   // the curvatures of both contours, which are monotone on their pieces
   std::vector<double> nodes = shape.joints();
@@ -162,7 +169,7 @@ double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic, double b
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   double largest = 0.0;
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+  for (std::size_t k = 0; k + 1 < nodes.size() && !is_to_end(watch); ++k) {
     const double from = nodes[k], to = nodes[k + 1], width = to - from;
     const auto a = shape.curvatures(from, false), b = shape.curvatures(to, true);
     const double bend = std::hypot(std::max(std::abs(a.plan), std::abs(b.plan)),
@@ -185,15 +192,15 @@ double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic, double b
 
 }  // namespace pipeline_detail
 
-Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance) {
+Result<SpaceNurbs> space_nurbs(const SpaceFit& fit, double tolerance, Watch* watch) {
   if (!(tolerance > 0.0 && std::isfinite(tolerance))) {
     return error(ErrorCode::kBadOption, "the tolerance must be a positive length").value(tolerance);
   }
   if (fit.unrolled) {
     const SpaceShape shape(fit.frame, fit.plan.contour, fit.unrolled->contour);
-    return CubicOfSpace(shape, fit.plan.contour.closed, tolerance).run();
+    return CubicOfSpace(shape, fit.plan.contour.closed, tolerance, watch).run();
   }
-  const auto made = nurbs_of(fit.plan.contour, {true, tolerance});
+  const auto made = nurbs_of(fit.plan.contour, {true, tolerance}, watch);
   OBVID_TRY(made);
   return SpaceNurbs{placed(made->curve, fit.frame), made->deviation};
 }

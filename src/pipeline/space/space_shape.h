@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/pipeline/space_fit.h"
 
@@ -63,7 +64,7 @@ class SpaceShape {
 /// values there by at most (largest second derivatives) d^2 / 8: the places are so close that this
 /// is at most `between`.
 [[nodiscard]] double distance_bound(const SpaceShape& shape, const SpaceCurve& cubic,
-                                    double between);
+                                    double between, Watch* watch = nullptr);
 
 /// The points of the projection in the order in which their heights stand over it: a closed one may
 /// begin at any of its points, and the last height is that of the first one again.

@@ -29,7 +29,8 @@ constexpr double kBetweenPlaces = 0.05;
 
 class SpaceClaims {
  public:
-  explicit SpaceClaims(const StoredSpace& stored) : stored_(stored), fit_(space_fit_of(stored)) {
+  SpaceClaims(const StoredSpace& stored, Watch& watch)
+      : stored_(stored), fit_(space_fit_of(stored)), watch_(watch) {
     double coordinate = 0.0;
     for (const Vec3& p : stored.points) {
       coordinate = std::max({coordinate, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -158,7 +159,7 @@ class SpaceClaims {
     if (!(stored_.deviation >= 0.0)) return refuse("curve/deviation", stored_.deviation, 0.0);
     // a straight curve far from the origin is nearer to its cubic than coordinates are rounded
     const double found = pipeline_detail::distance_bound(
-        shape, stored_.curve, kBetweenPlaces * std::max(stored_.deviation, near_));
+        shape, stored_.curve, kBetweenPlaces * std::max(stored_.deviation, near_), &watch_);
     if (!(found <= (1.0 + 2.0 * kBetweenPlaces) * stored_.deviation + near_)) {
       refuse("curve/deviation", stored_.deviation, found);
     }
@@ -205,6 +206,7 @@ class SpaceClaims {
 
   const StoredSpace& stored_;
   SpaceFit fit_;
+  Watch& watch_;
   double near_ = 0.0;
   std::optional<Error> refused_;
 };
@@ -247,11 +249,21 @@ SpaceFit space_fit_of(const StoredSpace& stored) {
   return out;
 }
 
-SpaceVerification verify(const StoredSpace& stored) {
+SpaceVerification verify(const StoredSpace& stored) { return *verify(stored, RunContext{}); }
+
+Result<SpaceVerification> verify(const StoredSpace& stored, const RunContext& run) {
   SpaceVerification out;
-  out.plan = verify(stored.plan);
-  if (stored.heights) out.heights = verify(*stored.heights);
-  out.false_claim = SpaceClaims(stored).run();
+  auto plan = verify(stored.plan, run);
+  OBVID_TRY(plan);
+  out.plan = std::move(*plan);
+  if (stored.heights) {
+    auto heights = verify(*stored.heights, run);
+    OBVID_TRY(heights);
+    out.heights = std::move(*heights);
+  }
+  Watch watch(run);
+  out.false_claim = SpaceClaims(stored, watch).run();
+  if (watch.was_cancelled()) return fail(cancelled_error());
   out.not_checked = {"/name", "/units", "/units_source"};
   if (!stored.heights && stored.deviation != 0.0) {
     out.not_checked.emplace_back("/curve (only that it is a NURBS curve)");

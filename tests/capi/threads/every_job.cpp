@@ -61,7 +61,6 @@ struct Handles {
 struct Job {
   std::string name;
   std::function<std::string(const Handles&, const obvid_run*)> work;
-  bool asks = true;  ///< takes a run
 };
 
 using Report = int (*)(const obvid_input*, const char*, const obvid_run*, char**, obvid_error**);
@@ -82,7 +81,7 @@ Job fit(const char* options) {
         const int code = obvid_fit(h.points, options, run, &contour, &text, nullptr);
         std::string out = taken(text) + code_text(code);
         obvid_files* files = nullptr;
-        if (contour != nullptr && obvid_export(contour, "json", nullptr, &files, nullptr) == 0) {
+        if (contour != nullptr && obvid_export(contour, "json", nullptr, nullptr, &files, nullptr) == 0) {
           out += told(files);
         }
         obvid_contour_free(contour);
@@ -92,12 +91,11 @@ Job fit(const char* options) {
 
 Job exported(const char* ending) {
   return {std::string("export ") + ending,
-          [=](const Handles& h, const obvid_run*) {
+          [=](const Handles& h, const obvid_run* run) {
             obvid_files* files = nullptr;
-            const int code = obvid_export(h.contour, ending, nullptr, &files, nullptr);
+            const int code = obvid_export(h.contour, ending, nullptr, run, &files, nullptr);
             return told(files) + code_text(code);
-          },
-          false};
+          }};
 }
 
 Job surface_file(const char* ending) {
@@ -145,12 +143,17 @@ std::vector<Job> jobs() {
          return taken(text) + code_text(code);
        }},
       {"verify_space",
-       [](const Handles& h, const obvid_run*) {
+       [](const Handles& h, const obvid_run* run) {
          char* text = nullptr;
-         const int code = obvid_verify_space(h.space, &text, nullptr);
+         const int code = obvid_verify_space(h.space, run, &text, nullptr);
          return taken(text) + code_text(code);
-       },
-       false},
+       }},
+      {"space_export",
+       [](const Handles& h, const obvid_run* run) {
+         obvid_files* files = nullptr;
+         const int code = obvid_space_export(h.space, "step", nullptr, run, &files, nullptr);
+         return told(files) + code_text(code);
+       }},
       {"surface_make",
        [](const Handles& h, const obvid_run* run) {
          const obvid_input* inputs[] = {h.grid};
@@ -305,7 +308,6 @@ constexpr double kMostBetweenQuestions = 0.2;  // of these small jobs; 50 ms are
 
 /// A job that is asked to go on does, and asks again before long.
 void ask_often(const Job& job, const Handles& h, const std::string& wanted) {
-  if (!job.asks) return;
   Gaps gaps{own_seconds()};
   const obvid_run run{&gaps, nullptr, notes};
   if (job.work(h, &run) != wanted) fault(job.name, "says something else when it is asked");
@@ -319,7 +321,6 @@ void ask_often(const Job& job, const Handles& h, const std::string& wanted) {
 /// Cancelled at its questions 0, 1 and 3: there is nothing. Each job asks at least once; quick ones
 /// end before a later question, and say all then.
 void end_in_the_middle(const Job& job, const Handles& h, const std::string& wanted) {
-  if (!job.asks) return;
   for (const int after : {0, 1, 3}) {
     Ending ending{after};
     const obvid_run run{&ending, nullptr, ends};

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 #include "obvid/curve/nurbs.h"
@@ -33,8 +34,9 @@ struct ContourNurbs {
 /// (`index`: the piece), and what cannot be taken as it is when not joined: pieces that are not
 /// rational Beziers of one degree with end weights 1 and plain coordinates, each beginning exactly
 /// where the one before ends; E501 weights of both signs, or a piece too short beside the others for
-/// a knot of its own; of clothoids those of `cubic_along`. O(pieces). Reentrant.
+/// a knot of its own; of clothoids those of `cubic_along`, E103 where `watch` ends it. O(pieces).
+/// Reentrant.
 [[nodiscard]] Result<ContourNurbs> nurbs_of(const Contour& contour,
-                                            const NurbsOptions& options = {});
+                                            const NurbsOptions& options = {}, Watch* watch = nullptr);
 
 }  // namespace obvid

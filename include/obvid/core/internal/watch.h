@@ -55,6 +55,11 @@ class Watch {
 /// The same of work that may have none: asks.
 [[nodiscard]] inline bool is_to_end(Watch* watch) { return watch != nullptr && watch->cancelled(); }
 
+/// Whether that was the answer before.
+[[nodiscard]] inline bool has_ended(const Watch* watch) {
+  return watch != nullptr && watch->was_cancelled();
+}
+
 /// While it lives, `Watch::spend` says stop after so many more units; an outer allowance that is
 /// nearer its end holds as well.
 class Allowance {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 
@@ -39,7 +40,8 @@ struct DxfText {
 /// cut an exact or cubic contour into several splines. What numbers of an ARC or ELLIPSE would not
 /// hold to 1e-10 of the size becomes an LWPOLYLINE or a SPLINE (docs/methods/dxf.md, section 1).
 /// Errors: E203 a tolerance that is not greater than 0; E303 a coordinate that is not finite; E311
-/// no pieces; those of `arcs_along`, `cubic_along`, `nurbs_of`.
-[[nodiscard]] Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options = {});
+/// no pieces; those of `arcs_along`, `cubic_along`, `nurbs_of`; E103 where `watch` ends it.
+[[nodiscard]] Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options = {},
+                                       Watch* watch = nullptr);
 
 }  // namespace obvid

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 
@@ -56,8 +57,9 @@ struct GcodeText {
 /// of it, are lines; ends that round to the place where the tool stands are left out. Errors: E203
 /// a tolerance or feed that is not greater than 0, decimals out of range, G5 for another controller
 /// than LinuxCNC; E203 a unit without a length in metres; E502 the tolerance is too small for the
-/// decimals; those of `arcs_along`, `polyline_along` and `cubic_along`.
-[[nodiscard]] Result<GcodeText> gcode_text(const Contour& contour,
-                                           const GcodeOptions& options = {});
+/// decimals; those of `arcs_along`, `polyline_along` and `cubic_along`; E103
+/// where `watch` ends it.
+[[nodiscard]] Result<GcodeText> gcode_text(const Contour& contour, const GcodeOptions& options = {},
+                                           Watch* watch = nullptr);
 
 }  // namespace obvid

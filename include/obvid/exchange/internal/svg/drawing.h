@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 
@@ -27,8 +28,9 @@ struct SvgDrawing {
 /// the path). Lines, arcs and polynomials of degree 2 and 3 are exact; everything else becomes
 /// cubic Bezier curves with the contour's tangents within the tolerance. Errors: E203 a
 /// tolerance that is not greater than 0, a unit without a length in metres; E311 no pieces; E502
-/// not reached.
+/// not reached; E103 where `watch` ends it.
 [[nodiscard]] Result<SvgDrawing> svg_drawing(const Contour& contour,
-                                             const SvgDrawingOptions& options = {});
+                                             const SvgDrawingOptions& options = {},
+                                             Watch* watch = nullptr);
 
 }  // namespace obvid

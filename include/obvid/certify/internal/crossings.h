@@ -15,4 +15,7 @@ namespace obvid {
 [[nodiscard]] int count_crossings(const Contour& contour,
                                   std::span<const std::size_t> turning = {});
 
+/// The same of the chords from point to point, and back to the first if it is closed.
+[[nodiscard]] int count_crossings_of_chords(std::span<const Vec2> points, bool closed);
+
 }  // namespace obvid
