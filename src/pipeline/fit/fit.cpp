@@ -174,6 +174,9 @@ bool makes_slopes_continuous(const FitJob& job) {
   return is_made_g3(job) || (follows_spirals(job.carrier) && job.followed == Continuity::kG3);
 }
 
+/// Sections that are named in a warning.
+constexpr std::size_t kMostBareNamed = 4;
+
 /// Forms the sections one after the other, and beside them the spirals of the same elements.
 class SectionForming {
  public:
@@ -197,6 +200,7 @@ class SectionForming {
       OBVID_TRY(form_one(k));
     }
     if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
+    tell_bare_sections();
     out_.contour = finished(assembly_, job_.carrier);
     if (steps_everywhere(out_.contour)) {
       claim_slopes(out_.contour, false);
@@ -213,6 +217,25 @@ class SectionForming {
   }
 
  private:
+  /// Sections between corners without a line or arc, in one sentence.
+  void tell_bare_sections() {
+    if (bare_.empty()) return;
+    const auto number = [&](std::size_t place) {
+      return series_.split.point_at(place) % series_.points.size() + 1;
+    };
+    std::string where;
+    const std::size_t named = std::min(bare_.size(), kMostBareNamed);
+    for (std::size_t k = 0; k < named; ++k) {
+      const Section& one = series_.split.sections[bare_[k]];
+      where += fmt::format("{} points {} and {}", k == 0 ? " between" : ", between",
+                           number(one.first), number(one.last));
+    }
+    if (bare_.size() > named) {
+      where += " and in " + counted(bare_.size() - named, "section more", "sections more");
+    }
+    out_.warnings.push_back(no_primitives_text(where));
+  }
+
   Result<void> form_one(std::size_t k) {
     const auto count = static_cast<double>(series_.split.sections.size());
     const ProgressShare share(watch_, static_cast<double>(k) / count,
@@ -224,6 +247,7 @@ class SectionForming {
     if (carrier.needs == CarrierNeeds::kPoints) return form_points_alone(section);
     auto chain = chains_.chain(series_, section, watch_);
     OBVID_TRY(chain);
+    if (chain->is_bare) bare_.push_back(k);
     auto spirals = spirals_of(*chain);
     if (!spirals && (carrier.needs == CarrierNeeds::kSpirals || !follows_spirals(job_.carrier))) {
       return fail(spirals.error());
@@ -403,7 +427,8 @@ class SectionForming {
   Assembly assembly_, spirals_;
   Waviness waviness_g2_{watch_};
   KeptParts kept_;
-  bool have_spirals_;  // as long as they are asked for, and all sections have them
+  std::vector<std::size_t> bare_;  ///< sections without a line or arc that were asked for
+  bool have_spirals_;              // as long as they are asked for, and all sections have them
 };
 
 Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,

@@ -639,9 +639,8 @@ class SectionChooser {
           : faired.primitives == 1 ? "1 is"
                                    : fmt::format("{} are", faired.primitives)));
     } else if (faired.primitives == 0) {
-      out_.warnings.emplace_back(
-          "no line and no arc was found: no stretch of 4 points or more fits one with room to "
-          "spare and is far longer than a spiral that fits as well");
+      out_.is_bare = series_.split.sections.size() > 1;
+      if (!out_.is_bare) out_.warnings.push_back(no_primitives_text());
     }
   }
 
@@ -828,6 +827,13 @@ class SectionChooser {
 };
 
 }  // namespace
+
+std::string no_primitives_text(const std::string& where) {
+  return fmt::format(
+      "no line and no arc was found{}: no stretch of 4 points or more fits one with room to spare "
+      "and is far longer than a spiral that fits as well",
+      where);
+}
 
 Result<SectionChain> chain_section(const Prepared& series, const Section& section, Watch& watch) {
   return SectionChooser(series, section, watch).run();

@@ -17,12 +17,16 @@ struct SectionChain {
   NodeData seam{};  ///< what was given where a smooth loop begins; the chain holds that element
   std::vector<std::string> warnings;
   bool at_the_edge = false;  ///< of `edge_chain`: what is given leaves no fairer one that was found
+  bool is_bare = false;      ///< one of several sections, without a line or arc that were asked for
 };
 
 /// Headings and curvatures for a section: through its points, or within their tolerances with few
 /// vertices. Errors: E401, E402, E403, E404, E405, naming points of the whole series.
 [[nodiscard]] Result<SectionChain> chain_section(const Prepared& series, const Section& section,
                                                  Watch& watch);
+
+/// What is said where no line and no arc is found: of all points, or between some of them.
+[[nodiscard]] std::string no_primitives_text(const std::string& where = {});
 
 /// Chains of sections that were found already, and refusals: one search serves all that is made of
 /// its result, the G2 and the G3 contour, and carriers of one comparison. Not for two threads.
