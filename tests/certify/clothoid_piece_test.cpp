@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "crossings.h"
 #include "end_data.h"
 #include "obvid/certify/certify.h"
+#include "obvid/certify/internal/crossings.h"
 #include "obvid/curve/internal/clothoid.h"
 #include "piece_facts.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crossings.h"
+#include "obvid/certify/internal/crossings.h"
 #include "../common/angles.h"
 
 #include <gtest/gtest.h>
