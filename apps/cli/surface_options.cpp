@@ -69,6 +69,9 @@ constexpr std::array kKinds = {
     KindText{"trim", "The part above or below planes, inside or outside a closed contour",
              "Surface (.json, STEP, IGES, BREP, control points)",
              "obvid surface trim hull.json --plane z=1.8 --keep below -o bottom.step"},
+    KindText{"fillet", "A rolling ball's blend between two faces, which are trimmed there",
+             "Surface (.json, STEP, IGES, BREP)",
+             "obvid surface fillet body.json --faces roof,side --radius 20 -o body.step"},
     KindText{"convert", "A stored surface in another format",
              "Surface (.json, STEP, IGES, BREP, control points)",
              "obvid surface convert part.step -o part.glb"},
@@ -93,6 +96,7 @@ constexpr const char* kSurfaceHelp =
   obvid surface scatter POINTS --tolerance T -o OUT  near points in any order
   obvid surface offset SURFACE --distance D -o OUT
   obvid surface trim SURFACE --plane z=1.8 --keep below -o OUT   a part of it
+  obvid surface fillet SURFACE --faces A,B --radius R -o OUT   a rolling ball's blend
   obvid surface convert SURFACE -o OUT         another format
   obvid surface check SURFACE                  curvature, joints, monotone sections
   obvid surface cut SURFACE -o OUT             sections by planes, lines drawing
@@ -262,6 +266,25 @@ struct KindOptions {
                    "Largest distance of trims from the exact cut, input units [1e-6 of the size]")
         ->type_name("T");
     add_contours(app, raw);
+  }
+  void operator()(const FilletKind&) const {
+    app.add_option("--faces", raw.values.faces, "The two faces: names, or numbers from 1")
+        ->type_name("A,B");
+    app.add_option("--radius", raw.values.radius, "Radius of the ball, input units")
+        ->type_name("R");
+    app.add_option("--radius-end", raw.values.radius_end,
+                   "Radius at the end of the spine, linear along its length; with --faces B,A the "
+                   "spine runs the other way [the same]")
+        ->type_name("R");
+    app.add_option("--sides", raw.values.sides,
+                   "On which side of each face the ball is: front (where du x dv points to) or "
+                   "back, or auto where they share a border [auto]")
+        ->type_name("A,B");
+    app.add_flag("--whole", raw.values.whole, "Leave the faces as they are [trimmed]");
+    app.add_option("--tolerance", raw.values.tolerance,
+                   "Largest distance of the blend from the ball's and of trims from its borders, "
+                   "input units [5e-8 of the size]")
+        ->type_name("T");
   }
   void operator()(const ConvertKind&) const {}
 
