@@ -66,7 +66,10 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"radius", number(s.radius)},
                 {"radius-end", number(s.radius_end)},
                 {"sides", text(s.sides)},
-                {"whole", flag(s.whole)}});
+                {"whole", flag(s.whole)},
+                {"border", text(s.border)},
+                {"to", text(s.to)},
+                {"join", text(s.join)}});
   }
   if (known.formats) {
     SurfaceFormatValues& f = w.formats;

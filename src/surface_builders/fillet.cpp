@@ -14,7 +14,6 @@
 #include "obvid/numeric/internal/golden.h"
 #include "obvid/surface_builders/internal/check.h"
 #include "obvid/surface_builders/internal/deviation.h"
-#include "offset_raster.h"
 #include "rolling_ball.h"
 
 namespace obvid {
@@ -30,7 +29,7 @@ constexpr std::size_t kMostBlendSections = 2'000;
 constexpr std::size_t kWrappedSections = 12;  // sections beyond the seam of a closed blend: what a
                                               // C2 cubic makes of its end there is 0.27^12 of it,
                                               // 1e-7 of a part of the tolerance
-constexpr double kBlendShare = 0.5;     // of the tolerance
+constexpr double kBlendShare = 0.5;           // of the tolerance
 constexpr double kSameBlendEnd = 1e-9;  // of the size: ends of contacts nearer than this are one
 constexpr double kTangentFaces = 1e-6;  // sine: faces that bend less to each other are tangent
 
@@ -90,7 +89,7 @@ class BlendMaker {
   }
 
   Result<Fillet> made() {
-    OBVID_TRY(fits());
+    OBVID_TRY(choose_pieces());
     OBVID_TRY(refine());
     OBVID_TRY(does_not_fold());
     Fillet out;
@@ -132,27 +131,9 @@ class BlendMaker {
         .hint("take another radius");
   }
 
-  /// The ball must not bend less than a face towards it; looked at where it touches.
-  Result<void> fits() {
+  Result<void> choose_pieces() {
     double widest = 0.0;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const BallFace& face = ball_.face(i);
-      const Bending bending(face.patch().surface);
-      for (const BallPlace& place : way_.places) {
-        OBVID_TRY(may_go_on(run_));
-        widest = std::max(widest, angle_across(place));
-        const Vec2 at = face.into_domain(place.touch[i].at);
-        const double bend = bending.at(at.x, at.y, face.side() > 0.0 ? 1 : -1);
-        if (bend * place.radius < 1.0) continue;
-        return error(
-                   ErrorCode::kSurfaceFolds,
-                   fmt::format("a ball of radius {:g} does not fit into {}, whose radius is {:.6g}",
-                               place.radius, face.patch().name, 1.0 / bend))
-            .where(near_text(place.touch[i].point))
-            .hint("take a smaller radius, or the other side")
-            .value(1.0 / bend);
-      }
-    }
+    for (const BallPlace& place : way_.places) widest = std::max(widest, angle_across(place));
     if (widest > kWidestArc) {
       return error(ErrorCode::kUnsupported, "the blend is a half circle: the faces are parallel")
           .where(near_text(way_.places.front().centre))
@@ -324,8 +305,10 @@ class BlendMaker {
       return {};
     };
     OBVID_TRY(add(on.from));
+    const double same = kSameBlendEnd * ball_.size();
     for (const BallPlace& place : way_.places) {
-      if (place.s > on.from && place.s < on.to) out.places.push_back(place.touch[i].at);
+      if (place.s > on.from + same && place.s < on.to - same)
+        out.places.push_back(place.touch[i].at);
     }
     if (way_.closed) {
       out.places.push_back(way_.places.back().touch[i].at);
@@ -428,10 +411,6 @@ Result<std::array<double, 2>> ball_sides_of(const std::array<const SurfacePatch*
             "say on which sides the ball is: --sides front,back and so on; front is where du x "
             "dv points to");
   };
-  if (!faces[0]->trims.empty() || !faces[1]->trims.empty()) {
-    return to_be_told(
-        "of trimmed faces borders are not compared, the ball's sides have to be told");
-  }
   const Topology topology = topology_of({&faces[0]->surface, &faces[1]->surface}, kMeeting * size);
   for (const TopologyEdge& edge : topology.edges) {
     const auto use = [&](std::size_t patch) {

@@ -38,7 +38,11 @@ double ball_turn(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b
 std::string near_text(Vec3 p) { return fmt::format("near {:.6g} {:.6g} {:.6g}", p.x, p.y, p.z); }
 
 BallFace::BallFace(const SurfacePatch& patch, double side, double size)
-    : patch_(patch), side_(side), u_(domain_u(patch.surface)), v_(domain_v(patch.surface)) {
+    : patch_(patch),
+      side_(side),
+      bending_(patch.surface),
+      u_(domain_u(patch.surface)),
+      v_(domain_v(patch.surface)) {
   if (!patch.trims.empty()) {
     region_.emplace(patch);
     return;
@@ -63,6 +67,11 @@ Vec2 BallFace::into_domain(Vec2 at) const {
 SurfaceJet BallFace::jet(Vec2 at) const {
   const Vec2 p = into_domain(at);
   return evaluate(patch_.surface, p.x, p.y);
+}
+
+double BallFace::bend(Vec2 at) const {
+  const Vec2 p = into_domain(at);
+  return bending_.at(p.x, p.y, side_ > 0.0 ? 1 : -1);
 }
 
 bool BallFace::inside(Vec2 at) const {
@@ -213,12 +222,14 @@ class BallWalker {
 
   Result<Walked> walked() {
     step_ = kFirstBallStep * start_.radius;
+    OBVID_TRY(fits(start_));
     while (!(left_[0] && left_[1])) {
       if (out_.places.size() >= kMostBallSteps)
         return fail(stuck("the ball does not come to an end"));
       OBVID_TRY(may_go_on(run_));
       const auto next = next_place();
       if (!next) return fail(stuck("the ball cannot go on between the faces"));
+      OBVID_TRY(fits(*next));
       if (closes(*next)) return std::move(out_);
       for (std::size_t i = 0; i < 2; ++i) {
         if (!left_[i] && !ball_.face(i).inside(next->touch[i].at)) left_[i] = leaves(i, *next);
@@ -249,6 +260,20 @@ class BallWalker {
         .where(near_text(at_.centre))
         .hint("the faces are nearly parallel there or bend more than the ball; take another radius")
         .value(at_.radius);
+  }
+  /// The ball must bend more than both faces do towards it; looked at where it touches.
+  [[nodiscard]] Result<void> fits(const BallPlace& place) const {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double bend = ball_.face(i).bend(place.touch[i].at);
+      if (bend * place.radius < 1.0) continue;
+      return error(ErrorCode::kSurfaceFolds,
+                   fmt::format("a ball of radius {:g} does not fit into {}, whose radius is {:.6g}",
+                               place.radius, ball_.face(i).patch().name, 1.0 / bend))
+          .where(near_text(place.touch[i].point))
+          .hint("take a smaller radius, or the other side")
+          .value(1.0 / bend);
+    }
+    return {};
   }
   [[nodiscard]] Error alone(std::size_t i, const BallPlace& place) const {
     return error(ErrorCode::kUnsupported,

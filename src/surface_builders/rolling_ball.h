@@ -10,6 +10,7 @@
 #include "obvid/core/run_context.h"
 #include "obvid/surface/internal/trim.h"
 #include "obvid/surface/surface.h"
+#include "offset_raster.h"
 
 namespace obvid {
 
@@ -23,6 +24,8 @@ class BallFace {
   [[nodiscard]] SurfaceJet jet(Vec2 at) const;
   [[nodiscard]] Vec2 into_domain(Vec2 at) const;  ///< by whole turns
   [[nodiscard]] bool inside(Vec2 at) const;
+  /// How much the face bends towards the ball, 1/unit; 0 where it bends away.
+  [[nodiscard]] double bend(Vec2 at) const;
   [[nodiscard]] const SurfacePatch& patch() const { return patch_; }
   [[nodiscard]] double side() const { return side_; }
   [[nodiscard]] Vec2 sizes() const { return {u_.length(), v_.length()}; }
@@ -30,6 +33,7 @@ class BallFace {
  private:
   const SurfacePatch& patch_;
   double side_;
+  Bending bending_;
   Range u_, v_;
   bool closed_u_ = false, closed_v_ = false;
   std::optional<TrimRegion> region_;  ///< of trimmed ones

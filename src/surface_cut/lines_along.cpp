@@ -12,7 +12,7 @@ namespace obvid {
 namespace {
 
 constexpr int kLineSamples = 8;  // in each span of a line
-constexpr int kMostFootSteps = 20;
+constexpr int kMostFeet = 20;
 constexpr int kMostLineTurns = 2;   // of a closed patch, beside the first
 constexpr double kOnBorder = 1e-9;  // of the domain: places nearer to a border lie on it
 constexpr int kMostOntoBorder = 40;
@@ -69,7 +69,7 @@ class LineClip {
     CutLine line;
     bool wanted = false;
     const auto end = [&] {
-      if (wanted && line.places.size() > 1) out.push_back(std::move(line));
+      if (wanted && is_long(line)) out.push_back(std::move(line));
       line = {};
       wanted = false;
     };
@@ -94,6 +94,14 @@ class LineClip {
     // an open line ends where it ends; a closed one has come around before
     if (from_border) wanted = false;
     end();
+  }
+
+  /// Not within what counts as one place.
+  [[nodiscard]] bool is_long(const CutLine& line) const {
+    return std::any_of(line.places.begin(), line.places.end(), [&](Vec2 p) {
+      return std::abs(p.x - line.places.front().x) > 2.0 * kOnBorder * u_.length() ||
+             std::abs(p.y - line.places.front().y) > 2.0 * kOnBorder * v_.length();
+    });
   }
 
   [[nodiscard]] bool on_border(Vec2 p) const {
@@ -158,7 +166,7 @@ FieldBesideLines::Foot FieldBesideLines::foot(Vec3 p) const {
   const Range all = domain(line.curve);
   double t = best->t;
   SpaceJet jet = evaluate(line.curve, t);
-  for (int k = 0; k < kMostFootSteps; ++k) {
+  for (int k = 0; k < kMostFeet; ++k) {
     const Vec3 off = p - jet.point;
     const double slope = dot(off, jet.d1), bend = dot(jet.d1, jet.d1) - dot(off, jet.d2);
     const double step = slope / (bend > 0.0 ? bend : dot(jet.d1, jet.d1));

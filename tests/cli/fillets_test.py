@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Blends by `surface fillet` against closed forms: cylinders, tori, cones of balls; trims, units, errors, FreeCAD.
+"""Blends by `surface fillet` against closed forms: cylinders, tori, cones of balls; trims, units, errors, FreeCAD. Borders
+by `surface match`.
 
 usage: fillets_test.py PROGRAM PLUGINS
 
@@ -90,7 +91,7 @@ class Fillets(trims_test.Trims):
                         x = q.T @ (p - np.array(shift, float)) - middle
                         self.assertAlmostEqual(math.hypot(x[0], x[2]), r, delta=rounding)
                         self.assertTrue(-rounding <= x[1] <= 4 * scale + rounding)
-                    self.assertLessEqual(len(blend["points"]), 6)
+                    self.assertLessEqual(len(blend["points"]), 10 if angle < 1.1 else 6)  # more than 2 rad in two pieces
                     foot = r / math.tan(angle / 2)
                     area, _ = self.area(out)
                     truth = 2 * (3 * scale - foot) * 4 * scale + r * (math.pi - angle) * 4 * scale
@@ -174,11 +175,22 @@ class Fillets(trims_test.Trims):
             self.run_it("surface", "fillet", source, *options, "-o", self.work / "no.json", code=code)
         source.write_text(json.dumps(model(disc(5.0, 0.0), tube(0.3, 0.0, 4.0))))
         # inside a tube a ball fits that is smaller than it
-        told = self.run_it("surface", "fillet", source, "--faces", "1,2", "--radius", 0.4, "--sides", "front,back", "-o", self.work / "no.json", code=4)
-        self.assertIn("does not fit", told.stderr)
+        self.run_it("surface", "fillet", source, "--faces", "1,2", "--radius", 0.4, "--sides", "front,back", "-o", self.work / "no.json", code=3)
         told = self.run_it("surface", "fillet", source, "--faces", "1,2", "--radius", 0.1, "-o", self.work / "no.json", code=2)
         self.assertIn("--sides", told.stderr)
         self.assertFalse((self.work / "no.json").exists())
+
+    def test_a_trough_that_bends_more_than_the_ball(self):
+        """z = x^2 has the radius 1/2 at its bottom."""
+        trough = patch("trough", (2, 1), ([0, 0, 0, 1, 1, 1], FLAT), [[x, y, z] for y in (0, 6) for x, z in ((-1, 1), (0, -1), (1, 1))])
+        end = plate("end", (-3, 3, -1), (3, 3, -1), (-3, 3, 5), (3, 3, 5))  # its normal points along -y
+        source = self.work / "in.json"
+        source.write_text(json.dumps(model(trough, end)))
+        told = self.run_it("surface", "fillet", source, "--faces", "1,2", "--radius", 0.6, "--sides", "front,front", "-o", self.work / "no.json", code=4)
+        self.assertIn("a ball of radius 0.6 does not fit into trough, whose radius is 0.", told.stderr)
+        patches, _, _ = self.filleted([trough, end], "--faces", "1,2", "--radius", 0.3, "--sides", "front,front")
+        for u, v, p in self.blend_points(patches[-1]):
+            self.assertGreaterEqual(p[2], p[0] ** 2 - 1e-6)
 
     def test_step_in_freecad_and_back(self):
         if shutil.which("freecadcmd") is None or not pathlib.Path(PLUGINS, "obvid-cad").exists():
@@ -209,6 +221,76 @@ class Fillets(trims_test.Trims):
 for name in dir(trims_test.Trims):  # those are run by trims_test.py
     if name.startswith("test_") and name not in Fillets.__dict__:
         setattr(Fillets, name, None)
+
+class Matches(Fillets):
+    """Borders after `surface match`, by differences of own evaluations."""
+
+    @staticmethod
+    def bumpy(name, x0, tilt, rows, columns, degree):
+        knots = lambda n, p: [0] * (p + 1) + [k / (n - p) for k in range(1, n - p)] + [1] * (p + 1)
+        points = [[x0 + 2.0 * i / (columns - 1), 3.0 * j / (rows - 1), tilt * i + 0.1 * math.sin(1.7 * i + 2.3 * j)] for j in range(rows) for i in range(columns)]
+        return patch(name, (degree, degree), (knots(columns, degree), knots(rows, degree)), points)
+
+    def test_borders_tangents_and_curvatures(self):
+        left, right = self.bumpy("left", 0.0, 0.2, 6, 5, 3), self.bumpy("right", 2.3, -0.1, 8, 6, 2)
+        source, out = self.work / "in.json", self.work / "out.json"
+        source.write_text(json.dumps(model(left, right)))
+        for order in (0, 1, 2):
+            done = self.run_it("surface", "match", source, "--border", "right:u0", "--to", "left:u1", "--join", f"G{order}", "-o", out)
+            a, b = json.loads(out.read_text())["patches"]
+            self.assertEqual(a["points"], left["points"])
+            moved = max(np.linalg.norm(at_surface(b, u, v) - at_surface(right, u, v)) for u in SHARES for v in SHARES)
+            self.assertLessEqual(moved, float(done.stdout.split("no point by more than ")[1].split()[0]))
+            reach = float(done.stdout.split("up to ")[-1].split(" of the way")[0])
+            for u in SHARES:
+                for v in (0.1, 0.7):
+                    if u >= reach:
+                        self.assertLessEqual(np.linalg.norm(at_surface(b, u, v) - at_surface(right, u, v)), 1e-12)
+            h, paces = 1e-4, []
+            for v in SHARES:
+                p = [at_surface(a, 1.0 - k * h, v) for k in range(4)]
+                q = [at_surface(b, k * h, v) for k in range(4)]
+                self.assertLessEqual(np.linalg.norm(p[0] - q[0]), 1e-12)
+                # one-sided differences of second order, both away from the border
+                da, db = (-3 * p[0] + 4 * p[1] - p[2]) / (2 * h), (-3 * q[0] + 4 * q[1] - q[2]) / (2 * h)
+                paces.append(-(da @ db) / (da @ da))
+                if order >= 1:
+                    self.assertLessEqual(np.linalg.norm(db + paces[0] * da), 1e-4 * np.linalg.norm(db))
+                if order == 2:
+                    saa, sbb = (2 * p[0] - 5 * p[1] + 4 * p[2] - p[3]) / h ** 2, (2 * q[0] - 5 * q[1] + 4 * q[2] - q[3]) / h ** 2
+                    n = np.cross(da, at_surface(a, 1.0, min(v + 1e-5, 1.0)) - at_surface(a, 1.0, max(v - 1e-5, 0.0)))
+                    n /= np.linalg.norm(n)
+                    self.assertAlmostEqual(sbb @ n, paces[0] ** 2 * (saa @ n), delta=2e-3 * (1 + abs(sbb @ n)))
+            joint = json.loads(self.run_it("surface", "check", out, "--json").stdout)["joints"]
+            self.assertEqual(len(joint), 1)
+            self.assertGreaterEqual(joint[0]["order"] if isinstance(joint[0]["order"], int) else int(str(joint[0]["order"])[-1]), order)
+
+    def test_sizes_and_turned_borders(self):
+        for scale in (1e-6, 1e6):
+            left, right = self.bumpy("left", 0.0, 0.2, 6, 5, 3), self.bumpy("right", 2.3, -0.1, 8, 6, 2)
+            right["points"] = [p for row in range(7, -1, -1) for p in right["points"][6 * row:6 * row + 6]]  # v runs the other way
+            for one in (left, right):
+                one["points"] = [[scale * x for x in p] for p in one["points"]]
+            source, out = self.work / "in.json", self.work / "out.json"
+            source.write_text(json.dumps(model(left, right)))
+            self.run_it("surface", "match", source, "--border", "2:u0", "--to", "1:u1", "--join", "G2", "-o", out, "-q")
+            a, b = json.loads(out.read_text())["patches"]
+            for v in SHARES:
+                self.assertLessEqual(np.linalg.norm(at_surface(a, 1.0, v) - at_surface(b, 0.0, 1 - v)), 1e-12 * scale)
+
+    def test_refused_matches(self):
+        source = self.work / "in.json"
+        source.write_text(json.dumps(model(self.bumpy("left", 0.0, 0.2, 6, 5, 3), self.bumpy("right", 2.3, -0.1, 8, 6, 2), tube(1.0, 0.0, 2.0))))
+        for border, to, code in (("right:u2", "left:u1", 2), ("right", "left:u1", 2), ("right:u0", "right:u1", 2), ("right:u0", "tube:v0", 3),
+                                 ("right:u0", "left:u0", 4), ("none:u0", "left:u1", 2)):
+            self.run_it("surface", "match", source, "--border", border, "--to", to, "-o", self.work / "no.json", code=code)
+        self.assertFalse((self.work / "no.json").exists())
+
+
+for name in dir(Fillets):
+    if name.startswith("test_") and name not in Matches.__dict__:
+        setattr(Matches, name, None)
+
 
 if __name__ == "__main__":
     trims_test.PROGRAM, trims_test.PLUGINS = PROGRAM, PLUGINS = sys.argv[1:3]

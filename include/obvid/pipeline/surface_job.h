@@ -14,6 +14,7 @@
 #include "obvid/picture/surface_svg.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/skin_sections.h"
+#include "obvid/surface/internal/topology.h"
 #include "obvid/surface/point_grid.h"
 #include "obvid/surface/surface.h"
 #include "obvid/surface_builders/internal/fillet.h"
@@ -110,12 +111,23 @@ struct FilletKind {
   std::array<BallSide, 2> sides{BallSide::kAutomatic, BallSide::kAutomatic};
   bool whole = false;  ///< faces are not trimmed
 };
+/// A side of a face.
+struct FaceBorder {
+  std::string face{};  ///< name, or number from 1
+  PatchSide side = kUStart;
+};
+/// A model in which a patch begins where another one ends: `order` 0 position, 1 tangent planes, 2
+/// curvature. The job's tolerance is that of the gap [1e-7 of the size].
+struct MatchKind {
+  FaceBorder border{}, to{};
+  int order = 1;
+};
 /// A surface as it is.
 struct ConvertKind {};
 
 using SurfaceKind =
     std::variant<SkinKind, RuledKind, RevolveKind, CoonsKind, GordonKind, GridKind, OffsetKind,
-                 IdKind, ScatterKind, TrimKind, FilletKind, ConvertKind>;
+                 IdKind, ScatterKind, TrimKind, FilletKind, MatchKind, ConvertKind>;
 
 /// Where curves come from.
 struct CurveReading {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <BRepCheck_Analyzer.hxx>
+#include <BRepTools.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <Geom2d_BSplineCurve.hxx>
@@ -340,7 +341,7 @@ Result<NamedFaces> trimmed_faces_of(const SurfaceModel& model, double scale) {
     out.names.insert(out.names.end(), parts->names.begin(), parts->names.end());
   }
   for (std::size_t i = 0; i < out.faces.size(); ++i) {
-    if (!is_valid(out.faces[i])) return fail(not_valid(out.names[i]));
+    if (!is_valid(out.faces[i])) { BRepTools::Write(out.faces[i], "/tmp/h2w/bad.brep"); return fail(not_valid(out.names[i])); }
   }
   std::vector<TopoDS_Face> joined = out.faces;
   out.shape = sewn(joined, kSameBorder * size);

@@ -119,7 +119,12 @@ class FaceMaker {
 
  private:
   TopoDS_Wire wire_of(const TrimLoop& given, bool runs_right) {
-    const TrimLoop loop = runs_right ? given : turned_round(given);
+    TrimLoop loop = runs_right ? given : turned_round(given);
+    // of an edge that begins and ends in one vertex the kernel at times finds that it crosses itself
+    if (loop.curves.size() == 1) {
+      const auto halves = split(loop.curves.front(), domain(loop.curves.front()).at(0.5));
+      loop.curves = {halves[0], halves[1]};
+    }
     const std::size_t count = loop.curves.size();
     std::vector<bool> point(count);
     for (std::size_t i = 0; i < count; ++i) point[i] = is_point(loop.curves[i]);

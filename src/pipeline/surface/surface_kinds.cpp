@@ -264,6 +264,11 @@ Result<MadeSurface> make_kind(const FilletKind& kind, const SurfaceJob& job,
       run);
 }
 
+Result<MadeSurface> make_kind(const MatchKind& kind, const SurfaceJob& job, const RunContext& run) {
+  OBVID_TRY(need(job, 1, 1, "one model"));
+  return made_matched({kind.border, kind.to, kind.order}, job, run);
+}
+
 Result<MadeSurface> make_kind(const ConvertKind&, const SurfaceJob& job, const RunContext&) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;

@@ -44,6 +44,8 @@ inline constexpr double kSurfaceTolerance = 1e-5;
                                             const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_kind(const FilletKind& kind, const SurfaceJob& job,
                                             const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const MatchKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_kind(const ConvertKind& kind, const SurfaceJob& job,
                                             const RunContext& run);
 
@@ -81,6 +83,16 @@ struct RolledBall {
 /// The face with a name, else with a number from 1. Error: E203 with the option.
 [[nodiscard]] Result<std::size_t> face_named(const SurfaceModel& model, const std::string& name,
                                              const char* option);
+
+/// Whose border becomes whose, up to which derivative.
+struct MatchedBorders {
+  const FaceBorder& border;
+  const FaceBorder& to;
+  int order;
+};
+/// A model with a patch that was matched to another.
+[[nodiscard]] Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job,
+                                               const RunContext& run);
 
 /// A surface of one patch as NURBS within the job's tolerance, or 1e-5 of `size`.
 [[nodiscard]] Result<MadeSurface> made_of(const Surface& surface, const std::string& name,

@@ -15,10 +15,11 @@ namespace {
 
 const std::map<std::string, SurfaceKind>& surface_kinds() {
   static const std::map<std::string, SurfaceKind> all = {
-      {"skin", SkinKind{}},     {"ruled", RuledKind{}},   {"revolve", RevolveKind{}},
-      {"coons", CoonsKind{}},   {"gordon", GordonKind{}}, {"grid", GridKind{}},
-      {"offset", OffsetKind{}}, {"id", IdKind{}},         {"scatter", ScatterKind{}},
-      {"trim", TrimKind{}},     {"fillet", FilletKind{}}, {"convert", ConvertKind{}}};
+      {"skin", SkinKind{}},      {"ruled", RuledKind{}},   {"revolve", RevolveKind{}},
+      {"coons", CoonsKind{}},    {"gordon", GordonKind{}}, {"grid", GridKind{}},
+      {"offset", OffsetKind{}},  {"id", IdKind{}},         {"scatter", ScatterKind{}},
+      {"trim", TrimKind{}},      {"fillet", FilletKind{}}, {"match", MatchKind{}},
+      {"convert", ConvertKind{}}};
   return all;
 }
 
@@ -263,6 +264,32 @@ Result<void> set_kind(const SurfaceValues& raw, FilletKind& kind) {
     OBVID_TRY(side);
     kind.sides[i] = *side;
   }
+  return {};
+}
+
+/// "A:u0" as the side of a face.
+Result<FaceBorder> border_named(const std::string& typed, const char* option) {
+  const std::map<std::string, PatchSide> sides = {
+      {"u0", kUStart}, {"u1", kUEnd}, {"v0", kVStart}, {"v1", kVEnd}};
+  const std::size_t colon = typed.rfind(':');
+  const auto side = colon == std::string::npos ? sides.end() : sides.find(typed.substr(colon + 1));
+  if (side == sides.end() || colon == 0) {
+    return fail(bad_option(typed.empty() ? "a border is needed" : "'" + typed + "' is no border",
+                           option,
+                           "give FACE:SIDE, the side u0, u1, v0 or v1: where u or v begins "
+                           "or ends"));
+  }
+  return FaceBorder{typed.substr(0, colon), side->second};
+}
+
+Result<void> set_kind(const SurfaceValues& raw, MatchKind& kind) {
+  const auto border = border_named(raw.border, "--border");
+  OBVID_TRY(border);
+  const auto to = border_named(raw.to, "--to");
+  OBVID_TRY(to);
+  const auto order = value_named<int>({{"G0", 0}, {"G1", 1}, {"G2", 2}}, raw.join, "--join");
+  OBVID_TRY(order);
+  kind = {*border, *to, *order};
   return {};
 }
 

@@ -53,18 +53,18 @@ struct Fillet {
 
 /// All blends of a rolling ball between two faces: its centre runs where the offsets of both cross
 /// (the spine), which is traced by Runge-Kutta's steps of at most 0.1 rad, corrected by Newton's
-/// method; sections are the arcs of the characteristic circles of the balls (Monge's canal surface;
-/// do Carmo, Differential Geometry of Curves and Surfaces, 1976, 2-5, exercise 10), exact as
-/// rational quadratics, and tangent to both faces for a radius that varies, too; along the spine
-/// C2 cubics of the homogeneous coordinates through as many sections as `tolerance` needs. What
-/// a blend covers at its ends, where one face ends before the other, is trimmed.
+/// method; sections are the arcs of the characteristic circles of the balls (derivation:
+/// docs/methods/blends.md), exact as rational quadratics (Piegl, Tiller 1997, 7.3), and tangent to
+/// both faces for a radius that varies, too; along the spine C2 cubics of the homogeneous
+/// coordinates through as many sections as `tolerance` needs. Where one face ends before the other
+/// the blend's end is trimmed.
 ///
 /// Spines are looked for on a raster of 49 x 49 places of the first face: those that cross none of
 /// its cells are missed. That the ball touches nothing but the two places is not looked at
 /// elsewhere than near them. Distances, angles and deviation are measured, not proved.
 ///
-/// Errors: E203 radii or tolerance, sides that have to be told; E310 faces that are not cut by
-/// trims through the spine's ends, arcs near a half circle; E311 no ball of this radius touches
+/// Errors: E203 radii or tolerance, sides that have to be told; E310 a face that ends long before
+/// the other, arcs near a half circle; E311 no ball of this radius touches
 /// both faces; E408 a face bends more than the ball (`value`: its radius), the blend folds, or the
 /// ball cannot go on; E502 more than 2,000 sections; E103.
 [[nodiscard]] Result<std::vector<Fillet>> fillets_between(
