@@ -256,6 +256,18 @@ class BallWalker {
 
  private:
   [[nodiscard]] Error stuck(const char* what) const {
+    constexpr double kNearly = 0.9;  // of the ball's curvature
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double bend = ball_.face(i).bend(at_.touch[i].at);
+      if (bend * at_.radius < kNearly) continue;
+      return error(ErrorCode::kSurfaceFolds,
+                   fmt::format("a ball of radius {:g} does not go on along {}, whose radius comes "
+                               "down to {:.4g}",
+                               at_.radius, ball_.face(i).patch().name, 1.0 / bend))
+          .where(near_text(at_.touch[i].point))
+          .hint("take a smaller radius, or the other side")
+          .value(1.0 / bend);
+    }
     return error(ErrorCode::kSurfaceFolds, what)
         .where(near_text(at_.centre))
         .hint("the faces are nearly parallel there or bend more than the ball; take another radius")

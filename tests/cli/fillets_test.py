@@ -183,11 +183,11 @@ class Fillets(trims_test.Trims):
     def test_a_trough_that_bends_more_than_the_ball(self):
         """z = x^2 has the radius 1/2 at its bottom."""
         trough = patch("trough", (2, 1), ([0, 0, 0, 1, 1, 1], FLAT), [[x, y, z] for y in (0, 6) for x, z in ((-1, 1), (0, -1), (1, 1))])
-        end = plate("end", (-3, 3, -1), (3, 3, -1), (-3, 3, 5), (3, 3, 5))  # its normal points along -y
+        end = plate("end", (-1, 3, -1), (1, 3, -1), (-1, 3, 5), (1, 3, 5))  # its normal points along -y
         source = self.work / "in.json"
         source.write_text(json.dumps(model(trough, end)))
         told = self.run_it("surface", "fillet", source, "--faces", "1,2", "--radius", 0.6, "--sides", "front,front", "-o", self.work / "no.json", code=4)
-        self.assertIn("a ball of radius 0.6 does not fit into trough, whose radius is 0.", told.stderr)
+        self.assertIn("a ball of radius 0.6 does not go on along trough, whose radius comes down to 0.6", told.stderr)
         patches, _, _ = self.filleted([trough, end], "--faces", "1,2", "--radius", 0.3, "--sides", "front,front")
         for u, v, p in self.blend_points(patches[-1]):
             self.assertGreaterEqual(p[2], p[0] ** 2 - 1e-6)

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <BRepCheck_Analyzer.hxx>
-#include <BRepTools.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <Geom2d_BSplineCurve.hxx>
@@ -304,7 +303,15 @@ Result<void> add_trimmed(SurfacePatch patch, double scale, double size, NamedFac
     error.where = patch.name;
     return fail(std::move(error));
   }
-  const auto faces = trimmed_faces(patch, std::max(Precision::Confusion(), kEdges * size));
+  // the kernel at times does not know inside from outside of a loop whose edges are divided in an
+  // unlucky way, whatever its curve; divided in another way it is the same face
+  std::vector<TopoDS_Face> faces;
+  for (const std::size_t edges : {1, 2, 3, 5, 7}) {
+    faces = trimmed_faces(patch, std::max(Precision::Confusion(), kEdges * size), edges);
+    if (std::all_of(faces.begin(), faces.end(), [](const auto& face) { return is_valid(face); })) {
+      break;
+    }
+  }
   for (std::size_t k = 0; k < faces.size(); ++k) {
     out.faces.push_back(faces[k]);
     out.names.push_back(faces.size() == 1
@@ -341,7 +348,7 @@ Result<NamedFaces> trimmed_faces_of(const SurfaceModel& model, double scale) {
     out.names.insert(out.names.end(), parts->names.begin(), parts->names.end());
   }
   for (std::size_t i = 0; i < out.faces.size(); ++i) {
-    if (!is_valid(out.faces[i])) { BRepTools::Write(out.faces[i], "/tmp/h2w/bad.brep"); return fail(not_valid(out.names[i])); }
+    if (!is_valid(out.faces[i])) return fail(not_valid(out.names[i]));
   }
   std::vector<TopoDS_Face> joined = out.faces;
   out.shape = sewn(joined, kSameBorder * size);
