@@ -28,7 +28,7 @@ NurbsSurface side_back(const NurbsSurface& s, PatchSide side) {
 using BorderRows = std::array<std::vector<Vec3>, 3>;
 
 /// Control points of the border, and of both derivatives across it by v, in the first `order` + 1.
-BorderRows rows_of(const NurbsSurface& s, int order) {
+BorderRows border_rows(const NurbsSurface& s, int order) {
   const std::size_t n = s.count_u();
   const auto q = static_cast<std::size_t>(s.degree_v);
   const auto at = [&](std::size_t i, std::size_t j) { return s.points[j * n + i]; };
@@ -113,7 +113,7 @@ Result<MatchedSurface> matched(const SideOfPatch& patch, const SideOfPatch& to, 
   if (norm(a - d) + norm(b - c) < norm(a - c) + norm(b - d)) other = reversed_u(other);
   const auto needed = static_cast<std::size_t>(2 * (order + 1));
   while (mine.count_v() < needed) mine = with_degrees(mine, mine.degree_u, mine.degree_v + 1);
-  std::vector<NurbsSurface> both{mine, carrying(rows_of(other, order), order, other, mine)};
+  std::vector<NurbsSurface> both{mine, carrying(border_rows(other, order), order, other, mine)};
   make_alike(both);
   const NurbsSurface before = both[0];
   const std::size_t n = before.count_u();
@@ -121,7 +121,7 @@ Result<MatchedSurface> matched(const SideOfPatch& patch, const SideOfPatch& to, 
     const auto begin = both[1].points.begin() + static_cast<std::ptrdiff_t>(j * n);
     return std::vector<Vec3>(begin, begin + static_cast<std::ptrdiff_t>(n));
   };
-  const BorderRows had = rows_of(before, order);
+  const BorderRows had = border_rows(before, order);
   BorderRows rows;
   MatchedSurface out;
   for (int k = 0; k <= order; ++k)

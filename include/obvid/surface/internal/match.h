@@ -15,8 +15,9 @@ struct SideOfPatch {
 /// A patch whose border became that of another.
 struct MatchedSurface {
   NurbsSurface surface;
-  double moved = 0.0;  ///< units: bound of how far any point moved at its parameters, of the control
-                       ///< points of the difference, by the convex hull, apart from rounding
+  double moved =
+      0.0;  ///< units: bound of how far any point moved at its parameters, of the control
+            ///< points of the difference, by the convex hull, apart from rounding
   double reach = 0.0;  ///< share of the domain across the border up to which the patch changed
   double pace = 0.0;   ///< derivatives across the border: those of the other patch times this;
                        ///< 0 for order 0
