@@ -69,6 +69,12 @@ constexpr std::array kKinds = {
     KindText{"trim", "The part above or below planes, inside or outside a closed contour",
              "Surface (.json, STEP, IGES, BREP, control points)",
              "obvid surface trim hull.json --plane z=1.8 --keep below -o bottom.step"},
+    KindText{"fillet", "A rolling ball's blend between two faces, which are trimmed there",
+             "Surface (.json, STEP, IGES, BREP)",
+             "obvid surface fillet body.json --faces roof,side --radius 20 -o body.step"},
+    KindText{"match", "A patch that begins where another one ends, tangent or curved as it",
+             "Surface (.json, STEP, IGES, BREP)",
+             "obvid surface match body.json --border door:u1 --to wing:u0 --join G2 -o body.step"},
     KindText{"convert", "A stored surface in another format",
              "Surface (.json, STEP, IGES, BREP, control points)",
              "obvid surface convert part.step -o part.glb"},
@@ -93,6 +99,8 @@ constexpr const char* kSurfaceHelp =
   obvid surface scatter POINTS --tolerance T -o OUT  near points in any order
   obvid surface offset SURFACE --distance D -o OUT
   obvid surface trim SURFACE --plane z=1.8 --keep below -o OUT   a part of it
+  obvid surface fillet SURFACE --faces A,B --radius R -o OUT   a rolling ball's blend
+  obvid surface match SURFACE --border A:u1 --to B:u0 -o OUT   A goes on from B
   obvid surface convert SURFACE -o OUT         another format
   obvid surface check SURFACE                  curvature, joints, monotone sections
   obvid surface cut SURFACE -o OUT             sections by planes, lines drawing
@@ -262,6 +270,39 @@ struct KindOptions {
                    "Largest distance of trims from the exact cut, input units [1e-6 of the size]")
         ->type_name("T");
     add_contours(app, raw);
+  }
+  void operator()(const FilletKind&) const {
+    app.add_option("--faces", raw.values.faces, "The two faces: names, or numbers from 1")
+        ->type_name("A,B");
+    app.add_option("--radius", raw.values.radius, "Radius of the ball, input units")
+        ->type_name("R");
+    app.add_option("--radius-end", raw.values.radius_end,
+                   "Radius at the end of the spine, linear along its length; with --faces B,A the "
+                   "spine runs the other way [the same]")
+        ->type_name("R");
+    app.add_option("--sides", raw.values.sides,
+                   "On which side of each face the ball is: front (where du x dv points to) or "
+                   "back, or auto where they share a border [auto]")
+        ->type_name("A,B");
+    app.add_flag("--whole", raw.values.whole, "Leave the faces as they are [trimmed]");
+    app.add_option("--tolerance", raw.values.tolerance,
+                   "Largest distance of the blend from the ball's and of trims from its borders, "
+                   "input units [5e-8 of the size]")
+        ->type_name("T");
+  }
+  void operator()(const MatchKind&) const {
+    app.add_option("--border", raw.values.border,
+                   "The border that changes: face (name, or number from 1) and side u0, u1, v0 or "
+                   "v1")
+        ->type_name("FACE:SIDE");
+    app.add_option("--to", raw.values.to, "The border that it becomes, likewise")
+        ->type_name("FACE:SIDE");
+    app.add_option("--join", raw.values.join,
+                   "G0 position, G1 tangent planes, or G2 curvature [G1]")
+        ->type_name("NAME");
+    app.add_option("--tolerance", raw.values.tolerance,
+                   "Largest gap that may be left, input units [1e-7 of the size]")
+        ->type_name("T");
   }
   void operator()(const ConvertKind&) const {}
 

@@ -61,7 +61,15 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"plane", texts(s.planes)},
                 {"keep", text(s.keep)},
                 {"contour", text(s.contour)},
-                {"along", text(s.along)}});
+                {"along", text(s.along)},
+                {"faces", text(s.faces)},
+                {"radius", number(s.radius)},
+                {"radius-end", number(s.radius_end)},
+                {"sides", text(s.sides)},
+                {"whole", flag(s.whole)},
+                {"border", text(s.border)},
+                {"to", text(s.to)},
+                {"join", text(s.join)}});
   }
   if (known.formats) {
     SurfaceFormatValues& f = w.formats;

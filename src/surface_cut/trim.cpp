@@ -10,6 +10,7 @@
 
 #include "contour_field.h"
 #include "field_lines.h"
+#include "lines_along.h"
 #include "obvid/core/internal/parallel.h"
 #include "obvid/surface/internal/topology.h"
 #include "trim_patch.h"
@@ -251,6 +252,22 @@ Result<TrimmedModel> trimmed(const SurfaceModel& model, const ProjectedContour& 
   };
   const SideOf side = [&](const NurbsSurface& s) { return outline->is_beside(s.points) ? -1 : 0; };
   return Trimmer(model, field, options, lines, side).made(run);
+}
+
+Result<TrimmedModel> trimmed(const SurfacePatch& patch, const std::vector<LineAlong>& lines,
+                             const TrimOptions& options, const RunContext& run) {
+  SurfaceModel alone;
+  alone.patches.push_back(patch);
+  const double size = size_of(alone);
+  OBVID_TRY(check_tolerance(options, size));
+  const FieldBesideLines beside(lines);
+  const CuttingField field{[&](Vec3 p) { return beside.value(p); },
+                           [&](Vec3 p) { return beside.rise(p); }};
+  const LinesOf on_part = [&](const SurfacePatch& part, const RunContext&) {
+    return lines_on(part.surface, patch.surface, field, lines);
+  };
+  const TrimOptions keep{options.tolerance, true};
+  return Trimmer(alone, field, keep, on_part, [](const NurbsSurface&) { return 0; }).made(run);
 }
 
 }  // namespace obvid

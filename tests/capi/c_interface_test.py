@@ -855,12 +855,23 @@ class Surfaces(unittest.TestCase):
             us = [stored(f"u{y}.csv", along(y)) for y in (0, 10, 20)]
             vs = [stored(f"v{x}.csv", across(x)) for x in (0, 15, 30)]
             grid = os.path.join(folder, "grid.json")
+            two = os.path.join(folder, "two.json")
+            plates = [{"name": name, "degree_u": 1, "degree_v": 1, "knots_u": [0, 0, 1, 1], "knots_v": [0, 0, 1, 1],
+                       "points": [[0, 0, 0], [10, 0, 0], [0, 20, 0], [10, 20, 0]] if name == "floor" else
+                       [[10, 0, 0], [13, 0, 8], [10, 20, 0], [13, 20, 8]]} for name in ("floor", "wall")]
+            with open(two, "w", encoding="ascii") as file:
+                json.dump({"format": "obvid-surface", "version": 1, "name": "two", "units": "mm", "units_source": "file",
+                           "patches": plates}, file)
             program("surface", "grid", self.example("wavy_grid.csv"), "-o", grid)
             for kind, inputs, second, options, typed in (
                     ("coons", [us[0], vs[2], us[2], vs[0]], [], None, []), ("gordon", us, vs, None, ["--across", *vs]),
                     ("offset", [grid], [], {"distance": 0.5}, ["--distance", "0.5"]),
                     ("trim", [grid], [], {"plane": ["x=10", "1,1,0,50"], "keep": "below"},
-                     ["--plane", "x=10", "--plane", "1,1,0,50", "--keep", "below"])):
+                     ["--plane", "x=10", "--plane", "1,1,0,50", "--keep", "below"]),
+                    ("fillet", [two], [], {"faces": "1,2", "radius": 2, "radius-end": 3},
+                     ["--faces", "1,2", "--radius", "2", "--radius-end", "3"]),
+                    ("match", [two], [], {"border": "2:u0", "to": "1:u1", "join": "G2"},
+                     ["--border", "2:u0", "--to", "1:u1", "--join", "G2"])):
                 with self.subTest(kind=kind):
                     told, _ = program("surface", kind, *inputs, *typed, "--json")
                     handle, report, failed = surface(kind, [read(one) for one in inputs], options,

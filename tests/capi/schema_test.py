@@ -323,7 +323,7 @@ class Options(unittest.TestCase):
         for command in [("fit",), ("region",), ("compare",), ("convert",), ("toolpath",), ("cut",), ("alignment",), ("spline",),
                         ("nurbs",),
                         ("surface", "check"), ("surface", "cut")] + [
-                ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "scatter", "offset", "trim")]:
+                ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "scatter", "offset", "trim", "fillet", "match")]:
             every |= typed(*command)
         self.assertEqual(typed("fit"), commands[("fit",)])
         ours = set(ALL["options.schema.json"]["$defs"]["options"])

@@ -44,7 +44,7 @@ def walk():
 
 
 def alternatives(path, variant):
-    found = re.search(r"using " + variant + r" = std::variant<([^;]*)>;", text_of(path))
+    found = re.search(r"using " + variant + r" =\s+std::variant<([^;]*)>;", text_of(path))
     return [name.strip() for name in found.group(1).split(",")]
 
 

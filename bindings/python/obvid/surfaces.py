@@ -242,7 +242,8 @@ def surface(
 ) -> Surface:
     """A surface of a kind: "skin" (sections), "ruled", "revolve", "coons", "gordon" (curves, with
     `across`), "grid", "id" (one grid: a file, or an array of rows x columns x 3), "scatter" (points in any
-    order: a file, or an array of n x 3), "offset", "trim" (by `plane` or `contour`, with `keep`), "convert".
+    order: a file, or an array of n x 3), "offset", "trim" (by `plane` or `contour`, with `keep`), "fillet" (of two
+    `faces`, by a ball of `radius`), "match" (a `border` `to` another), "convert".
 
     Options have the names of `obvid surface KIND`: tolerance, noise, closed, match, spacing, axis,
     axis_point, angle, direction, apex, near, control, distance, up, steepest,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <array>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -13,8 +14,10 @@
 #include "obvid/picture/surface_svg.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/skin_sections.h"
+#include "obvid/surface/internal/topology.h"
 #include "obvid/surface/point_grid.h"
 #include "obvid/surface/surface.h"
+#include "obvid/surface_builders/internal/fillet.h"
 #include "obvid/surface_builders/internal/grid.h"
 #include "obvid/surface_builders/internal/scatter.h"
 #include "obvid/surface_cut/internal/plane_section.h"
@@ -100,11 +103,31 @@ struct TrimKind {
   std::size_t along = 2;                  ///< axis of the projection: 0 x, 1 y, 2 z
   bool keep_positive = true;              ///< above, inside; else below, outside
 };
+/// A blend of a rolling ball between two faces of a model, which are trimmed where it touches them.
+struct FilletKind {
+  std::array<std::string, 2> faces{};  ///< names, or numbers from 1
+  double radius = 0.0;                 ///< units
+  std::optional<double> radius_end{};  ///< units, at the end of the spine [the same]
+  std::array<BallSide, 2> sides{BallSide::kAutomatic, BallSide::kAutomatic};
+  bool whole = false;  ///< faces are not trimmed
+};
+/// A side of a face.
+struct FaceBorder {
+  std::string face{};  ///< name, or number from 1
+  PatchSide side = kUStart;
+};
+/// A model in which a patch begins where another one ends: `order` 0 position, 1 tangent planes, 2
+/// curvature. The job's tolerance is that of the gap [1e-7 of the size].
+struct MatchKind {
+  FaceBorder border{}, to{};
+  int order = 1;
+};
 /// A surface as it is.
 struct ConvertKind {};
 
-using SurfaceKind = std::variant<SkinKind, RuledKind, RevolveKind, CoonsKind, GordonKind, GridKind,
-                                 OffsetKind, IdKind, ScatterKind, TrimKind, ConvertKind>;
+using SurfaceKind =
+    std::variant<SkinKind, RuledKind, RevolveKind, CoonsKind, GordonKind, GridKind, OffsetKind,
+                 IdKind, ScatterKind, TrimKind, FilletKind, MatchKind, ConvertKind>;
 
 /// Where curves come from.
 struct CurveReading {

@@ -303,7 +303,15 @@ Result<void> add_trimmed(SurfacePatch patch, double scale, double size, NamedFac
     error.where = patch.name;
     return fail(std::move(error));
   }
-  const auto faces = trimmed_faces(patch, std::max(Precision::Confusion(), kEdges * size));
+  // the kernel at times does not know inside from outside of a loop whose edges are divided in an
+  // unlucky way, whatever its curve; divided in another way it is the same face
+  std::vector<TopoDS_Face> faces;
+  for (const std::size_t edges : {1, 2, 3, 5, 7}) {
+    faces = trimmed_faces(patch, std::max(Precision::Confusion(), kEdges * size), edges);
+    if (std::all_of(faces.begin(), faces.end(), [](const auto& face) { return is_valid(face); })) {
+      break;
+    }
+  }
   for (std::size_t k = 0; k < faces.size(); ++k) {
     out.faces.push_back(faces[k]);
     out.names.push_back(faces.size() == 1

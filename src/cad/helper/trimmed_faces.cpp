@@ -84,8 +84,8 @@ TrimLoop turned_round(const TrimLoop& loop) {
 
 class FaceMaker {
  public:
-  FaceMaker(const SurfacePatch& patch, double tolerance)
-      : patch_(patch), spline_(spline_of(patch.surface)), tolerance_(tolerance) {}
+  FaceMaker(const SurfacePatch& patch, double tolerance, std::size_t edges)
+      : patch_(patch), spline_(spline_of(patch.surface)), tolerance_(tolerance), edges_(edges) {}
 
   std::vector<TopoDS_Face> made() {
     std::vector<std::vector<Vec2>> outlines;
@@ -118,8 +118,20 @@ class FaceMaker {
   }
 
  private:
+  /// A loop of one curve into as many edges as it shall have.
+  void divide(TrimLoop& loop) const {
+    const Range all = domain(loop.curves.front());
+    for (std::size_t k = 1; k < edges_; ++k) {
+      const double t = all.at(static_cast<double>(k) / static_cast<double>(edges_));
+      const auto parts = split(loop.curves.back(), t);
+      loop.curves.back() = parts[0];
+      loop.curves.push_back(parts[1]);
+    }
+  }
+
   TopoDS_Wire wire_of(const TrimLoop& given, bool runs_right) {
-    const TrimLoop loop = runs_right ? given : turned_round(given);
+    TrimLoop loop = runs_right ? given : turned_round(given);
+    if (loop.curves.size() == 1) divide(loop);
     const std::size_t count = loop.curves.size();
     std::vector<bool> point(count);
     for (std::size_t i = 0; i < count; ++i) point[i] = is_point(loop.curves[i]);
@@ -179,13 +191,15 @@ class FaceMaker {
   const SurfacePatch& patch_;
   Handle(Geom_BSplineSurface) spline_;
   double tolerance_;
+  std::size_t edges_;
   BRep_Builder builder_;
 };
 
 }  // namespace
 
-std::vector<TopoDS_Face> trimmed_faces(const SurfacePatch& patch, double tolerance) {
-  return FaceMaker(patch, tolerance).made();
+std::vector<TopoDS_Face> trimmed_faces(const SurfacePatch& patch, double tolerance,
+                                       std::size_t edges) {
+  return FaceMaker(patch, tolerance, edges).made();
 }
 
 TopoDS_Shape sewn(std::vector<TopoDS_Face>& faces, double tolerance) {

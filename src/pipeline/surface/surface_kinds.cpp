@@ -256,6 +256,19 @@ Result<MadeSurface> make_kind(const TrimKind& kind, const SurfaceJob& job, const
   return made_trimmed({kind.planes, kind.contour, kind.along, kind.keep_positive}, job, run);
 }
 
+Result<MadeSurface> make_kind(const FilletKind& kind, const SurfaceJob& job,
+                              const RunContext& run) {
+  OBVID_TRY(need(job, 1, 1, "one model"));
+  return made_fillet(
+      {kind.faces, kind.radius, kind.radius_end.value_or(kind.radius), kind.sides, kind.whole}, job,
+      run);
+}
+
+Result<MadeSurface> make_kind(const MatchKind& kind, const SurfaceJob& job, const RunContext& run) {
+  OBVID_TRY(need(job, 1, 1, "one model"));
+  return made_matched({kind.border, kind.to, kind.order}, job, run);
+}
+
 Result<MadeSurface> make_kind(const ConvertKind&, const SurfaceJob& job, const RunContext&) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;

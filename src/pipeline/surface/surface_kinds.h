@@ -42,6 +42,10 @@ inline constexpr double kSurfaceTolerance = 1e-5;
                                             const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_kind(const TrimKind& kind, const SurfaceJob& job,
                                             const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const FilletKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
+[[nodiscard]] Result<MadeSurface> make_kind(const MatchKind& kind, const SurfaceJob& job,
+                                            const RunContext& run);
 [[nodiscard]] Result<MadeSurface> make_kind(const ConvertKind& kind, const SurfaceJob& job,
                                             const RunContext& run);
 
@@ -64,6 +68,30 @@ struct TrimmedBy {
 };
 /// The part of the job's surface on that side.
 [[nodiscard]] Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
+                                               const RunContext& run);
+
+/// A ball that rolls between two faces.
+struct RolledBall {
+  const std::array<std::string, 2>& faces;
+  double radius, radius_end;
+  std::array<BallSide, 2> sides;
+  bool whole;
+};
+/// A model with a blend of two of its faces.
+[[nodiscard]] Result<MadeSurface> made_fillet(const RolledBall& by, const SurfaceJob& job,
+                                              const RunContext& run);
+/// The face with a name, else with a number from 1. Error: E203 with the option.
+[[nodiscard]] Result<std::size_t> face_named(const SurfaceModel& model, const std::string& name,
+                                             const char* option);
+
+/// Whose border becomes whose, up to which derivative.
+struct MatchedBorders {
+  const FaceBorder& border;
+  const FaceBorder& to;
+  int order;
+};
+/// A model with a patch that was matched to another.
+[[nodiscard]] Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job,
                                                const RunContext& run);
 
 /// A surface of one patch as NURBS within the job's tolerance, or 1e-5 of `size`.

@@ -15,10 +15,11 @@ namespace {
 
 const std::map<std::string, SurfaceKind>& surface_kinds() {
   static const std::map<std::string, SurfaceKind> all = {
-      {"skin", SkinKind{}},     {"ruled", RuledKind{}},    {"revolve", RevolveKind{}},
-      {"coons", CoonsKind{}},   {"gordon", GordonKind{}},  {"grid", GridKind{}},
-      {"offset", OffsetKind{}}, {"id", IdKind{}},          {"scatter", ScatterKind{}},
-      {"trim", TrimKind{}},     {"convert", ConvertKind{}}};
+      {"skin", SkinKind{}},      {"ruled", RuledKind{}},   {"revolve", RevolveKind{}},
+      {"coons", CoonsKind{}},    {"gordon", GordonKind{}}, {"grid", GridKind{}},
+      {"offset", OffsetKind{}},  {"id", IdKind{}},         {"scatter", ScatterKind{}},
+      {"trim", TrimKind{}},      {"fillet", FilletKind{}}, {"match", MatchKind{}},
+      {"convert", ConvertKind{}}};
   return all;
 }
 
@@ -225,6 +226,70 @@ Result<void> set_kind(const SurfaceValues& raw, TrimKind& kind) {
   if (!along)
     return fail(bad_option("'" + raw.along + "' is no axis", "--along", "give x, y or z"));
   kind.along = *along;
+  return {};
+}
+
+/// "a,b" as two names.
+Result<std::array<std::string, 2>> two_of(const std::string& typed, const char* option,
+                                          const char* hint) {
+  const std::size_t comma = typed.find(',');
+  if (comma != std::string::npos && typed.find(',', comma + 1) == std::string::npos && comma > 0 &&
+      comma + 1 < typed.size()) {
+    return std::array{typed.substr(0, comma), typed.substr(comma + 1)};
+  }
+  return fail(
+      bad_option(typed.empty() ? "two are needed" : "'" + typed + "' are not two", option, hint));
+}
+
+Result<void> set_kind(const SurfaceValues& raw, FilletKind& kind) {
+  const auto faces = two_of(raw.faces, "--faces",
+                            "give both names with a comma between them, or their numbers: 1,2");
+  OBVID_TRY(faces);
+  kind.faces = *faces;
+  if (!raw.radius) {
+    return fail(bad_option("a blend needs its radius", "--radius", "give a number"));
+  }
+  OBVID_TRY(positive(raw.radius, "--radius"));
+  OBVID_TRY(positive(raw.radius_end, "--radius-end"));
+  kind.radius = *raw.radius;
+  kind.radius_end = raw.radius_end;
+  kind.whole = raw.whole;
+  if (raw.sides == "auto") return {};
+  const auto sides = two_of(raw.sides, "--sides", "give auto, or front,back and so on");
+  OBVID_TRY(sides);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto side = value_named<BallSide>(
+        {{"auto", BallSide::kAutomatic}, {"front", BallSide::kFront}, {"back", BallSide::kBack}},
+        (*sides)[i], "--sides");
+    OBVID_TRY(side);
+    kind.sides[i] = *side;
+  }
+  return {};
+}
+
+/// "A:u0" as the side of a face.
+Result<FaceBorder> border_named(const std::string& typed, const char* option) {
+  const std::map<std::string, PatchSide> sides = {
+      {"u0", kUStart}, {"u1", kUEnd}, {"v0", kVStart}, {"v1", kVEnd}};
+  const std::size_t colon = typed.rfind(':');
+  const auto side = colon == std::string::npos ? sides.end() : sides.find(typed.substr(colon + 1));
+  if (side == sides.end() || colon == 0) {
+    return fail(bad_option(typed.empty() ? "a border is needed" : "'" + typed + "' is no border",
+                           option,
+                           "give FACE:SIDE, the side u0, u1, v0 or v1: where u or v begins "
+                           "or ends"));
+  }
+  return FaceBorder{typed.substr(0, colon), side->second};
+}
+
+Result<void> set_kind(const SurfaceValues& raw, MatchKind& kind) {
+  const auto border = border_named(raw.border, "--border");
+  OBVID_TRY(border);
+  const auto to = border_named(raw.to, "--to");
+  OBVID_TRY(to);
+  const auto order = value_named<int>({{"G0", 0}, {"G1", 1}, {"G2", 2}}, raw.join, "--join");
+  OBVID_TRY(order);
+  kind = {*border, *to, *order};
   return {};
 }
 

@@ -17,7 +17,8 @@ namespace obvid {
 // with the name of the option as the command line has it.
 
 /// Kinds of surfaces by name, nothing said of them yet: "skin", "ruled", "revolve", "coons",
-/// "gordon", "grid", "id", "offset", "scatter", "trim", "convert". Error: E201 with the nearest
+/// "gordon", "grid", "id", "offset", "scatter", "trim", "fillet", "match",
+/// "convert". Error: E201 with the nearest
 /// name.
 [[nodiscard]] Result<SurfaceKind> surface_kind_named(const std::string& name);
 [[nodiscard]] std::vector<std::string> surface_kind_names();
@@ -36,6 +37,12 @@ struct SurfaceValues {
   std::optional<std::string> keep;     ///< "above", "below"; "inside", "outside"
   std::optional<std::string> contour;  ///< path of a file
   std::string along = "z";             ///< "x", "y", "z"
+  std::optional<double> radius, radius_end;
+  std::string faces;           ///< "A,B": names or numbers from 1
+  std::string sides = "auto";  ///< or "front,back", ...
+  bool whole = false;
+  std::string border, to;   ///< "A:u0": face and side
+  std::string join = "G1";  ///< or "G0", "G2"
 };
 
 /// Into the job, whose kind is known: its own values, and those of all kinds.

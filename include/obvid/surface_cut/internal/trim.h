@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,24 @@ struct ProjectedContour {
 /// of its nearest point. Errors: as above; E203 a contour that is not closed.
 [[nodiscard]] Result<TrimmedModel> trimmed(const SurfaceModel& model,
                                            const ProjectedContour& contour,
+                                           const TrimOptions& options, const RunContext& run = {});
+
+/// A line along a patch, from border to border or closed, and on which side of it the patch stays.
+struct LineAlong {
+  SpaceCurve curve;                  ///< within the tolerance of the patch
+  std::function<Vec3(double)> kept;  ///< direction of what stays at a parameter of the curve
+  /// Parameters of the patch along the curve, in order, dense enough for chords to tell one part of
+  /// it from another. On patches that close on themselves they go on beyond the domain. A closed
+  /// line ends with its first place again, or where this is one turn farther.
+  std::vector<Vec2> places;
+  bool closed = false;
+};
+
+/// What stays of a patch beside lines that do not cross. Which side a place is on is asked of the
+/// nearest point of all lines, in space: a patch that comes back to itself nearer than its own
+/// curvature radii may be refused for that. `keep_positive` is not asked. Errors as above.
+[[nodiscard]] Result<TrimmedModel> trimmed(const SurfacePatch& patch,
+                                           const std::vector<LineAlong>& lines,
                                            const TrimOptions& options, const RunContext& run = {});
 
 }  // namespace obvid

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "obvid/core/internal/figures.h"
+#include "obvid/geom/internal/angle.h"
+#include "obvid/surface/internal/match.h"
+#include "obvid/surface_builders/internal/check.h"
+#include "surface/surface_kinds.h"
+
+namespace obvid::pipeline_detail {
+namespace {
+
+/// Both borders as `surface check` measures them.
+Result<JointReport> measured_joint(const SurfacePatch& patch, PatchSide side,
+                                   const SurfacePatch& to, PatchSide to_side,
+                                   const RunContext& run) {
+  SurfaceModel both;
+  both.patches = {patch, to};
+  CheckOptions options;
+  options.samples = 3;  // joints are measured in every span, whatever this is
+  const auto check = check_surface(both, options, run);
+  OBVID_TRY(check);
+  for (const JointReport& one : check->joints) {
+    if (one.patch[0] == 0 && one.patch[1] == 1 && one.side[0] == side && one.side[1] == to_side) {
+      return one;
+    }
+  }
+  return error(ErrorCode::kToleranceNotReached, "the borders do not meet after all")
+      .where(patch.name)
+      .hint("the border it should follow may be a point, or much longer than the patch");
+}
+
+}  // namespace
+
+Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job,
+                                 const RunContext& run) {
+  MadeSurface made;
+  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept);
+  OBVID_TRY(model);
+  made.model = std::move(*model);
+  const auto at = face_named(made.model, by.border.face, "--border");
+  OBVID_TRY(at);
+  const auto to = face_named(made.model, by.to.face, "--to");
+  OBVID_TRY(to);
+  if (*at == *to) {
+    return error(ErrorCode::kBadOption, "a patch is matched to another one").where("--to");
+  }
+  SurfacePatch& patch = made.model.patches[*at];
+  const SurfacePatch& other = made.model.patches[*to];
+  for (const SurfacePatch* one : {&std::as_const(patch), &other}) {
+    if (one->trims.empty()) continue;
+    return error(ErrorCode::kUnsupported, "borders of trimmed patches are not matched")
+        .where(one->name);
+  }
+  auto matched_patch =
+      matched({patch.surface, by.border.side}, {other.surface, by.to.side}, by.order);
+  if (!matched_patch) {
+    Error error = matched_patch.error();
+    if (error.where.empty()) error.where = patch.name;
+    return fail(std::move(error));
+  }
+  patch.surface = std::move(matched_patch->surface);
+  const auto joint = measured_joint(patch, by.border.side, other, by.to.side, run);
+  OBVID_TRY(joint);
+  const double tolerance = job.tolerance.value_or(kSameBorder * obvid::size_of(made.model));
+  const std::string unit = made.model.units.text();
+  if (joint->gap > tolerance) {
+    return error(ErrorCode::kToleranceNotReached,
+                 fmt::format("after matching the borders are {} {} apart",
+                             significant(joint->gap, 3), unit))
+        .where(patch.name)
+        .value(joint->gap);
+  }
+  made.kind = fmt::format("{} matched to {}, G{}", patch.name, other.name, by.order);
+  made.facts.emplace_back(
+      "border",
+      fmt::format("gap {} {}, {} degrees between tangent planes, step of curvature {} of "
+                  "the largest beside it, as measured at {} places",
+                  significant(joint->gap, 3), unit, significant(joint->angle / kOneDegree, 3),
+                  significant(joint->curvature, 3), joint->places));
+  made.facts.emplace_back("moved",
+                          fmt::format("no point by more than {} {}, up to {} of the way across",
+                                      significant_above(matched_patch->moved, 4), unit,
+                                      significant(matched_patch->reach, 4)));
+  if (by.order > 0) {
+    made.facts.emplace_back("pace", fmt::format("{} times the derivative of {}",
+                                                significant(matched_patch->pace, 4), other.name));
+  }
+  return made;
+}
+
+}  // namespace obvid::pipeline_detail
