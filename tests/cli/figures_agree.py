@@ -758,7 +758,7 @@ def jobs_of(data, own, everything):
         there += len(files)
         for path in files:
             turn += 1
-            some = ["spiral", CARRIERS[1 + turn % (len(CARRIERS) - 1)], "cubic"]
+            some = ["spiral", CARRIERS[1 + turn % (len(CARRIERS) - 1)]]
             choices = [[], ["--noise", "rounding"]]
             jobs += [(path, options, CARRIERS if everything else some)
                      for options in (choices if everything else [choices[turn % 2]])]

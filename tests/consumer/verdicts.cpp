@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints one line about 200,000 verdicts; the line must not depend on the options of this file.
+// Prints one line about COUNT verdicts; the line must not depend on the options of this file.
+// usage: verdicts COUNT
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 
 #include "hostile_conics.h"
 #include "installed_headers.h"
@@ -20,12 +22,12 @@ double use_geometry(double x) {
 
 }  // namespace
 
-int main() {
-  constexpr int kCount = 200000;
+int main(int argc, char** argv) {
+  const int count = argc > 1 ? std::atoi(argv[1]) : 200000;
   std::uint64_t mark = 14695981039346656037ull;  // FNV-1a over all verdicts
   long counts[5] = {};
   long exact = 0;
-  for (const obvid::RationalBezier& conic : hostile_conics(kCount)) {
+  for (const obvid::RationalBezier& conic : hostile_conics(count)) {
     const obvid::PieceProof proof = obvid::prove_piece(conic);
     const auto verdict = static_cast<unsigned>(proof.verdict);
     ++counts[verdict];
@@ -37,5 +39,5 @@ int main() {
               "mark %016llx%s\n",
               counts[0], counts[1], counts[3], counts[2] + counts[4], exact,
               static_cast<unsigned long long>(mark), used ? "" : ".");
-  return counts[3] > kCount / 10 && counts[0] + counts[1] > kCount / 10 ? 0 : 1;
+  return counts[3] > count / 10 && counts[0] + counts[1] > count / 10 ? 0 : 1;
 }
