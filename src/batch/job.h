@@ -23,6 +23,7 @@ struct JobSpec {
   std::vector<std::string> each;  ///< names of a contour's files: "curves/{id}.step"
   std::string reports;            ///< of reports: "reports/{id}.json"; empty: none
   std::string against;            ///< file that items are held against; empty: none
+  std::string profile;            ///< file of heights of an alignment: "levels/{id}"; empty: none
   double most_seconds = 0.0;      ///< of an item, E103 beyond; 0: as long as it takes
 };
 
