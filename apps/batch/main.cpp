@@ -222,9 +222,10 @@ void add_batch(CLI::App& app, Asked& asked) {
   app.add_option("--against", asked.job.against,
                  "compare: curve that every item is laid over; spline: more of the same function")
       ->option_text("FILE");
-  app.add_option("--profile", asked.job.profile,
-                 "alignment: stations and heights of every item, 'levels/{id}'; {number} counts "
-                 "from 0 [a column z]")
+  app.add_option(
+         "--profile", asked.job.profile,
+         "alignment: stations and heights of every item, 'levels/{name}'; {name} is that of "
+         "its file [a column z]")
       ->option_text("FILE");
   app.add_option("--list", asked.sources.list, "File with a path on each line, - standard input")
       ->option_text("FILE");

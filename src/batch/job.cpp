@@ -286,6 +286,11 @@ std::string name_of_file(const std::string& pattern, const std::string& id, std:
   return filled(pattern, {{kPlaceOfId, safe}, {kPlaceOfNumber, std::to_string(number)}});
 }
 
+std::string heights_file(const std::string& pattern, const std::string& id, std::size_t number) {
+  const std::string name = std::filesystem::path(id).filename().string();
+  return name_of_file(filled(pattern, {{"{name}", name}}), id, number);
+}
+
 Job::Job(JobSpec spec, const JobKind& kind)
     : spec_(std::move(spec)), kind_(&kind), columns_(columns_of_job(kind)) {}
 
@@ -333,7 +338,7 @@ Result<bool> Job::run(const Item& item, std::size_t number, Columns& rows,
   Work work{spec_, *kind_, run, against_.get()};
   Trouble trouble = read_item(item, work);
   if (work.input && trouble.code == 0 && !spec_.profile.empty()) {
-    trouble = read_heights(name_of_file(spec_.profile, item.id, number), work);
+    trouble = read_heights(heights_file(spec_.profile, item.id, number), work);
   }
   if (work.input && trouble.code == 0 && !work.error) do_job(work);
   if (stopped()) return false;
