@@ -83,10 +83,11 @@ JobOptions known_options(const std::string& job) {
   if (job == "cut") {
     out.job = drawn;
     for (const char* name :
-         {"diameter",    "side",       "direction",   "spindle",      "laser",      "plasma",
-          "depth",       "pass-depth", "passes",      "ramp",         "safe-z",     "tabs",
-          "tab-width",   "tab-height", "lead-in",     "start",        "tolerance",  "feed",
-          "plunge-feed", "rapid-feed", "centripetal", "acceleration", "controller", "decimals"}) {
+         {"diameter",    "side",         "direction",  "spindle",     "laser",
+          "plasma",      "depth",        "pass-depth", "passes",      "ramp",
+          "safe-z",      "tabs",         "tab-width",  "tab-height",  "lead-in",
+          "start",       "tolerance",    "feed",       "plunge-feed", "rapid-feed",
+          "centripetal", "acceleration", "controller", "motion",      "decimals"}) {
       out.job.push_back({name});
     }
     return out;

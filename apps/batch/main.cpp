@@ -87,6 +87,9 @@ int merge_only(const Asked& asked, const Names& names) {
   return end_of(names, merge(names, *store), asked.quiet);
 }
 
+/// Without a place for what differs between items.
+bool is_one_file(const std::string& pattern) { return pattern.find('{') == std::string::npos; }
+
 Manifest manifest_of_run(const Asked& asked, const Job& job, const Source& source) {
   Manifest out;
   const JobSpec& spec = job.spec();
@@ -99,6 +102,10 @@ Manifest manifest_of_run(const Asked& asked, const Job& job, const Source& sourc
   out.program = kVersion;
   out.sources = source.mark();
   if (!spec.against.empty()) out.sources += "; " + spec.against + " " + mark_of_file(spec.against);
+  if (!spec.profile.empty()) {
+    out.sources += "; " + spec.profile;
+    if (is_one_file(spec.profile)) out.sources += " " + mark_of_file(spec.profile);
+  }
   out.remark = source.remark();
   out.items = source.size();
   out.shard_size = asked.shard_size;
@@ -214,6 +221,11 @@ void add_batch(CLI::App& app, Asked& asked) {
       ->option_text("NAME");
   app.add_option("--against", asked.job.against,
                  "compare: curve that every item is laid over; spline: more of the same function")
+      ->option_text("FILE");
+  app.add_option(
+         "--profile", asked.job.profile,
+         "alignment: stations and heights of every item, 'levels/{name}'; {name} is that of "
+         "its file [a column z]")
       ->option_text("FILE");
   app.add_option("--list", asked.sources.list, "File with a path on each line, - standard input")
       ->option_text("FILE");

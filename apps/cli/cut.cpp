@@ -81,7 +81,8 @@ std::string cut_text(const MadeCut& made, const std::vector<std::string>& files)
   const std::string unit = made.units.text();
   Facts facts;
   facts.add("program",
-            fmt::format("{} blocks at feed, {} of them arcs, in {}", r.blocks, r.arc_blocks,
+            fmt::format("{} blocks at feed, {} of them arcs, {}in {}", r.blocks, r.arc_blocks,
+                        r.spline_blocks > 0 ? fmt::format("{} splines, ", r.spline_blocks) : "",
                         counted(static_cast<std::size_t>(r.levels), "pass", "passes")));
   facts.add("length", fmt::format("{} {} at feed, {} {} rapid", significant(r.cut_length, 5), unit,
                                   significant(r.rapid_length, 5), unit));

@@ -89,6 +89,8 @@ void add_cut_program(CLI::App& app, RawCut& raw) {
       .add("--acceleration", plan.acceleration, "A",
            "Along the way, mm/s^2, for the estimate of time [500]")
       .add("--controller", raw.values.controller, "NAME", "grbl, linuxcnc, fanuc or marlin [grbl]")
+      .add("--motion", raw.values.motion, "NAME",
+           "arcs (G2, G3), or splines where they save blocks (G5, linuxcnc) [arcs]")
       .add("--decimals", raw.values.decimals, "N",
            "Of places, 1 to 6 [the fewest, at least 3, that cost no more than a tenth of the "
            "tolerance]");

@@ -79,6 +79,7 @@ constexpr const char* kInputHelp =
 constexpr const char* kInputsHelp =
     "File with the points, or - for standard input, which is read also where there is no name; of "
     "several files a line each";
+constexpr const char* kNoBarHelp = "Taken as everywhere: this command has no progress bar";
 constexpr const char* kUnitsHelp =
     "Unit of the lengths: mm, m, in, ft, ...; what files are written in, nothing is converted "
     "[as the file says; else mm is assumed, with a warning where it matters]";
@@ -348,6 +349,7 @@ void add_readers(CLI::App& app, Raw& raw) {
                    "CSV on standard output instead of the table: curves of a drawing, or points");
   analyse.add_flag("--json", raw.analyse.json, "JSON on standard output instead of the table");
   analyse.add_flag("-q,--quiet", raw.analyse.quiet, "No table");
+  analyse.add_flag("--no-progress", raw.no_progress, kNoBarHelp);
 }
 
 void add_region(CLI::App& app, Raw& raw) {
@@ -391,6 +393,7 @@ void add_region(CLI::App& app, Raw& raw) {
   region.add_flag("--csv", raw.region.csv, "CSV on standard output instead of the tables");
   region.add_flag("--json", raw.region.json, "JSON on standard output instead of the tables");
   region.add_flag("-q,--quiet", raw.region.quiet, "No tables");
+  region.add_flag("--no-progress", raw.no_progress, kNoBarHelp);
   region.footer(
       with_exit_codes("Examples:\n"
                       "  obvid region points.csv -o region.svg -o region.csv\n"
@@ -474,6 +477,7 @@ void add_convert(CLI::App& app, Raw& raw) {
   convert.add_flag("--json", raw.convert.json,
                    "Contour as JSON on standard output, as -o NAME.json");
   convert.add_flag("-q,--quiet", raw.convert.quiet, "Print nothing");
+  convert.add_flag("--no-progress", raw.no_progress, kNoBarHelp);
   convert.footer(with_exit_codes("Example: obvid convert contour.json -o contour.step"));
 }
 
@@ -487,6 +491,7 @@ void add_checkers(CLI::App& app, Raw& raw) {
   add_output(verify, raw.verify.outputs, raw.format, "File to write: .json the answer");
   verify.add_flag("--json", raw.verify.json, "JSON on standard output instead of the table");
   verify.add_flag("-q,--quiet", raw.verify.quiet, "Exit code only");
+  verify.add_flag("--no-progress", raw.no_progress, kNoBarHelp);
   verify.footer(with_exit_codes(""));
   CLI::App& explain =
       *app.add_subcommand("explain", "What an error code means and what to do; all without a code");

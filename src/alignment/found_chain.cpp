@@ -2,8 +2,10 @@
 #include "found_chain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -19,7 +21,10 @@ constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elem
 constexpr double kHopeless = 4.0;      ///< estimated squares over the most that there can be
 /// Largest offset over its tolerance after least squares from which no higher power comes back.
 constexpr double kHopelessOffset = 3.0;
-constexpr int kPasses = 4;         ///< over all conditions
+constexpr int kPasses = 4;  ///< over all conditions
+/// Of the length of all elements: where a bend moves nothing by more it is rounding, and straight.
+constexpr double kStraightWithin = 1e-9;
+constexpr double kOfToleranceAtMost = 1e-3;  ///< that this may take
 constexpr double kSlow = 0.25;     ///< of a run's change of curvature: what may be an arc beside it
 constexpr double kSlowRate = 0.1;  ///< of the fastest change of curvature: what may be an arc
 constexpr std::size_t kLongestRun = 9;   ///< elements that one transition takes the place of
@@ -30,12 +35,15 @@ constexpr int kMoreAtSeam = 2;           ///< elements that may be added to clos
 class Simplifier {
  public:
   /// Of a closed alignment the last point is the first one again; `close` leaves it out.
+  /// `first_given`: number, as given, of the first point.
   Simplifier(std::vector<Vec2> points, std::vector<double> tolerance,
-             const AlignmentOptions& options, bool constant, Chain chain, std::vector<Foot> feet)
+             const AlignmentOptions& options, bool constant, Chain chain, std::vector<Foot> feet,
+             std::size_t first_given)
       : points_(std::move(points)),
         tolerance_(std::move(tolerance)),
         transitions_(options.transitions),
         constant_(constant),
+        first_given_(first_given),
         chain_(std::move(chain)),
         feet_(std::move(feet)) {
     double length = 0.0;
@@ -54,7 +62,9 @@ class Simplifier {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
     OBVID_TRY(polish(run, &joints));
-    return simplify(run);
+    OBVID_TRY(simplify(run));
+    straighten();
+    return {};
   }
 
   /// The same around a loop: the ends of what was found are joined, and everything is tried once
@@ -74,7 +84,8 @@ class Simplifier {
     OBVID_TRY(merge_all(run));
     const std::size_t first = (points_.size() - first_given_) % points_.size();
     turn_to((feet_[first].element + 1) % chain_.size());
-    if (largest() > 1.0) return polish(run);
+    if (largest() > 1.0) OBVID_TRY(polish(run));
+    straighten();
     return {};
   }
 
@@ -94,6 +105,33 @@ class Simplifier {
   }
 
  private:
+  /// Curvatures that are rounding become those of lines: as they are they have signs, and radii,
+  /// that no point shows.
+  void straighten() {
+    if (chain_.plane != Plane::kMap) return;
+    double whole = 0.0;
+    for (const double length : chain_.length) whole += length;
+    const double most =
+        std::min(kStraightWithin * whole,
+                 kOfToleranceAtMost * *std::min_element(tolerance_.begin(), tolerance_.end()));
+    std::vector<double> longest(chain_.kappa.size(), 0.0);
+    for (std::size_t k = 0; k < chain_.size(); ++k) {
+      for (const int number : chain_.ends[k]) {
+        if (number == Chain::kStraight) continue;
+        double& own = longest[static_cast<std::size_t>(number)];
+        own = std::max(own, chain_.length[k]);
+      }
+    }
+    for (auto& ends : chain_.ends) {
+      for (int& number : ends) {
+        if (number == Chain::kStraight) continue;
+        const auto n = static_cast<std::size_t>(number);
+        // what lies beyond is turned by it: all of the length is its lever
+        if (std::abs(chain_.kappa[n]) * longest[n] * whole <= most) number = Chain::kStraight;
+      }
+    }
+  }
+
   Result<void> simplify(const RunContext& run) {
     OBVID_TRY(merge_all(run));
     for (int pass = 0; pass < kPasses; ++pass) {
@@ -701,6 +739,56 @@ Result<void> check_points(const std::vector<Vec2>& points, const AlignmentOption
   return {};
 }
 
+/// Searches, one after the other until one leads to elements within the tolerances: within a part
+/// of them, as the search sees deviations to first order, and with a chord of half a kilometre
+/// beside one of ten metres that is not enough; around a loop begun elsewhere, where its ends may
+/// join.
+struct Attempt {
+  double part;   ///< of the tolerances
+  double begin;  ///< of the points
+};
+constexpr std::array kAttempts = {Attempt{1.0, 0.0},  Attempt{1.0, 0.5},  Attempt{0.5, 0.0},
+                                  Attempt{0.5, 0.25}, Attempt{0.25, 0.0}, Attempt{0.25, 0.75},
+                                  Attempt{0.1, 0.5}};
+
+/// Elements from one of these searches.
+Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
+                            const AlignmentOptions& options, const Sought& sought,
+                            const Attempt& attempt, const RunContext& run) {
+  std::size_t begin = 0;
+  if (options.closed) {  // the last point is the first one again
+    const std::size_t n = points.size() - 1;
+    begin = static_cast<std::size_t>(attempt.begin * static_cast<double>(n));
+    const auto turn = [begin](auto& of_points) {
+      of_points.pop_back();
+      std::rotate(of_points.begin(), of_points.begin() + static_cast<std::ptrdiff_t>(begin),
+                  of_points.end());
+      of_points.push_back(of_points.front());
+    };
+    turn(points);
+    turn(tolerance);
+  }
+  std::vector<double> within = tolerance;
+  for (double& one : within) one *= attempt.part;
+  const auto nodes = fewest_pieces(points, within, options, sought, run);
+  OBVID_TRY(nodes);
+  Chain chain;
+  std::vector<Foot> feet;
+  set_chain(*nodes, points.size(), sought, chain, feet);
+  find_feet(chain, points, feet);
+  Simplifier out(std::move(points), std::move(tolerance), options, sought.constant,
+                 std::move(chain), std::move(feet), begin);
+  OBVID_TRY(options.closed ? out.run_around(run) : out.run(run));
+  const double largest = out.largest();
+  if (!(largest <= 1.0)) {
+    return fail(
+        error(ErrorCode::kToleranceNotReached, "the alignment that was found leaves the tolerance")
+            .hint("allow more, or set a least length or radius: other elements may do")
+            .value(largest));
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<double>& tolerance,
@@ -724,25 +812,21 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     points.push_back(points.front());
     allowed.push_back(allowed.front());
   }
-  const auto nodes = fewest_pieces(points, allowed, options, sought, run);
-  OBVID_TRY(nodes);
-  Chain chain;
-  std::vector<Foot> feet;
-  set_chain(*nodes, points.size(), sought, chain, feet);
-  find_feet(chain, points, feet);
-  Simplifier simplifier(std::move(points), std::move(allowed), options, sought.constant,
-                        std::move(chain), std::move(feet));
-  OBVID_TRY(options.closed ? simplifier.run_around(run) : simplifier.run(run));
-  const double largest = simplifier.largest();
-  if (!(largest <= 1.0)) {
-    return fail(
-        error(ErrorCode::kToleranceNotReached, "the alignment that was found leaves the tolerance")
-            .hint("allow more, or set a least length or radius: other elements may do")
-            .value(largest));
+  std::optional<Error> first;
+  double tried = 0.0;  // of open points it is all the same where they begin
+  for (const Attempt& attempt : kAttempts) {
+    if (!options.closed && attempt.part == tried) continue;
+    tried = attempt.part;
+    auto found = searched(points, allowed, options, sought, attempt, run);
+    if (found) {
+      out.chain = found->chain();
+      for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(found->foot_of_given(i));
+      return out;
+    }
+    if (found.error().code == ErrorCode::kCancelled) return fail(found.error());
+    if (!first) first = found.error();
   }
-  out.chain = simplifier.chain();
-  for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(simplifier.foot_of_given(i));
-  return out;
+  return fail(*first);
 }
 
 }  // namespace obvid::alignment

@@ -119,31 +119,43 @@ std::string data_of(const obvid_files* files, std::size_t k) {
   return {data, size};
 }
 
+Trouble too_large() {
+  return {static_cast<int>(ErrorCode::kUnsupported),
+          "larger than an item of a batch may be (64 MB)"};
+}
+
+Trouble read_file_of(const std::string& path, Owned<obvid_input>& input,
+                     Owned<obvid_error>& error) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) == 0) {
+    if (!S_ISREG(found.st_mode)) {  // a pipe would be waited for
+      return {static_cast<int>(ErrorCode::kCannotOpen), "this is no plain file"};
+    }
+    if (static_cast<std::size_t>(found.st_size) > kMostItemBytes) return too_large();
+  }
+  obvid_read_file(path.c_str(), Out(input), Out(error));
+  return {};
+}
+
 }  // namespace
 
 Trouble read_item(const Item& item, Work& work) {
-  const Trouble too_large{static_cast<int>(ErrorCode::kUnsupported),
-                          "larger than an item of a batch may be (64 MB)"};
   switch (item.kind) {
     case Item::Kind::kPoints:
       return read_points_of(item, work);
     case Item::Kind::kText:
-      if (item.text.size() > kMostItemBytes) return too_large;
+      if (item.text.size() > kMostItemBytes) return too_large();
       obvid_read_text(item.text.data(), item.text.size(), item.name.c_str(), Out(work.input),
                       Out(work.error));
       return {};
     case Item::Kind::kFile:
       break;
   }
-  struct stat found {};
-  if (::stat(item.name.c_str(), &found) == 0) {
-    if (!S_ISREG(found.st_mode)) {  // a pipe would be waited for
-      return {static_cast<int>(ErrorCode::kCannotOpen), "this is no plain file"};
-    }
-    if (static_cast<std::size_t>(found.st_size) > kMostItemBytes) return too_large;
-  }
-  obvid_read_file(item.name.c_str(), Out(work.input), Out(work.error));
-  return {};
+  return read_file_of(item.name, work.input, work.error);
+}
+
+Trouble read_heights(const std::string& path, Work& work) {
+  return read_file_of(path, work.heights, work.error);
 }
 
 void do_job(Work& work) {
@@ -167,7 +179,7 @@ void do_job(Work& work) {
       obvid_verify(work.contour.get(), run, to_report, Out(work.error));
     }
   } else if (job == "alignment") {
-    obvid_alignment(input, nullptr, options, run, Out(work.contour), to_files, to_report,
+    obvid_alignment(input, work.heights.get(), options, run, Out(work.contour), to_files, to_report,
                     Out(work.error));
   } else if (job == "cut") {
     obvid_cut(&input, 1, options, run, to_files, to_report, Out(work.error));

@@ -49,6 +49,7 @@ struct Work {
   const obvid_run& run;
   const obvid_input* against = nullptr;  ///< of --against
   Owned<obvid_input> input{};
+  Owned<obvid_input> heights{};  ///< of --profile
   Owned<obvid_contour> contour{};
   Owned<obvid_space> space{};
   Owned<obvid_surface> surface{};
@@ -64,6 +65,8 @@ struct Trouble {
 };
 
 [[nodiscard]] Trouble read_item(const Item& item, Work& work);
+/// The heights of an alignment.
+[[nodiscard]] Trouble read_heights(const std::string& path, Work& work);
 void do_job(Work& work);
 /// Paths and bytes of what a file of --each is to hold; what hinders it is in `work.error`.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> files_at(Work& work,

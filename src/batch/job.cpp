@@ -235,6 +235,10 @@ Result<const JobKind*> checked_kind(const JobSpec& spec) {
         {ErrorCode::kUnknownFormat, "the job " + spec.job + " makes no such file", pattern,
          spec.job == "cut" ? "possible are .nc, .svg and .dxf" : "possible are .svg, .csv"});
   }
+  if (!spec.profile.empty() && spec.job != "alignment") {
+    return fail({ErrorCode::kBadOption, "the job " + spec.job + " has no heights", "--profile",
+                 "alignment has"});
+  }
   if (kind->needs_each && spec.each.empty()) {
     return fail({ErrorCode::kUsage, "convert needs files to write", "--each",
                  "write --each 'curves/{id}.step'"});
@@ -282,6 +286,11 @@ std::string name_of_file(const std::string& pattern, const std::string& id, std:
   return filled(pattern, {{kPlaceOfId, safe}, {kPlaceOfNumber, std::to_string(number)}});
 }
 
+std::string heights_file(const std::string& pattern, const std::string& id, std::size_t number) {
+  const std::string name = std::filesystem::path(id).filename().string();
+  return name_of_file(filled(pattern, {{"{name}", name}}), id, number);
+}
+
 Job::Job(JobSpec spec, const JobKind& kind)
     : spec_(std::move(spec)), kind_(&kind), columns_(columns_of_job(kind)) {}
 
@@ -327,8 +336,11 @@ Result<bool> Job::run(const Item& item, std::size_t number, Columns& rows,
   }
   const obvid_run run{&asked, nullptr, &Asked::ask};
   Work work{spec_, *kind_, run, against_.get()};
-  const Trouble trouble = read_item(item, work);
-  if (work.input && trouble.code == 0) do_job(work);
+  Trouble trouble = read_item(item, work);
+  if (work.input && trouble.code == 0 && !spec_.profile.empty()) {
+    trouble = read_heights(heights_file(spec_.profile, item.id, number), work);
+  }
+  if (work.input && trouble.code == 0 && !work.error) do_job(work);
   if (stopped()) return false;
   if (trouble.code == 0) {
     OBVID_TRY(write_each(work, item.id, number));

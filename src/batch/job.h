@@ -23,6 +23,7 @@ struct JobSpec {
   std::vector<std::string> each;  ///< names of a contour's files: "curves/{id}.step"
   std::string reports;            ///< of reports: "reports/{id}.json"; empty: none
   std::string against;            ///< file that items are held against; empty: none
+  std::string profile;            ///< file of heights of an alignment: "levels/{name}"; empty: none
   double most_seconds = 0.0;      ///< of an item, E103 beyond; 0: as long as it takes
 };
 
@@ -57,6 +58,10 @@ class Job {
 /// The name of an item's file: {id} and {number} in the pattern, what no file name should hold
 /// (separators, control characters, leading dots) as %XX.
 [[nodiscard]] std::string name_of_file(const std::string& pattern, const std::string& id,
+                                       std::size_t number);
+
+/// The same of heights, where {name} is the last part of the id too: "a.csv" of "roads/a.csv".
+[[nodiscard]] std::string heights_file(const std::string& pattern, const std::string& id,
                                        std::size_t number);
 
 }  // namespace obvid::batch

@@ -104,6 +104,7 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"centripetal", number(plan.centripetal)},
                 {"acceleration", number(plan.acceleration)},
                 {"controller", text(w.cut.controller)},
+                {"motion", text(w.cut.motion)},
                 {"decimals", count(w.cut.decimals)}});
   }
   if (known.alignment) {

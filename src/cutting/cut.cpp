@@ -12,6 +12,7 @@
 #include "cut_check.h"
 #include "cut_options.h"
 #include "cut_order.h"
+#include "cut_splines.h"
 #include "cut_text.h"
 #include "cut_time.h"
 #include "obvid/core/internal/figures.h"
@@ -64,9 +65,15 @@ class Cutting {
                               options_.direction == CutDirection::kClimb};
     const std::vector<Visit> visits = ordered(tracks_, visiting, watch_);
     if (watch_.cancelled()) return fail(cancelled_error());
-    const CutBlocks blocks = blocks_of(tracks_.all, visits, rules_);
     decimals_ =
         options_.decimals.value_or(exchange::gcode_decimals(options_.tolerance * scale_, inches_));
+    CutBlocks blocks = blocks_of(tracks_.all, visits, rules_);
+    if (options_.motion == GcodeMotion::kSplines) {
+      const SplineRules splines{spline_tolerance(options_.tolerance) * scale_,
+                                std::pow(10.0, -decimals_)};
+      blocks.blocks = with_splines(std::move(blocks.blocks), rules_, splines, watch_);
+      if (watch_.was_cancelled()) return fail(cancelled_error());
+    }
     CutText text(options_, inches_, decimals_);
     for (const CutBlock& block : blocks.blocks) {
       if (block.kind == CutBlock::Kind::kCut && block.feed < kLeastFeed) return fail(no_feed());
@@ -210,6 +217,9 @@ class Cutting {
     CutReport& report = out.report;
     report.blocks = printed.size();
     report.arc_blocks = text.path().arcs();
+    report.spline_blocks = static_cast<std::size_t>(std::count_if(
+        printed.begin(), printed.end(),
+        [](const Piece& piece) { return std::holds_alternative<RationalBezier>(piece); }));
     for (const CutStep& step : out.steps) {
       report.left_in_corners = std::max(report.left_in_corners, step.left_in_corners);
     }

@@ -106,13 +106,6 @@ class Blocks {
     block.feed = rules_.plunge_feed;
   }
 
-  [[nodiscard]] double feed_on(const Piece& piece) const {
-    const double kappa = std::abs(curvature_of(piece));
-    if (!(rules_.across > 0.0) || kappa == 0.0) return rules_.feed;
-    constexpr double kSeconds = 60.0;  // feeds are a minute
-    return std::min(rules_.feed, kSeconds * std::sqrt(rules_.across / kappa));
-  }
-
   void cut(const Piece& whole, double z) {
     const double turn = std::abs(curvature_of(whole)) * length_of(whole), from = z_;
     const int parts = std::max(1, static_cast<int>(std::ceil(turn / exchange::kMostBlockTurn)));
@@ -122,7 +115,7 @@ class Blocks {
                                : part_of(whole, static_cast<double>(k) / parts,
                                          static_cast<double>(k + 1) / parts);
       block.z = k + 1 == parts ? z : from + (z - from) * (k + 1) / parts;
-      block.feed = feed_on(block.piece);
+      block.feed = feed_for(curvature_of(block.piece), rules_);
       block.first_pass = first_pass_;
     }
     z_ = z;
@@ -300,6 +293,12 @@ class Blocks {
 };
 
 }  // namespace
+
+double feed_for(double kappa, const BlockRules& rules) {
+  if (!(rules.across > 0.0) || kappa == 0.0) return rules.feed;
+  constexpr double kSeconds = 60.0;  // feeds are a minute
+  return std::min(rules.feed, kSeconds * std::sqrt(rules.across / std::abs(kappa)));
+}
 
 double levels_of(const BlockRules& rules) {
   constexpr double kWhole = 1e-9;  // of a pass: 6 by 2 are 3 passes, not 3.0000000001

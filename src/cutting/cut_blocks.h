@@ -48,6 +48,9 @@ struct CutBlocks {
   std::vector<std::size_t> without_tabs;  ///< tracks that are too short for them
 };
 
+/// The feed where the path has a curvature.
+[[nodiscard]] double feed_for(double kappa, const BlockRules& rules);
+
 /// Passes over each other of a mill; may be more than can be cut.
 [[nodiscard]] double levels_of(const BlockRules& rules);
 

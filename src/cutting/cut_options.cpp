@@ -85,6 +85,10 @@ Result<void> check_cut_options(const CutOptions& o) {
     return bad("a place is two numbers", "--start", 0.0, "for example --start 0,0");
   }
   if (o.passes < 1) return bad("there must be a pass", "--passes", o.passes, "");
+  if (o.motion == GcodeMotion::kLines) {
+    return bad("a cut runs along arcs or splines", "--motion", 0.0, "arcs, or splines");
+  }
+  if (o.motion == GcodeMotion::kSplines) OBVID_TRY(exchange::check_g5(o.controller));
   if (o.decimals && (*o.decimals < 1 || *o.decimals > exchange::kMostGcodeDecimals)) {
     return bad("decimals must be 1 to 6", "--decimals", *o.decimals, "");
   }

@@ -64,6 +64,11 @@ void CutText::add(const CutBlock& block) {
 }
 
 void CutText::cut(const CutBlock& block) {
+  const bool is_cubic = std::holds_alternative<RationalBezier>(block.piece);
+  if (is_cubic && block.z != z_) {  // G5 has no word Z: a change that rounded away before it
+    path_.say("G1" + height_words(block.z) + feed_words(block.feed) + "\n");
+    motions_.push_back(block.track);
+  }
   const std::string feed_before = feed_;
   const double z_before = z_;
   const std::string level = block.z == z_ ? "" : height_words(block.z);
@@ -71,6 +76,8 @@ void CutText::cut(const CutBlock& block) {
   const std::size_t printed = path_.pieces().size();
   if (const auto* arc = std::get_if<ArcPiece>(&block.piece)) {
     path_.follow_arc(*arc);
+  } else if (const auto* cubic = std::get_if<RationalBezier>(&block.piece)) {
+    path_.follow_cubic(*cubic);
   } else {
     path_.line_to(end_point(block.piece));
   }

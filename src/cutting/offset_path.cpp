@@ -98,6 +98,10 @@ std::vector<Vec2> crossings(const Piece& a, const Piece& b) {
                        std::abs(1.0 / arc_of(b).kappa));
 }
 
+double turn_between(const Piece& before, const Piece& behind) {
+  return std::remainder(heading_at_start(behind) - heading_at_end(before), 2.0 * std::numbers::pi);
+}
+
 /// Parallels of the pieces, with the places where neighbours do not meet.
 class ParallelOf {
  public:
@@ -143,7 +147,7 @@ class ParallelOf {
 
   void turn_at(const Piece& before, const Piece& behind) {
     const double theta = heading_at_end(before);
-    const double turn = std::remainder(heading_at_start(behind) - theta, 2.0 * std::numbers::pi);
+    const double turn = turn_between(before, behind);
     if (std::abs(turn) <= kSmooth) return;
     if (turn * by_ > 0.0) {  // towards the tool
       links_.back().gap_behind = true;
@@ -232,11 +236,17 @@ class ParallelOf {
 
 }  // namespace
 
+bool is_smooth(const Piece& before, const Piece& behind) {
+  return std::abs(turn_between(before, behind)) <= kSmooth;
+}
+
 double heading_at_start(const Piece& piece) {
+  if (std::holds_alternative<RationalBezier>(piece)) return element_at(piece, 0.0).theta;
   return is_line(piece) ? heading(end_point(piece) - start_point(piece)) : arc_of(piece).theta0;
 }
 
 double heading_at_end(const Piece& piece) {
+  if (std::holds_alternative<RationalBezier>(piece)) return element_at(piece, 1.0).theta;
   if (is_line(piece)) return heading_at_start(piece);
   return arc_of(piece).theta0 + arc_of(piece).kappa * arc_of(piece).length;
 }
@@ -244,6 +254,10 @@ double heading_at_end(const Piece& piece) {
 double curvature_of(const Piece& piece) { return is_line(piece) ? 0.0 : arc_of(piece).kappa; }
 
 double length_of(const Piece& piece) {
+  constexpr double kOfChord = 1e-9;  // to which lengths of cubics are found
+  if (std::holds_alternative<RationalBezier>(piece)) {
+    return arc_length(piece, kOfChord * norm(end_point(piece) - start_point(piece)));
+  }
   return is_line(piece) ? norm(end_point(piece) - start_point(piece)) : arc_of(piece).length;
 }
 
@@ -272,6 +286,12 @@ ArcPath reversed(const ArcPath& path) {
 }
 
 Piece scaled(const Piece& piece, double factor) {
+  if (const auto* cubic = std::get_if<RationalBezier>(&piece)) {
+    RationalBezier out = *cubic;
+    out.origin = factor * out.origin;
+    for (Vec2& offset : out.offset) offset = factor * offset;
+    return out;
+  }
   if (is_line(piece)) return line(factor * start_point(piece), factor * end_point(piece));
   const ArcPiece& a = arc_of(piece);
   return arc(factor * a.start, factor * a.end, a.theta0, a.kappa / factor, a.length * factor);

@@ -16,15 +16,19 @@ struct ArcPath {
   bool closed = false;
 };
 
+/// Of lines, arcs and cubics: headings at the ends, length, and the same piece larger.
 [[nodiscard]] double heading_at_start(const Piece& piece);
 [[nodiscard]] double heading_at_end(const Piece& piece);
+[[nodiscard]] Piece scaled(const Piece& piece, double factor);
+/// Whether the second piece goes on with the heading of the first, to rounding.
+[[nodiscard]] bool is_smooth(const Piece& before, const Piece& behind);
+/// Of lines and arcs.
 [[nodiscard]] double curvature_of(const Piece& piece);
 [[nodiscard]] double length_of(const Piece& piece);
 [[nodiscard]] double length_of(const ArcPath& path);
 /// The part of a line or arc between two places of it, 0 <= from < to <= 1.
 [[nodiscard]] Piece part_of(const Piece& piece, double from, double to);
 [[nodiscard]] ArcPath reversed(const ArcPath& path);
-[[nodiscard]] Piece scaled(const Piece& piece, double factor);
 /// A closed path that begins at a place of one of its pieces.
 [[nodiscard]] ArcPath begun_at(const ArcPath& path, std::size_t piece, double place);
 

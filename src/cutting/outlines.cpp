@@ -17,6 +17,8 @@ namespace {
 
 /// Of the tolerance, for arcs in place of contours; printing takes the rest.
 constexpr double kOfTolerance = 0.5;
+/// The same where cubics take the place of the arcs: they take the rest of that half.
+constexpr double kUnderSplines = 0.1;
 /// Of the tolerance, what drawings whose pieces meet with small turns may cost.
 constexpr double kSmallTurns = 0.1;
 /// Places on a path that are looked at: of the tool's radius, how far apart; of all, at most.
@@ -97,7 +99,8 @@ class TrackMaker {
  private:
   Result<void> add(std::size_t i) {
     const Contour& contour = outlines_[i].contour;
-    auto along = arcs_along(contour, kOfTolerance * options_.tolerance, &watch_);
+    const double part = options_.motion == GcodeMotion::kSplines ? kUnderSplines : kOfTolerance;
+    auto along = arcs_along(contour, part * options_.tolerance, &watch_);
     if (!along) return fail(named(along.error(), outlines_[i].name));
     Track track;
     track.outline = i;
@@ -299,6 +302,8 @@ bool is_inside(const ArcPath& path, Vec2 point) {
   for (const Piece& piece : path.pieces) turn += turn_around(piece, point);
   return std::abs(turn) > std::numbers::pi;
 }
+
+double spline_tolerance(double tolerance) { return (kOfTolerance - kUnderSplines) * tolerance; }
 
 double spacing_of(const std::vector<Track>& tracks, double tool_radius, double levels) {
   double length = 0.0;

@@ -39,6 +39,9 @@ struct Tracks {
 /// Whether a point lies inside of a closed path. It must not lie on it.
 [[nodiscard]] bool is_inside(const ArcPath& path, Vec2 point);
 
+/// What cubics in place of a path may be off it.
+[[nodiscard]] double spline_tolerance(double tolerance);
+
 /// Distance between places on a path that are looked at: a part of the tool's radius, but no more
 /// places than can be looked at in seconds.
 [[nodiscard]] double spacing_of(const std::vector<Track>& tracks, double tool_radius,

@@ -400,6 +400,23 @@ class Batch(unittest.TestCase):
         self.assertEqual((row["code"][0], row["lines"][0]), (0, 1))
         self.assertIn("grade", (self.at / "made/0.profile.csv").read_text())
 
+    def test_heights_of_every_road_are_those_of_the_file_of_its_name(self):
+        roads, levels = self.at / "roads", self.at / "levels"
+        roads.mkdir()
+        levels.mkdir()
+        for name, grade in (("a.csv", 0.02), ("b.csv", -0.01)):
+            write_csv(roads / name, [(10.0 * k, 0.0) for k in range(20)])
+            write_csv(levels / name, [(10.0 * k, 10.0 * grade * k) for k in range(20)], "station,height")
+        write_csv(roads / "c.csv", [(10.0 * k, 0.0) for k in range(20)])  # without heights
+        made = self.at / "made/{number}.profile.csv"
+        rows = self.rows(roads, "--job", "alignment", "--noise", "0.01", "--profile", levels / "{name}",
+                         "--profile-noise", "0.001", "--each", made)
+        self.assertEqual([int(code) for code in rows["code"]], [0, 0, 301])
+        for number, grade in ((0, 0.02), (1, -0.01)):
+            head, row = [line.split(",") for line in (self.at / f"made/{number}.profile.csv").read_text().splitlines()[:2]]
+            self.assertAlmostEqual(float(row[head.index("grade_start_percent")]), 100 * grade, places=6)
+        self.assertIn("E203", batch(roads, "-o", self.out, "--profile", levels / "a.csv", code=2))
+
     def test_items_are_held_against_a_file_that_counts_as_a_source(self):
         first = self.at / "first.csv"
         write_csv(first, spiral(40))

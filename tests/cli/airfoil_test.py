@@ -114,6 +114,27 @@ class Airfoils(unittest.TestCase):
         for x, y in rows[1:]:
             self.assertLess(abs(abs(y) - half(x) - 0.002 * x * x), 1e-5)
 
+    def test_ends_behind_each_other_are_as_thick_as_they_are_across_the_chord(self):
+        rows = points(0)[:-1]  # the lower side ends before the upper one
+        (self.folder / "a.dat").write_text("foil\n" + "".join(f"{x:.10f} {y:.10f}\n" for x, y in rows))
+
+        def across(ends, nose=(0.0, 0.0)):
+            (ax, ay), (bx, by) = ends
+            cx, cy = 0.5 * (ax + bx) - nose[0], 0.5 * (ay + by) - nose[1]
+            return abs(cx * (by - ay) - cy * (bx - ax)) / (cx * cx + cy * cy)
+
+        code, text = self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json", "-o", "b.dat")
+        self.assertEqual(code, 0, text)
+        edge = self.figures(text)[1][1]
+        self.assertAlmostEqual(edge, 100 * across((rows[0], rows[-1])), delta=1.5e-3)
+        self.assertGreater(100 * math.dist(rows[0], rows[-1]), 1.2 * edge)
+        code, text = self.run_it("convert", "a.json", "-o", "c.dat", "--trailing-edge", "0.004", "--unit-chord")
+        self.assertEqual(code, 0, text)
+        made = numbers(self.folder / "c.dat")
+        self.assertAlmostEqual(across((made[0], made[-1])), 0.004, delta=2e-6)
+        code, text = self.run_it("fit", "c.dat", "--noise", "rounding", "-o", "d.dat")
+        self.assertAlmostEqual(self.figures(text)[1][1], 0.4, delta=1.5e-3)
+
     def test_a_round_trailing_edge_touches_both_sides(self):
         self.write("a.dat")
         self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json", "-q")

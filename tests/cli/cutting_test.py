@@ -90,6 +90,52 @@ class Cutting(unittest.TestCase):
         reach = 1.5 * (math.sqrt(2) - 1)
         self.assertAlmostEqual(report["left_in_corners"], reach, places=6)
 
+    def test_splines_are_fewer_blocks_within_the_tolerance(self):
+        shapes, outside = plate()
+        options = ["--diameter", 3, "--depth", 6, "--pass-depth", 2, "--decimals", 6, "--controller", "linuxcnc"]
+        arcs = self.cuts(Controller(self.run_cut(drawing(shapes), *options)))
+        self.assertNotIn("G5 ", self.text)
+        self.assertEqual(self.report["report"]["spline_blocks"], 0)
+        for more in ([], ["--lead-in", 1.2], ["--tabs", 3, "--tab-width", 4, "--tab-height", 1], ["--ramp", 3]):
+            with self.subTest(more=more):
+                program = Controller(self.run_cut(drawing(shapes), *options, *more, "--motion", "splines"), splines=True)
+                exact = [k for k, s in enumerate(shapes) if not isinstance(s, Ellipse)]
+                if "--tabs" not in more:
+                    self.judged(shapes, outside, program, 3, 0.01, exact)
+                curves = [m for m in program.moves if m.code == 5]
+                self.assertEqual(len(curves), self.report["report"]["spline_blocks"])
+                self.assertTrue(curves)
+                # the ellipse alone has curvatures that change
+                for m in curves:
+                    own = min(shapes, key=lambda s: abs(abs(s.distance(m.at(0.5))) - 1.5))
+                    self.assertIsInstance(own, Ellipse)
+                    for p in m.places(0.05):
+                        self.assertLess(abs(abs(own.distance(p)) - 1.5), 0.01)
+                if not more:
+                    own = lambda moves: sum(isinstance(min(shapes, key=lambda s: abs(abs(s.distance(m.at(0.5))) - 1.5)),  # noqa: E731
+                                                       Ellipse) for m in moves)
+                    self.assertLess(own(self.cuts(program)), 0.6 * own(arcs))
+                cut = sum(m.length() for m in program.moves if m.code != 0 and m.a[:2] != m.b[:2])
+                self.assertAlmostEqual(cut, self.report["report"]["cut_length"], places=1)
+
+    def test_splines_slow_down_where_they_are_sharp(self):
+        program = Controller(self.run_cut(drawing([Ellipse(0, 0, 40, 8)]), "--diameter", 0, "--depth", 1, "--feed", 6000,
+                                          "--centripetal", 400, "--controller", "linuxcnc", "--motion", "splines"),
+                             splines=True)
+        curves = [m for m in program.moves if m.code == 5]
+        self.assertTrue(curves)
+        for m in curves:
+            bend = max(abs(m.curvature(k / 200)) for k in range(201))
+            self.assertLessEqual((m.feed / 60) ** 2 * bend, 400 * 1.01)
+
+    def test_splines_are_refused_where_they_are_not_known(self):
+        one = drawing([Ellipse(0, 0, 40, 8)])
+        for controller in ("grbl", "fanuc", "marlin"):
+            said = self.run_cut(one, "--depth", 1, "--motion", "splines", "--controller", controller, code=2)
+            self.assertIn("linuxcnc", said)
+        self.assertIn("0.1 mm", said)
+        self.run_cut(one, "--depth", 1, "--motion", "lines", "--controller", "linuxcnc", code=2)
+
     def test_tabs_hold_what_they_hold(self):
         shapes = [Round(0, 0, 80, 50, 6)]
         program = Controller(self.run_cut(drawing(shapes), "--diameter", 3, "--depth", 5, "--pass-depth", 2, "--tabs",

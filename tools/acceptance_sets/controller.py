@@ -4,14 +4,18 @@ takes. Shares nothing with the engine."""
 import math
 import re
 
+# places and weights on [-1, 1]
+GAUSS = [(0.0, 128 / 225), *((s * math.sqrt(5 - 2 * math.sqrt(10 / 7)) / 3, (322 + 13 * math.sqrt(70)) / 900) for s in (1, -1)),
+         *((s * math.sqrt(5 + 2 * math.sqrt(10 / 7)) / 3, (322 - 13 * math.sqrt(70)) / 900) for s in (1, -1))]
 WORD = re.compile(r"([A-Z])([-+]?\d*\.?\d+)")
 
 
 class Move:
     """A motion of the tip: `at(t)` for t in [0, 1]."""
 
-    def __init__(self, code, a, b, centre=None, feed=None, spins=False):
+    def __init__(self, code, a, b, centre=None, feed=None, spins=False, inner=None):
         self.code, self.a, self.b, self.centre, self.feed, self.spins = code, a, b, centre, feed, spins
+        self.inner = inner  # both inner control points of a G5
         if centre:
             cx, cy = centre
             self.radius = math.hypot(a[0] - cx, a[1] - cy)
@@ -27,10 +31,36 @@ class Move:
     def length(self):
         if self.centre:
             return abs(self.turn) * self.radius
+        if self.inner:
+            return self.spline_length()
         return math.dist(self.a[:2], self.b[:2])
+
+    def spline_length(self):
+        """Of the hodograph, by Gauss and Legendre with 5 places on each of 16 parts."""
+        total = 0.0
+        for k in range(16):
+            for x, w in GAUSS:
+                total += w / 32 * math.hypot(*self.velocity((k + 0.5 + 0.5 * x) / 16))
+        return total
+
+    def velocity(self, t):
+        p = [self.a, *self.inner, self.b]
+        s = 1.0 - t
+        return [3 * (s * s * (p[1][i] - p[0][i]) + 2 * s * t * (p[2][i] - p[1][i]) + t * t * (p[3][i] - p[2][i]))
+                for i in (0, 1)]
+
+    def curvature(self, t):
+        p = [self.a, *self.inner, self.b]
+        v = self.velocity(t)
+        w = [6 * ((1 - t) * (p[2][i] - 2 * p[1][i] + p[0][i]) + t * (p[3][i] - 2 * p[2][i] + p[1][i])) for i in (0, 1)]
+        return (v[0] * w[1] - v[1] * w[0]) / math.hypot(*v) ** 3
 
     def at(self, t):
         z = self.a[2] + t * (self.b[2] - self.a[2])
+        if self.inner:
+            s, (c, d) = 1.0 - t, self.inner
+            return (*(s ** 3 * self.a[i] + 3 * s * s * t * c[i] + 3 * s * t * t * d[i] + t ** 3 * self.b[i]
+                      for i in (0, 1)), z)
         if not self.centre:
             return (self.a[0] + t * (self.b[0] - self.a[0]), self.a[1] + t * (self.b[1] - self.a[1]), z)
         angle = self.begin + t * self.turn
@@ -43,23 +73,24 @@ class Move:
 
 
 class Controller:
-    """Reads a program by the rules that grbl, LinuxCNC, Fanuc and Marlin share, and refuses the rest."""
+    """Reads a program by the rules that grbl, LinuxCNC, Fanuc and Marlin share, and refuses the rest. `splines`:
+    G5 as LinuxCNC has it, in XY alone, with I, J, P and Q in each block."""
 
-    def __init__(self, text, burns=False):
+    def __init__(self, text, burns=False, splines=False):
         self.moves, self.codes, self.dwells = [], [], []
         at, feed, motion, spins = [0.0, 0.0, 0.0 if burns else None], None, None, False
         for line in text.splitlines():
-            assert len(line) <= 80, line
+            assert len(line) <= (255 if splines else 80), line  # LINELEN of LinuxCNC, buffer of grbl
             line = re.sub(r"\([^()]*\)", "", line.split(";")[0]).strip()
             if line in ("", "%"):
                 continue
             assert WORD.sub("", line).strip() == "", f"words that no controller knows: {line}"
             words = [(k, float(v)) for k, v in WORD.findall(line)]
-            ends, ij = {}, {}
+            ends, ij, pq = {}, {}, {}
             for letter, value in words:
                 if letter == "G":
                     self.codes.append(("G", value))
-                    if value in (0, 1, 2, 3):
+                    if value in (0, 1, 2, 3) or splines and value == 5:
                         motion = int(value)
                     else:
                         assert value in (4, 17, 20, 21, 90, 91.1, 94), line
@@ -74,6 +105,8 @@ class Controller:
                     ends["XYZ".index(letter)] = value
                 elif letter in "IJ":
                     ij["IJ".index(letter)] = value
+                elif letter in "PQ" and motion == 5:
+                    pq["PQ".index(letter)] = value
                 else:
                     assert letter in "SPO", line
             if any(k == "G" and v == 4 for k, v in words):
@@ -83,15 +116,19 @@ class Controller:
                 assert not ij, line
                 continue
             end = [ends.get(k, at[k]) for k in range(3)]
-            if motion in (1, 2, 3):
+            if motion in (1, 2, 3, 5):
                 assert feed is not None, f"no feed: {line}"
                 assert None not in at, f"cuts before it is placed: {line}"
             centre = None
             if motion in (2, 3):
                 assert set(ij) == {0, 1}, line
                 centre = (at[0] + ij[0], at[1] + ij[1])
+            inner = None
+            if motion == 5:
+                assert set(ij) == set(pq) == {0, 1} and 2 not in ends, line
+                inner = [(at[0] + ij[0], at[1] + ij[1]), (end[0] + pq[0], end[1] + pq[1])]
             if None not in at:
-                move = Move(motion, tuple(at), tuple(end), centre, feed, spins)
+                move = Move(motion, tuple(at), tuple(end), centre, feed, spins, inner)
                 if centre:  # grbl: 0.005 mm and 0.1 %; LinuxCNC and others are looser
                     assert abs(move.radius - move.end_radius) <= 0.002, line
                     assert abs(move.turn) < math.pi, line

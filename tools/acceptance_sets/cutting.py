@@ -29,8 +29,10 @@ ROUGH = 0.05  # tolerances: what sampling outlines and ways for distances may co
 MOST_PLACES = 20000  # of a way or of outlines that are looked at
 PLATES = [("3 mm", 3.0, []), ("3 mm, leads, conventional", 3.0, ["--lead-in", "1.2", "--direction", "conventional"]),
           ("2 mm, ramps", 2.0, ["--ramp", "3"]), ("5 mm, ramps", 5.0, ["--ramp", "12"]),
-          ("3 mm, passes of 2 mm", 3.0, ["--pass-depth", "2", "--controller", "linuxcnc"])]
+          ("3 mm, passes of 2 mm", 3.0, ["--pass-depth", "2", "--controller", "linuxcnc"]),
+         ("3 mm, splines", 3.0, ["--pass-depth", "2", "--lead-in", "1.2", "--controller", "linuxcnc", "--motion", "splines"])]
 MADE, DICE, ALONG, MILLED = "plate of ten outlines", "random plates", "drawings, along", "drawings, milled"
+SPLINES = "drawings, along, splines"
 
 
 def plate_case(work, name, group, plate, diameter, options, unit=4):
@@ -54,6 +56,8 @@ def cases(data, work, _options):
     dice = random.Random(11)
     found += [plate_case(work, f"random {k}", DICE, plates.random_plate(dice), 4.0, []) for k in range(RANDOM_PLATES)]
     found += [Case(p.name, p, ["--laser", "500", "--drawing", "exact"], TOLERANCE, ALONG) for p in drawings]
+    found += [Case(p.name, p, ["--laser", "500", "--drawing", "exact", "--controller", "linuxcnc", "--motion", "splines"],
+                   TOLERANCE, SPLINES) for p in drawings]
     found += [Case(p.name, p, ["--depth", "2"], TOLERANCE, MILLED) for p in drawings]
     return found, [f"Tolerance {TOLERANCE} mm ({INCHES} in). Public drawings are milled with a cutter of 1/"
                    f"{PARTS_OF_SIZE} of their diagonal; one that does not fit is refused.\n"]
@@ -160,9 +164,14 @@ def inside(p, polygon):
 
 def covered(lines, program, tolerance):
     """How far the way is from the outlines, and the outlines from the way."""
-    moves = [m for m in program.moves if m.code in (1, 2, 3) and m.length() > 0]
-    # chords of arcs are no farther from these than a fiftieth of the tolerance
-    apart = lambda m: math.sqrt(8 * m.radius * tolerance / 50) if m.centre else m.length()  # noqa: E731
+    moves = [m for m in program.moves if m.code in (1, 2, 3, 5) and m.length() > 0]
+    # chords of arcs and splines are no farther from these than a fiftieth of the tolerance
+    def apart(m):
+        if m.inner:
+            bend = max(abs(m.curvature(k / 32)) for k in range(33))
+            return math.sqrt(8 * tolerance / 50 / bend) if bend else m.length()
+        return math.sqrt(8 * m.radius * tolerance / 50) if m.centre else m.length()
+
     way = [[p[:2] for p in m.places(min(m.length() / 8, apart(m)))] for m in moves]
     cell = max(length_of(lines) / 2000, 4 * tolerance)
     far = lambda table, some: max((table.nearest(p, cell)[0] for p in some), default=0.0)  # noqa: E731
@@ -223,7 +232,7 @@ def run_case(case, program, work):
         if not said:
             return outcome
         exact = [k for k, s in enumerate(shapes) if not isinstance(s, plates.Ellipse)]
-        found = plates.simulated(shapes, outside, Controller(output.read_text()), diameter, exact)
+        found = plates.simulated(shapes, outside, Controller(output.read_text(), splines="splines" in case.arguments), diameter, exact)
         if "conventional" in case.arguments:
             found["wrong_way"] = len(shapes) - found["wrong_way"]
         found["left"] = max(0.0, found["left"] - diameter / 200)  # ways are looked at a radius/20 apart
@@ -233,7 +242,7 @@ def run_case(case, program, work):
 
 def run_drawing(case, program, work, output):
     arguments, radius = list(case.arguments), 0.0
-    contours = converted_outlines(case.path, program, work, case.group == ALONG)
+    contours = converted_outlines(case.path, program, work, case.group != MILLED)
     size = diagonal([polyline(pieces, math.inf) for pieces, _ in contours])
     if case.group == MILLED and size:
         radius = size / PARTS_OF_SIZE / 2
@@ -245,7 +254,7 @@ def run_drawing(case, program, work, output):
     scale = 1.0 if unit == 25.4 else unit  # of the program: inches stay inches, all else is mm
     tolerance = outcome["tolerance"] = TOLERANCE / (unit / scale)
     radius, size = radius * scale, size * scale
-    controller = Controller(output.read_text(), burns=case.group == ALONG)
+    controller = Controller(output.read_text(), burns=case.group != MILLED, splines=case.group == SPLINES)
     scaled = lambda line: [(x * scale, y * scale) for x, y in line]  # noqa: E731
     step = max(size / 2000, tolerance) / scale
     outlines = [(scaled(polyline(pieces, step)), closed) for pieces, closed in contours]

@@ -149,7 +149,7 @@ def rapids_through(moves, top=0.0):
 
 
 def below(moves):
-    return [m for m in moves if m.code in (1, 2, 3) and min(m.a[2], m.b[2]) < 0]
+    return [m for m in moves if m.code in (1, 2, 3, 5) and min(m.a[2], m.b[2]) < 0]
 
 
 def simulated(shapes, outside, program, diameter, exact=()):

@@ -44,8 +44,8 @@ def _source(drawing: Drawing) -> Source:
 
 def cut(drawings: Union[Drawing, Sequence[Drawing]], **options: Any) -> CutProgram:
     """Every curve of drawings and contour files in one program. Options as of `obvid cut`: diameter,
-    depth, pass_depth, side, laser, plasma, lead_in, tabs, ramp, feed, controller, curve, ...; progress,
-    cancelled. Lengths in units of the drawing.
+    depth, pass_depth, side, laser, plasma, lead_in, tabs, ramp, feed, controller, motion, curve, ...;
+    progress, cancelled. Lengths in units of the drawing.
 
     >>> import obvid
     >>> plate = obvid.read_text('<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" '

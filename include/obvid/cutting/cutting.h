@@ -60,6 +60,7 @@ struct CutOptions {
   std::optional<double>
       acceleration{};  ///< along it, mm/s^2, for the estimate of time [500 mm/s^2]
   GcodeController controller = GcodeController::kGrbl;
+  GcodeMotion motion = GcodeMotion::kArcs;  ///< or splines: G5 where one block stands for several
   std::optional<int> decimals{};  ///< 1 to 6 [the fewest, at least 3, that cost no more than a
                                   ///< tenth of the tolerance]
   std::string name = "drawing";   ///< stands in a remark
@@ -95,12 +96,13 @@ struct CutMove {
 };
 
 struct CutReport {
-  std::size_t blocks = 0;      ///< that cut
-  std::size_t arc_blocks = 0;  ///< of them G2 and G3
-  double cut_length = 0.0;     ///< units, all passes
-  double rapid_length = 0.0;   ///< units, seen from above
-  double minutes = 0.0;        ///< with acceleration
-  int levels = 0;              ///< passes over each other
+  std::size_t blocks = 0;         ///< that cut
+  std::size_t arc_blocks = 0;     ///< of them G2 and G3
+  std::size_t spline_blocks = 0;  ///< of them G5
+  double cut_length = 0.0;        ///< units, all passes
+  double rapid_length = 0.0;      ///< units, seen from above
+  double minutes = 0.0;           ///< with acceleration
+  int levels = 0;                 ///< passes over each other
   /// Of the program as printed, read back: how far the edge of the tool comes beyond an outline,
   /// and how far from an outline it stays, inner corners apart. Found at places `spacing` apart;
   /// not bounded between them.
@@ -123,12 +125,14 @@ struct CutProgram {
 /// The program. Each outline becomes arcs and lines within the tolerance (`arcs_along`); the tool's
 /// path is their exact parallel at half the diameter (arcs of other radii, arcs around outer
 /// corners, cut off at inner ones). Outlines inside others are cut before them, the nearest first,
-/// improved by exchanges: short, not proved to be shortest. The text is read back before it is
-/// handed out.
-/// Errors: E203 sizes, feeds or options that do not go together; E311 no outline; E409 the tool
-/// does not fit: it would cut into this outline or another one there (`where`; the hint names the
-/// largest that does where the outline's own curvature decides); E502 decimals too few for the
-/// tolerance, or the printed program leaves it; E103.
+/// improved by exchanges: short, not proved to be shortest. With splines, neighbouring lines and
+/// arcs at one height become cubics (G5) as far as one stays within what is left of the tolerance;
+/// arcs are nearer to the outline then. Not on ramps, as G5 has no height. The text is read back
+/// before it is handed out. Errors: E203 sizes, feeds or options that do not go together, splines
+/// for another controller than LinuxCNC; E311 no outline; E409 the tool does not fit: it would cut
+/// into this outline or another one there (`where`; the hint names the largest that does where the
+/// outline's own curvature decides); E502 decimals too few for the tolerance, or the printed
+/// program leaves it; E103.
 [[nodiscard]] Result<CutProgram> cut(const std::vector<CutOutline>& outlines,
                                      const CutOptions& options, const RunContext& run = {});
 

@@ -43,7 +43,7 @@ struct MadeCut {
 
 /// Names as they are typed. Errors: E203.
 struct CutValues {
-  std::optional<std::string> side, direction, controller, start;
+  std::optional<std::string> side, direction, controller, motion, start;
   std::optional<double> laser, plasma;  ///< power; seconds to pierce
   std::optional<long> passes, tabs, decimals;
 };

@@ -38,6 +38,16 @@ std::string gcode_head(GcodeController controller, bool inches,
   return out + "G90 G91.1 G17 G94\n";
 }
 
+Result<void> check_g5(GcodeController controller) {
+  if (controller == GcodeController::kLinuxCnc) return {};
+  return error(ErrorCode::kBadOption,
+               controller == GcodeController::kMarlin
+                   ? "Marlin may leave a G5 by 0.1 mm: no tolerance can be kept"
+                   : "this controller has no splines (G5)")
+      .where("--motion splines")
+      .hint("choose arcs, or the controller linuxcnc");
+}
+
 std::string gcode_end(GcodeController controller) {
   switch (controller) {
     case GcodeController::kMarlin:

@@ -188,9 +188,7 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
   if (options.safe_z && !std::isfinite(*options.safe_z)) {
     return bad("the height is no number", "", *options.safe_z);
   }
-  if (options.motion == GcodeMotion::kSplines && options.controller != GcodeController::kLinuxCnc) {
-    return bad("only LinuxCNC knows G5", "choose arcs, or the controller linuxcnc", 0.0);
-  }
+  if (options.motion == GcodeMotion::kSplines) OBVID_TRY(exchange::check_g5(options.controller));
   if (contour.pieces.empty()) {
     return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }

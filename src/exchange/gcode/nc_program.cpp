@@ -53,6 +53,7 @@ class Reader {
   bool block(std::string_view line) {
     ends_ = {};
     to_centre_ = {};
+    to_second_ = {};
     while (!line.empty()) {
       const char word = line.front();
       line.remove_prefix(1);
@@ -88,10 +89,13 @@ class Reader {
         return true;
       case 'G':
         return general(value);
+      case 'P':
+      case 'Q':
+        to_second_[static_cast<std::size_t>(word - 'P')] = value;
+        return true;
       case 'F':
       case 'M':
       case 'O':
-      case 'P':
       case 'S':
         return true;
       default:
@@ -107,6 +111,9 @@ class Reader {
       case 20:
       case 30:
         motion_ = tenths / 10;
+        return true;
+      case 50:
+        motion_ = 5;
         return true;
       case 40:  // a dwell
         return true;
@@ -140,9 +147,10 @@ class Reader {
     }
     NcMotion out;
     out.rapid = motion_ == 0;
-    out.arc = motion_ >= 2;
+    out.arc = motion_ == 2 || motion_ == 3;
     if (placed_) out.points.push_back({at_[0], at_[1], at_[2]});
     if (out.arc && !arc(end, out)) return false;
+    if (motion_ == 5 && !cubic(end, out)) return false;
     out.points.push_back({end[0], end[1], end[2]});
     placed_ = true;
     at_ = end;
@@ -182,11 +190,31 @@ class Reader {
     return true;
   }
 
+  // I and J lead from the start to the first inner control point, P and Q from the end to the
+  // second one.
+  bool cubic(const Places& end, NcMotion& out) {
+    if (plane_ != 17 || ends_[2]) return bad("a spline runs in the plane XY alone");
+    if (!to_second_[0] || !to_second_[1]) return bad("a spline without P and Q");
+    const Vec2 a{at_[0], at_[1]}, d{end[0], end[1]};
+    const Vec2 b = a + Vec2{to_centre_[0], to_centre_[1]},
+               c = d + Vec2{*to_second_[0], *to_second_[1]};
+    // chords lie no deeper than a eighth of the second derivative times the square of the step
+    const double bend = 6.0 * std::max(norm(a - 2.0 * b + c), norm(b - 2.0 * c + d));
+    const double parts = std::max(1.0, std::ceil(std::sqrt(0.125 * bend / within_)));
+    for (double k = 1.0; k < parts; k += 1.0) {
+      const double t = k / parts, s = 1.0 - t;
+      const Vec2 p = s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d;
+      out.points.push_back({p.x, p.y, at_[2]});
+    }
+    return true;
+  }
+
   double within_;
   NcProgram program_;
   std::string fault_;
   std::array<std::optional<double>, 3> ends_;
   Places to_centre_{}, at_{};
+  std::array<std::optional<double>, 2> to_second_;
   std::array<bool, 3> known_{};
   bool placed_ = false;
   int motion_ = 0, plane_ = 17;

@@ -176,7 +176,9 @@ Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options
         .where("--trailing-edge-form")
         .hint("give --trailing-edge too, for example 0.002");
   }
-  const double more = options.trailing_thickness ? thick * c - (a.y - b.y) : 0.0;
+  // ends that lie at different places along the chord are moved by different amounts
+  const double squares = (a.x * a.x + b.x * b.x) / (c * c);
+  const double more = options.trailing_thickness ? 2.0 * (thick * c - (a.y - b.y)) / squares : 0.0;
   Result<WrittenSides> sides =
       round ? WrittenSides::rounded(foil, 0.5 * thick * c) : WrittenSides(foil, more);
   OBVID_TRY(sides);

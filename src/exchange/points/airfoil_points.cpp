@@ -91,7 +91,7 @@ std::optional<AirfoilPointFigures> airfoil_point_figures(std::span<const Vec2> p
   }
   out.nose_radius = radius_through(one[1], one[0], other[1]);
   out.nose_gap = std::max(norm(one[1] - one[0]), norm(other[1] - other[0]));
-  out.trailing_thickness = norm(one.back() - other.back());
+  out.trailing_thickness = std::abs(one.back().y - other.back().y);
   return out;
 }
 

@@ -186,8 +186,7 @@ AirfoilFigures Airfoil::figures() const {
   out.camber_at = top / c;
   out.nose_radius = 1.0 / std::abs(at(nose_).kappa) / c;
   const auto first = at(0.0), last = at(length());
-  const Vec2 gap = first.point - last.point;
-  out.trailing_thickness = std::hypot(gap.x, gap.y) / c;
+  out.trailing_thickness = std::abs(local(first.point).y - local(last.point).y) / c;
   const Vec2 upper = -1.0 * first.tangent, lower = last.tangent;  // both towards the edge
   out.trailing_angle = std::atan2(cross(upper, lower), dot(upper, lower));
   look_at_nose(out);
@@ -262,10 +261,11 @@ Result<AirfoilFigures> airfoil_figures(const Contour& contour) {
   const auto foil = airfoil_of(contour);
   OBVID_TRY(foil);
   const AirfoilFigures out = foil->figures();
-  if (out.trailing_thickness < kWidestEdge) return out;
+  const double apart = norm(foil->at(0.0).point - foil->at(foil->length()).point) / out.chord;
+  if (apart < kWidestEdge) return out;
   return error(ErrorCode::kNothingThere,
                "the ends lie farther apart than half of the chord: no airfoil")
-      .value(out.trailing_thickness);
+      .value(apart);
 }
 
 }  // namespace obvid

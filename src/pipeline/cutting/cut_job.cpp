@@ -70,17 +70,23 @@ class Taken {
   const RunContext& run_;
 };
 
+/// A piece, or the curve at `by` to its left.
+void add_chords(SketchLayer& layer, const Piece& piece, double by) {
+  constexpr int kChords = 48;
+  std::vector<Vec2> points;
+  for (int k = 0; k <= kChords; ++k) {
+    const Jet jet = evaluate(piece, static_cast<double>(k) / kChords);
+    points.push_back(by == 0.0 ? jet.point : jet.point + (by / norm(jet.d1)) * left_normal(jet.d1));
+  }
+  layer.polylines.push_back(std::move(points));
+}
+
 void add_polyline(SketchLayer& layer, const Piece& piece) {
   if (std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece)) {
     layer.pieces.push_back(piece);
     return;
   }
-  constexpr int kChords = 48;
-  std::vector<Vec2> points;
-  for (int k = 0; k <= kChords; ++k) {
-    points.push_back(evaluate(piece, static_cast<double>(k) / kChords).point);
-  }
-  layer.polylines.push_back(std::move(points));
+  add_chords(layer, piece, 0.0);
 }
 
 }  // namespace
@@ -143,9 +149,10 @@ Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
   }
   const double radius = 0.5 * job.plan.diameter;
   for (const CutMove& move : made.program.moves) {
-    (move.kind == CutMoveKind::kRapid ? rapid : axis).pieces.push_back(move.piece);
+    add_polyline(move.kind == CutMoveKind::kRapid ? rapid : axis, move.piece);
     if (move.kind != CutMoveKind::kCut || radius == 0.0) continue;
     for (const double side : {radius, -radius}) {
+      if (std::holds_alternative<RationalBezier>(move.piece)) add_chords(edge, move.piece, side);
       if (const auto parallel = parallel_piece(move.piece, side)) edge.pieces.push_back(*parallel);
     }
   }
@@ -177,6 +184,7 @@ std::string cut_json(const MadeCut& made) {
   }
   json.end_array().key("report").begin_object();
   json.pair("levels", r.levels).pair("blocks", r.blocks).pair("arc_blocks", r.arc_blocks);
+  json.pair("spline_blocks", r.spline_blocks);
   json.pair("cut_length", r.cut_length)
       .pair("rapid_length", r.rapid_length)
       .pair("minutes", r.minutes);
@@ -210,6 +218,9 @@ Result<void> set_cut(const CutValues& typed, CutJob& job) {
   const auto& controllers = exchange::kGcodeControllers;
   OBVID_TRY(pick(std::map<std::string, GcodeController>{controllers.begin(), controllers.end()},
                  typed.controller, "--controller", plan.controller));
+  OBVID_TRY(pick(std::map<std::string, GcodeMotion>{{"arcs", GcodeMotion::kArcs},
+                                                    {"splines", GcodeMotion::kSplines}},
+                 typed.motion, "--motion", plan.motion));
   if (typed.laser && typed.plasma) {
     return fail(bad_option("a laser is no plasma torch", "--laser", "leave one of them out"));
   }

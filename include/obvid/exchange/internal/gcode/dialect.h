@@ -29,6 +29,10 @@ inline constexpr int kLeastGcodeDecimals = 3, kMostGcodeDecimals = 6;
 [[nodiscard]] std::string gcode_head(GcodeController controller, bool inches,
                                      const std::vector<std::string>& remarks);
 /// End of the program. Marlin has none: M30 would delete a file there.
+/// E203 for controllers without cubic splines (G5), and for Marlin: its firmware replaces them by
+/// chords that may lie 0.1 mm off (SIGMA in planner_bezier.cpp), whatever the program says.
+[[nodiscard]] Result<void> check_g5(GcodeController controller);
+
 [[nodiscard]] std::string gcode_end(GcodeController controller);
 
 }  // namespace obvid::exchange

@@ -51,14 +51,14 @@ struct GcodeText {
 };
 
 /// G21 and millimetres, or G20 for contours in inches; other units are converted to millimetres,
-/// which a comment says; one that is merely assumed is named so. Centres have 5 decimals (6, where the ends have) and lie on
-/// the bisector of the ends as printed: radii at both ends of an arc differ by less than 2e-5. Arcs
-/// turn by less than half a turn; those lower than half of the last digit, or with chords below 20
-/// of it, are lines; ends that round to the place where the tool stands are left out. Errors: E203
-/// a tolerance or feed that is not greater than 0, decimals out of range, G5 for another controller
-/// than LinuxCNC; E203 a unit without a length in metres; E502 the tolerance is too small for the
-/// decimals; those of `arcs_along`, `polyline_along` and `cubic_along`; E103
-/// where `watch` ends it.
+/// which a comment says; one that is merely assumed is named so. Centres have 5 decimals (6, where
+/// the ends have) and lie on the bisector of the ends as printed: radii at both ends of an arc
+/// differ by less than 2e-5. Arcs turn by less than half a turn; those lower than half of the last
+/// digit, or with chords below 20 of it, are lines; ends that round to the place where the tool
+/// stands are left out. Errors: E203 a tolerance or feed that is not greater than 0, decimals out
+/// of range, G5 for another controller than LinuxCNC (`check_g5`); E203 a unit without a length in
+/// metres; E502 the tolerance is too small for the decimals; those of `arcs_along`,
+/// `polyline_along` and `cubic_along`; E103 where `watch` ends it.
 [[nodiscard]] Result<GcodeText> gcode_text(const Contour& contour, const GcodeOptions& options = {},
                                            Watch* watch = nullptr);
 

@@ -57,12 +57,12 @@ struct AirfoilText {
 
 /// A list of points on the contour. With `trailing_thickness` on the contour whose sides are moved
 /// apart by an amount times (x / chord)^2, which leaves the nose as it is: that the ends are so far
-/// apart, or that an arc of this diameter touches both sides (G1) and reaches to the end of the
-/// chord, which stays as long as it was. A round edge without a thickness has that of the contour.
-/// The points of the arc follow the spacing of the sides. Closed contours need a trailing edge: one
-/// corner, or two with the base between them.
-/// Errors: E203 options out of range, sides that would cross, or no room for the arc; E311 no
-/// trailing edge, or a side that folds back along the chord.
+/// apart across the chord, or that an arc of this diameter touches both sides (G1) and reaches to
+/// the end of the chord, which stays as long as it was. A round edge without a thickness has that
+/// of the contour. The points of the arc follow the spacing of the sides. Closed contours need a
+/// trailing edge: one corner, or two with the base between them. Errors: E203 options out of range,
+/// sides that would cross, or no room for the arc; E311 no trailing edge, or a side that folds back
+/// along the chord.
 [[nodiscard]] Result<AirfoilText> airfoil_text(const Contour& contour,
                                                const AirfoilOptions& options);
 
