@@ -647,7 +647,7 @@ class Simplifier {
       ++seam;
     }
     return fail(error(ErrorCode::kNoSpiral, "the ends of what was found could not be joined")
-                    .hint("allow a larger tolerance, or shorter elements and smaller radii"));
+                    .hint("allow a larger tolerance, or leave the loop open (without --closed)"));
   }
 
   [[nodiscard]] bool is_used(int number) const {
@@ -751,6 +751,10 @@ constexpr std::array kAttempts = {Attempt{1.0, 0.0},  Attempt{1.0, 0.5},  Attemp
                                   Attempt{0.5, 0.25}, Attempt{0.25, 0.0}, Attempt{0.25, 0.75},
                                   Attempt{0.1, 0.5}};
 
+/// Points beyond which there is one search: another one of that many takes a minute, and chords are
+/// short.
+constexpr std::size_t kMostSearchedAgain = 400;
+
 /// Elements from one of these searches.
 Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
                             const AlignmentOptions& options, const Sought& sought,
@@ -825,6 +829,7 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     }
     if (found.error().code == ErrorCode::kCancelled) return fail(found.error());
     if (!first) first = found.error();
+    if (given.size() > kMostSearchedAgain) break;
   }
   return fail(*first);
 }

@@ -91,6 +91,7 @@ class Reader {
         return general(value);
       case 'P':
       case 'Q':
+        if (word == 'Q' && motion_ != 5) return bad("the word Q");
         to_second_[static_cast<std::size_t>(word - 'P')] = value;
         return true;
       case 'F':
