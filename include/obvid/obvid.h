@@ -241,10 +241,9 @@ typedef struct obvid_surface obvid_surface;
 /* A surface of `count` inputs, and of `crossing` ones that cross them (kind "gordon"; else NULL,
  * 0). Kinds: "skin" (sections), "ruled", "revolve", "coons", "gordon" (curves), "grid", "id" (one
  * grid; of obvid_space_points with the option "row"), "scatter" (points in any order), "offset",
- * "convert" (a surface). Inputs are those of obvid_read_file, obvid_read_text, obvid_space_points and,
- * with z = 0, obvid_points.
- * Where a skin has contours that are not proved, the call fails with OBVID_NOT_PROVED and surface
- * and report are there. */
+ * "convert" (a surface). Inputs are those of obvid_read_file, obvid_read_text, obvid_space_points
+ * and, with z = 0, obvid_points. Where a skin has contours that are not proved, the call fails with
+ * OBVID_NOT_PROVED and surface and report are there. */
 OBVID_API int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_t count,
                                  const obvid_input* const* across, size_t crossing,
                                  const char* options, const obvid_run* run, obvid_surface** surface,
@@ -293,8 +292,8 @@ OBVID_API int obvid_spline(const obvid_input* table, const obvid_input* against,
                            obvid_surface** graph, obvid_files** files, char** report,
                            obvid_error** error);
 /* A NURBS curve of control points, weights and knots (columns x, y, z, w), or the surface of a net
- * (row and col, too): `surface`, else NULL. `files`: of a curve, the one of file extension `ending`:
- * "csv", "json", "dxf", "step", "iges", "brep". Each may be NULL: not wanted. */
+ * (row and col, too): `surface`, else NULL. `files`: of a curve, the one of file extension
+ * `ending`: "csv", "json", "dxf", "step", "iges", "brep". Each may be NULL: not wanted. */
 OBVID_API int obvid_nurbs_make(const obvid_input* table, const char* options, const char* ending,
                                const obvid_run* run, obvid_surface** surface, obvid_files** files,
                                char** report, obvid_error** error);

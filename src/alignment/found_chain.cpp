@@ -827,7 +827,9 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
       for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(found->foot_of_given(i));
       return out;
     }
-    if (found.error().code == ErrorCode::kCancelled) return fail(found.error());
+    const ErrorCode code = found.error().code;
+    const bool by_search = code == ErrorCode::kNoSpiral || code == ErrorCode::kToleranceNotReached;
+    if (!by_search) return fail(found.error());
     if (!first) first = found.error();
     if (given.size() > kMostSearchedAgain) break;
   }

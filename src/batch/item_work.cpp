@@ -211,9 +211,11 @@ std::vector<std::pair<std::string, std::string>> files_at(Work& work, const std:
     if (text >= 0) return {{path, data_of(work.files.get(), static_cast<std::size_t>(text))}};
   }
   if (!made && work.contour) {
-    obvid_export(work.contour.get(), format.c_str(), formats, &work.run, Out(made), Out(work.error));
+    obvid_export(work.contour.get(), format.c_str(), formats, &work.run, Out(made),
+                 Out(work.error));
   } else if (!made && work.space) {
-    obvid_space_export(work.space.get(), format.c_str(), formats, &work.run, Out(made), Out(work.error));
+    obvid_space_export(work.space.get(), format.c_str(), formats, &work.run, Out(made),
+                       Out(work.error));
   }
   std::vector<std::pair<std::string, std::string>> out;
   for (std::size_t k = 0; made && k < obvid_files_count(made.get()); ++k) {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obvid/certify/internal/crossings.h"
 #include "joints.h"
 #include "known_pieces.h"
+#include "obvid/certify/internal/crossings.h"
 #include "obvid/certify/internal/limits.h"
 #include "obvid/numeric/internal/strict_arithmetic.h"
 #include "piece_facts.h"

@@ -35,9 +35,10 @@ int main(int argc, char** argv) {
     mark = (mark ^ (2 * verdict + (proof.exact_arithmetic ? 1u : 0u))) * 1099511628211ull;
   }
   const bool used = use_geometry(static_cast<double>(counts[0])) != 0.5;
-  std::printf("%ld increasing, %ld decreasing, %ld with a vertex, %ld others, %ld beyond doubles, "
-              "mark %016llx%s\n",
-              counts[0], counts[1], counts[3], counts[2] + counts[4], exact,
-              static_cast<unsigned long long>(mark), used ? "" : ".");
+  std::printf(
+      "%ld increasing, %ld decreasing, %ld with a vertex, %ld others, %ld beyond doubles, "
+      "mark %016llx%s\n",
+      counts[0], counts[1], counts[3], counts[2] + counts[4], exact,
+      static_cast<unsigned long long>(mark), used ? "" : ".");
   return counts[3] > count / 10 && counts[0] + counts[1] > count / 10 ? 0 : 1;
 }

@@ -74,24 +74,23 @@ Job on_points(const char* name, Report job, const char* options, bool drawing = 
 }
 
 Job fit(const char* options) {
-  return {
-      std::string("fit ") + options, [=](const Handles& h, const obvid_run* run) {
-        obvid_contour* contour = nullptr;
-        char* text = nullptr;
-        const int code = obvid_fit(h.points, options, run, &contour, &text, nullptr);
-        std::string out = taken(text) + code_text(code);
-        obvid_files* files = nullptr;
-        if (contour != nullptr && obvid_export(contour, "json", nullptr, nullptr, &files, nullptr) == 0) {
-          out += told(files);
-        }
-        obvid_contour_free(contour);
-        return out;
-      }};
+  return {std::string("fit ") + options, [=](const Handles& h, const obvid_run* run) {
+            obvid_contour* contour = nullptr;
+            char* text = nullptr;
+            const int code = obvid_fit(h.points, options, run, &contour, &text, nullptr);
+            std::string out = taken(text) + code_text(code);
+            obvid_files* files = nullptr;
+            if (contour != nullptr &&
+                obvid_export(contour, "json", nullptr, nullptr, &files, nullptr) == 0) {
+              out += told(files);
+            }
+            obvid_contour_free(contour);
+            return out;
+          }};
 }
 
 Job exported(const char* ending) {
-  return {std::string("export ") + ending,
-          [=](const Handles& h, const obvid_run* run) {
+  return {std::string("export ") + ending, [=](const Handles& h, const obvid_run* run) {
             obvid_files* files = nullptr;
             const int code = obvid_export(h.contour, ending, nullptr, run, &files, nullptr);
             return told(files) + code_text(code);

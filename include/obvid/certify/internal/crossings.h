@@ -10,8 +10,8 @@ namespace obvid {
 
 /// Number of crossings between pieces of different runs. Pieces of one run, proved monotone, are
 /// nested within each other's osculating circles and cannot meet; those of a run with a piece that
-/// is not (`turning`: their indices) may meet each other, and themselves. Counted down to 1e-9 of the
-/// size, not proved: two parts that touch may count or not.
+/// is not (`turning`: their indices) may meet each other, and themselves. Counted down to 1e-9 of
+/// the size, not proved: two parts that touch may count or not.
 [[nodiscard]] int count_crossings(const Contour& contour,
                                   std::span<const std::size_t> turning = {});
 

@@ -35,12 +35,12 @@ struct DxfText {
 /// and where it has no length in metres.
 [[nodiscard]] std::string dxf_unit(const Units& units);
 
-/// ASCII DXF in the plane z = 0, unit in the header ($INSUNITS) as `dxf_unit` says; R12 has no place
-/// for it but a comment that `parse_dxf` understands. Corners
-/// cut an exact or cubic contour into several splines. What numbers of an ARC or ELLIPSE would not
-/// hold to 1e-10 of the size becomes an LWPOLYLINE or a SPLINE (docs/methods/dxf.md, section 1).
-/// Errors: E203 a tolerance that is not greater than 0; E303 a coordinate that is not finite; E311
-/// no pieces; those of `arcs_along`, `cubic_along`, `nurbs_of`; E103 where `watch` ends it.
+/// ASCII DXF in the plane z = 0, unit in the header ($INSUNITS) as `dxf_unit` says; R12 has no
+/// place for it but a comment that `parse_dxf` understands. Corners cut an exact or cubic contour
+/// into several splines. What numbers of an ARC or ELLIPSE would not hold to 1e-10 of the size
+/// becomes an LWPOLYLINE or a SPLINE (docs/methods/dxf.md, section 1). Errors: E203 a tolerance
+/// that is not greater than 0; E303 a coordinate that is not finite; E311 no pieces; those of
+/// `arcs_along`, `cubic_along`, `nurbs_of`; E103 where `watch` ends it.
 [[nodiscard]] Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options = {},
                                        Watch* watch = nullptr);
 
