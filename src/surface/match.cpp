@@ -88,6 +88,29 @@ double share(const std::vector<Vec3>& of, const std::vector<Vec3>& by) {
   return square > 0.0 ? product / square : 0.0;
 }
 
+/// Whether the other border runs the other way; those that close have to begin at the same place.
+Result<bool> runs_back(const NurbsSurface& mine, const NurbsSurface& other) {
+  const auto at = [](const NurbsSurface& s, double u) { return evaluate(s, u, 0.0).point; };
+  const Vec3 a = at(mine, 0.0), b = at(mine, 1.0), c = at(other, 0.0), d = at(other, 1.0);
+  const Vec3 half = at(mine, 0.5), other_half = at(other, 0.5);
+  constexpr double kCloses = 1e-9;  // of half its way across
+  const bool closes = norm(b - a) <= kCloses * norm(half - a);
+  const bool other_closes = norm(d - c) <= kCloses * norm(other_half - c);
+  if (closes != other_closes) {
+    return error(ErrorCode::kUnsupported, "one of the borders closes and the other does not")
+        .hint("name sides of which both do, or neither");
+  }
+  if (!closes) return norm(a - d) + norm(b - c) < norm(a - c) + norm(b - d);
+  for (const double u : {0.25, 0.5, 0.75}) {
+    if (norm(a - at(other, u)) >= norm(a - c)) continue;
+    return error(ErrorCode::kUnsupported, "the borders close at places that lie apart")
+        .hint("let both patches begin at the same place of the ring")
+        .value(norm(a - c));
+  }
+  const Vec3 quarter = at(mine, 0.25);
+  return norm(quarter - at(other, 0.75)) < norm(quarter - at(other, 0.25));
+}
+
 Result<void> check_side(const SideOfPatch& one) {
   OBVID_TRY(check(one.surface));
   if (!one.surface.weights.empty()) {
@@ -105,12 +128,9 @@ Result<MatchedSurface> matched(const SideOfPatch& patch, const SideOfPatch& to, 
   const Range unit_range{0.0, 1.0};
   NurbsSurface mine = with_domain(side_first(patch.surface, patch.side), unit_range, unit_range);
   NurbsSurface other = with_domain(side_first(to.surface, to.side), unit_range, unit_range);
-  const auto ends = [](const NurbsSurface& s) {
-    return std::array{s.points.front(), s.points[s.count_u() - 1]};
-  };
-  const auto [a, b] = ends(mine);
-  const auto [c, d] = ends(other);
-  if (norm(a - d) + norm(b - c) < norm(a - c) + norm(b - d)) other = reversed_u(other);
+  const auto back = runs_back(mine, other);
+  OBVID_TRY(back);
+  if (*back) other = reversed_u(other);
   const auto needed = static_cast<std::size_t>(2 * (order + 1));
   while (mine.count_v() < needed) mine = with_degrees(mine, mine.degree_u, mine.degree_v + 1);
   std::vector<NurbsSurface> both{mine, carrying(border_rows(other, order), order, other, mine)};

@@ -99,6 +99,8 @@ class BlendMaker {
     out.deviation = deviation_;
     out.from = way_.places.front().centre;
     out.to = way_.places.back().centre;
+    out.radius_from = way_.places.front().radius;
+    out.radius_to = way_.places.back().radius;
     std::array<Range, 2> on = way_.on;
     const double same = kSameBlendEnd * ball_.size();
     if (std::abs(on[0].from - on[1].from) <= same) on[0].from = on[1].from = all_.from;

@@ -232,7 +232,9 @@ class BallWalker {
       OBVID_TRY(fits(*next));
       if (closes(*next)) return std::move(out_);
       for (std::size_t i = 0; i < 2; ++i) {
-        if (!left_[i] && !ball_.face(i).inside(next->touch[i].at)) left_[i] = leaves(i, *next);
+        const bool inside = ball_.face(i).inside(next->touch[i].at);
+        if (inside && (left_[i] || jumps_a_gap(i, *next))) return fail(gap_on_the_way(i, *next));
+        if (!left_[i] && !inside) left_[i] = leaves(i, *next);
       }
       if (left_[0] && left_[1]) break;
       for (std::size_t i = 0; i < 2; ++i) {
@@ -287,6 +289,26 @@ class BallWalker {
     }
     return {};
   }
+  /// Whether a part that was trimmed away lies between two places that are both on the face: looked
+  /// for at 31 places, so narrower ones may be missed.
+  [[nodiscard]] bool jumps_a_gap(std::size_t i, const BallPlace& next) const {
+    if (!ball_.face(i).is_trimmed()) return false;
+    constexpr int kParts = 32;
+    for (int k = 1; k < kParts; ++k) {
+      const double t = static_cast<double>(k) / kParts;
+      if (!ball_.face(i).inside((1.0 - t) * at_.touch[i].at + t * next.touch[i].at)) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] Error gap_on_the_way(std::size_t i, const BallPlace& place) const {
+    return error(ErrorCode::kUnsupported,
+                 fmt::format("a hole or notch of {} lies in the way of the ball",
+                             ball_.face(i).patch().name))
+        .where(near_text(place.touch[i].point))
+        .hint("make the blend before the hole, or take a radius whose contact passes beside it");
+  }
+
   [[nodiscard]] Error alone(std::size_t i, const BallPlace& place) const {
     return error(ErrorCode::kUnsupported,
                  fmt::format("the ball leaves {} long before it leaves {}",

@@ -24,6 +24,7 @@ class BallFace {
   [[nodiscard]] SurfaceJet jet(Vec2 at) const;
   [[nodiscard]] Vec2 into_domain(Vec2 at) const;  ///< by whole turns
   [[nodiscard]] bool inside(Vec2 at) const;
+  [[nodiscard]] bool is_trimmed() const { return region_.has_value(); }
   /// How much the face bends towards the ball, 1/unit; 0 where it bends away.
   [[nodiscard]] double bend(Vec2 at) const;
   [[nodiscard]] const SurfacePatch& patch() const { return patch_; }

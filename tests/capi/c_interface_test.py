@@ -542,7 +542,7 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
 
     def test_version(self):
         self.assertEqual("obvid " + lib.obvid_version().decode() + "\n", program("--version")[0])
-        self.assertEqual(lib.obvid_abi(), 1)
+        self.assertEqual(lib.obvid_abi(), 2)
 
 
 class Contours(unittest.TestCase):

@@ -163,7 +163,7 @@ class Fillets(trims_test.Trims):
             off = abs((at_surface(blend, 1.0, v) - origin) @ n)
             self.assertLessEqual(off, 1e-5)
             self.assertGreaterEqual(abs(normal(blend, 1.0, v) @ n), 1 - 1e-6)
-        self.assertRegex(said, r"on wall +at most [0-9.e-]+ mm off it")
+        self.assertRegex(said, r"on wall +up to [0-9.e-]+ mm off it")
 
     def test_refused(self):
         flat = corner(math.pi / 2)

@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, Mapping, Optional
 
 from .errors import CancelledError, ObvidError, error_of
 
-ABI = 1
+ABI = 2
 
 ProgressFunction = Callable[[str, float], None]
 CancelledFunction = Callable[[], bool]

@@ -24,6 +24,10 @@ std::string place_text(Vec3 p) { return fmt::format("at {:.6g} {:.6g} {:.6g}", p
 void add_facts(const std::vector<Fillet>& blends, const RolledBall& by,
                const std::array<std::string, 2>& names, MadeSurface& made) {
   const std::string unit = made.model.units.text();
+  made.facts.emplace_back(
+      "found",
+      fmt::format("{} that cross the cells between 49 x 49 places of {}; others are missed",
+                  counted(blends.size(), "blend", "blends"), names[0]));
   for (std::size_t k = 0; k < blends.size(); ++k) {
     const Fillet& one = blends[k];
     const std::string which = blends.size() > 1 ? fmt::format(" {}", k + 1) : "";
@@ -34,14 +38,14 @@ void add_facts(const std::vector<Fillet>& blends, const RolledBall& by,
                     one.closed ? std::string("closed")
                                : fmt::format("from {:.6g} {:.6g} {:.6g} (radius {:g}) to {:.6g} "
                                              "{:.6g} {:.6g} (radius {:g})",
-                                             one.from.x, one.from.y, one.from.z, by.radius,
-                                             one.to.x, one.to.y, one.to.z, by.radius_end)));
+                                             one.from.x, one.from.y, one.from.z, one.radius_from,
+                                             one.to.x, one.to.y, one.to.z, one.radius_to)));
     for (std::size_t i = 0; i < 2; ++i) {
       const FilletContact& c = one.contacts[i];
       made.facts.emplace_back(
           fmt::format("on {}", names[i]),
-          fmt::format("at most {} {} off it ({}), {} degrees between tangent planes ({}), as "
-                      "measured at {} places",
+          fmt::format("up to {} {} off it ({}), {} degrees between tangent planes ({}), as "
+                      "measured at {} places and beside the worst of them",
                       significant(c.distance, 3), unit, place_text(c.distance_at),
                       significant(c.angle / kOneDegree, 3), place_text(c.angle_at), c.measured));
     }

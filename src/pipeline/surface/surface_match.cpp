@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/surface/internal/match.h"
+#include "obvid/surface/internal/topology.h"
 #include "obvid/surface_builders/internal/check.h"
 #include "surface/surface_kinds.h"
 
@@ -31,6 +34,27 @@ Result<JointReport> measured_joint(const SurfacePatch& patch, PatchSide side,
   return error(ErrorCode::kToleranceNotReached, "the borders do not meet after all")
       .where(patch.name)
       .hint("the border it should follow may be a point, or much longer than the patch");
+}
+
+/// Borders of a patch that met others before it was changed and do not now.
+std::vector<std::string> lost_joints(const SurfaceModel& model, const Topology& before,
+                                     std::size_t changed) {
+  std::vector<std::string> out;
+  const Topology now = topology_of(model);
+  for (const PatchSide side : kPatchSides) {
+    for (const EdgeUse& use : before.edges[before.edge_of[changed][side]].uses) {
+      if (use.patch == changed) continue;
+      const auto& left = now.edges[now.edge_of[changed][side]].uses;
+      const bool meets = std::any_of(left.begin(), left.end(), [&](const EdgeUse& one) {
+        return one.patch == use.patch && one.side == use.side;
+      });
+      if (meets) continue;
+      out.push_back(
+          fmt::format("{} met {} at another border, and no longer does: match that one, too",
+                      model.patches[changed].name, model.patches[use.patch].name));
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -62,7 +86,11 @@ Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job
     if (error.where.empty()) error.where = patch.name;
     return fail(std::move(error));
   }
+  const Topology before = topology_of(made.model);
   patch.surface = std::move(matched_patch->surface);
+  for (std::string& one : lost_joints(made.model, before, *at)) {
+    made.warnings.push_back(std::move(one));
+  }
   const auto joint = measured_joint(patch, by.border.side, other, by.to.side, run);
   OBVID_TRY(joint);
   const double tolerance = job.tolerance.value_or(kSameBorder * obvid::size_of(made.model));

@@ -48,6 +48,7 @@ struct Fillet {
   double deviation = 0.0;  ///< units: largest distance found from the exact arcs, measured at three
                            ///< places of each span along v and five across
   Vec3 from, to;           ///< ends of the spine
+  double radius_from = 0.0, radius_to = 0.0;  ///< of the balls there
   std::array<FilletContact, 2> contacts;
 };
 
@@ -60,8 +61,10 @@ struct Fillet {
 /// the blend's end is trimmed.
 ///
 /// Spines are looked for on a raster of 49 x 49 places of the first face: those that cross none of
-/// its cells are missed. That the ball touches nothing but the two places is not looked at
-/// elsewhere than near them. Distances, angles and deviation are measured, not proved.
+/// its cells are missed, and of several within a cell all but one. A hole of a face in the ball's
+/// way is refused where one of 31 places between two steps shows it. That the ball touches nothing
+/// but the two places is not looked at elsewhere than near them. Distances, angles and deviation
+/// are measured, not proved.
 ///
 /// Errors: E203 radii or tolerance, sides that have to be told; E310 a face that ends long before
 /// the other, arcs near a half circle; E311 no ball of this radius touches
