@@ -21,8 +21,8 @@ constexpr double kBlendTolerance = 5e-8;  // of the size
 
 std::string place_text(Vec3 p) { return fmt::format("at {:.6g} {:.6g} {:.6g}", p.x, p.y, p.z); }
 
-void add_facts(const std::vector<Fillet>& blends, const RolledBall& by,
-               const std::array<std::string, 2>& names, MadeSurface& made) {
+void add_facts(const std::vector<Fillet>& blends, const std::array<std::string, 2>& names,
+               MadeSurface& made) {
   const std::string unit = made.model.units.text();
   made.facts.emplace_back(
       "found",
@@ -151,7 +151,7 @@ Result<MadeSurface> made_fillet(const RolledBall& by, const SurfaceJob& job,
   }
   made.model.patches = std::move(patches);
   made.kind = fmt::format("blend of {} and {} by a ball", names[0], names[1]);
-  add_facts(*blends, by, names, made);
+  add_facts(*blends, names, made);
   if (!by.whole) {
     made.facts.emplace_back(
         "trims", fmt::format("{}, within {} {} of the blend's borders, as measured",
