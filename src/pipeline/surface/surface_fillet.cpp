@@ -24,10 +24,9 @@ std::string place_text(Vec3 p) { return fmt::format("at {:.6g} {:.6g} {:.6g}", p
 void add_facts(const std::vector<Fillet>& blends, const std::array<std::string, 2>& names,
                MadeSurface& made) {
   const std::string unit = made.model.units.text();
-  made.facts.emplace_back(
-      "found",
-      fmt::format("{} that cross the cells between 49 x 49 places of {}; others are missed",
-                  counted(blends.size(), "blend", "blends"), names[0]));
+  made.facts.emplace_back("found",
+                          fmt::format("{}, of those that cross a cell between 49 x 49 places of {}",
+                                      counted(blends.size(), "blend", "blends"), names[0]));
   for (std::size_t k = 0; k < blends.size(); ++k) {
     const Fillet& one = blends[k];
     const std::string which = blends.size() > 1 ? fmt::format(" {}", k + 1) : "";
