@@ -132,7 +132,25 @@ def ways_of_errors(root, files):
     return faults
 
 
+NEEDS_NUMPY = re.compile(r"^\s*((import|from) (numpy|scipy)\b|from acceptance_sets import cuts\b)", re.M)
+
+
+def without_numpy(text, folder):
+    """Tests whose script needs numpy, and that are given to a Python that may have none: they would be skipped."""
+    return [name for name in re.findall(r'COMMAND Python3::Interpreter -B "\$\{CMAKE_CURRENT_SOURCE_DIR\}/([\w./]+\.py)"', text)
+            if NEEDS_NUMPY.search((folder / name).read_text())]
+
+
 class House(unittest.TestCase):
+    def test_scripts_that_need_numpy_are_run_by_the_python_that_has_it(self):
+        lists = sorted((ROOT / "tests").rglob("CMakeLists.txt"))
+        self.assertEqual([(str(one), without_numpy(one.read_text(), one.parent)) for one in lists
+                          if without_numpy(one.read_text(), one.parent)], [])
+        with tempfile.TemporaryDirectory() as name:
+            (pathlib.Path(name) / "a.py").write_text("    import numpy as np\n")
+            self.assertEqual(without_numpy('COMMAND Python3::Interpreter -B "${CMAKE_CURRENT_SOURCE_DIR}/a.py"',
+                                           pathlib.Path(name)), ["a.py"])
+
     def test_errors_are_told_field_by_field_and_handed_on_in_one_way(self):
         self.assertEqual(ways_of_errors(ROOT, project_files(ROOT)), [])
         self.assertEqual(fields_by_position('fail({ErrorCode::kX, "a, b", f(1, 2), {}, -1, 0.0});  // {ErrorCode::a, b'), [6])
