@@ -317,7 +317,7 @@ class WholeTool(unittest.TestCase):
 
     def test_no_file_at_all_fails(self):
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([sys.executable, "-B", str(TOOLS / "acceptance"), "all", folder],
+            done = subprocess.run([sys.executable, "-B", str(TOOLS / "acceptance"), "airfoils", folder],
                                   capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 1)
             self.assertIn("airfoils: no file", done.stderr)
