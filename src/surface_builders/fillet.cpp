@@ -52,8 +52,7 @@ struct BallArc {
 };
 
 double angle_across(const BallPlace& place) {
-  const Vec3 a = place.touch[0].inwards, b = place.touch[1].inwards;
-  return std::atan2(norm(cross(a, b)), dot(a, b));
+  return ball_turn(place.touch[0].inwards, place.touch[1].inwards);
 }
 
 BallArc ball_arc_of(const BallPlace& place, double slope, std::size_t pieces) {
@@ -61,7 +60,7 @@ BallArc ball_arc_of(const BallPlace& place, double slope, std::size_t pieces) {
   arc.middle = place.centre - (place.radius * slope) * place.along;
   arc.radius = place.radius * std::sqrt(1.0 - slope * slope);
   const Vec3 a = place.touch[0].point - arc.middle, b = place.touch[1].point - arc.middle;
-  arc.angle = std::atan2(norm(cross(a, b)), dot(a, b));
+  arc.angle = ball_turn(a, b);
   std::vector<Vec3> ends{place.touch[0].point, place.touch[1].point};
   if (pieces == 2) {
     ends.insert(ends.begin() + 1, arc.middle + arc.radius * unit(a + b));

@@ -31,9 +31,9 @@ std::optional<Vec2> shares_in_plane(Vec3 target, Vec3 a, Vec3 b) {
   return Vec2{(bb * ta - ab * tb) / det, (aa * tb - ab * ta) / det};
 }
 
-double ball_turn(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
-
 }  // namespace
+
+double ball_turn(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
 std::string near_text(Vec3 p) { return fmt::format("near {:.6g} {:.6g} {:.6g}", p.x, p.y, p.z); }
 

@@ -107,10 +107,9 @@ Result<std::size_t> face_named(const SurfaceModel& model, const std::string& nam
 
 Result<MadeSurface> made_fillet(const RolledBall& by, const SurfaceJob& job,
                                 const RunContext& run) {
-  MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept);
-  OBVID_TRY(model);
-  made.model = std::move(*model);
+  auto read = as_read(job);
+  OBVID_TRY(read);
+  MadeSurface made = std::move(*read);
   std::array<std::size_t, 2> at{};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto face = face_named(made.model, by.faces[i], "--faces");

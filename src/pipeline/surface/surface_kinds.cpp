@@ -139,6 +139,14 @@ ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
   return line;
 }
 
+Result<MadeSurface> as_read(const SurfaceJob& job) {
+  MadeSurface made;
+  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept);
+  OBVID_TRY(model);
+  made.model = std::move(*model);
+  return made;
+}
+
 Result<MadeSurface> made_of(const Surface& surface, const std::string& name, double size,
                             const SurfaceJob& job) {
   auto form = to_nurbs(surface, job.tolerance.value_or(kSurfaceTolerance * size));
@@ -271,10 +279,9 @@ Result<MadeSurface> make_kind(const MatchKind& kind, const SurfaceJob& job, cons
 
 Result<MadeSurface> make_kind(const ConvertKind&, const SurfaceJob& job, const RunContext&) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
-  MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept);
-  OBVID_TRY(model);
-  made.model = std::move(*model);
+  auto read = as_read(job);
+  OBVID_TRY(read);
+  MadeSurface made = std::move(*read);
   made.kind = "as stored";
   return made;
 }

@@ -59,6 +59,9 @@ inline constexpr double kSurfaceTolerance = 1e-5;
                                                    const std::optional<Vec3>& up,
                                                    const SurfaceJob& job, const RunContext& run);
 
+/// The job's surface as it was read, trims kept, to be changed.
+[[nodiscard]] Result<MadeSurface> as_read(const SurfaceJob& job);
+
 /// What a surface is trimmed by.
 struct TrimmedBy {
   const std::vector<CutPlane>& planes;

@@ -61,10 +61,9 @@ std::vector<std::string> lost_joints(const SurfaceModel& model, const Topology& 
 
 Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job,
                                  const RunContext& run) {
-  MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept);
-  OBVID_TRY(model);
-  made.model = std::move(*model);
+  auto read = as_read(job);
+  OBVID_TRY(read);
+  MadeSurface made = std::move(*read);
   const auto at = face_named(made.model, by.border.face, "--border");
   OBVID_TRY(at);
   const auto to = face_named(made.model, by.to.face, "--to");

@@ -50,10 +50,9 @@ Result<Sums> sums_of(const SurfaceModel& model, const RunContext& run) {
 
 Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
                                  const RunContext& run) {
-  MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept);
-  OBVID_TRY(model);
-  made.model = std::move(*model);
+  auto read = as_read(job);
+  OBVID_TRY(read);
+  MadeSurface made = std::move(*read);
   const TrimOptions options{job.tolerance.value_or(kTrimTolerance * obvid::size_of(made.model)),
                             by.keep_positive};
   const auto take = [&](Result<TrimmedModel> part) -> Result<void> {
