@@ -17,7 +17,7 @@ namespace judge {
 namespace {
 
 constexpr rlim_t kMemory = 8ULL << 30U;  // bytes
-constexpr double kClock = 20.0;          // clock time over processor time, on a busy machine
+constexpr double kClock = 100.0;         // clock time over processor time, on a busy machine
 
 /// Between fork and exec only calls that are safe there.
 [[noreturn]] void become(char* const* words, const char* folder, double limit) {

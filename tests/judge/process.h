@@ -15,7 +15,7 @@ struct Finished {
   std::string out, err;
 };
 
-/// `limit`: seconds of processor time; twenty times as long on the clock.
+/// `limit`: seconds of processor time; a hundred times as long on the clock.
 Finished run_program(const std::vector<std::string>& words, const std::string& folder,
                      double limit);
 std::string text_of_file(const std::string& path);

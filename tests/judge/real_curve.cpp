@@ -19,6 +19,7 @@ constexpr std::array<Real, 5> kWeight = {
     0.21908636251598204399553493422816319245877L, 0.14945134915058059314586339765769733240255L,
     0.06667134430868813759356880989333179285786L};
 constexpr Real kPanelTurn = 0.5L;   // rad: ten points are exact to 1e-20 up to here
+constexpr int kMostHalvings = 10;   // of a step whose turning is summed
 constexpr Real kMostPanels = 2e4L;  // beyond 1e4 rad nothing is followed
 
 Real binomial(std::size_t n, std::size_t k) {
@@ -211,15 +212,27 @@ Real Span::turning(Real from, Real to) const {
     const Real middle = s->kappa0 + 0.5L * (from + to) * (s->kappa1 - s->kappa0);
     return middle * (to - from) * s->length;
   }
-  constexpr int kSteps = 32;
+  constexpr int kSteps = 8;
   Real sum = 0.0L;
   Vec before = at(from).d;
   for (int i = 1; i <= kSteps; ++i) {
-    const Vec now = at(from + (to - from) * static_cast<Real>(i) / kSteps).d;
-    sum += std::atan2(cross(before, now), dot(before, now));
+    const Real a = from + (to - from) * (i - 1) / kSteps, b = from + (to - from) * i / kSteps;
+    const Vec now = at(b).d;
+    sum += turning_between(a, before, b, now, kMostHalvings);
     before = now;
   }
   return sum;
+}
+
+Real Span::turning_between(Real from, Vec start, Real to, Vec end, int halvings) const {
+  constexpr Real kFarTurn = 0.5L;  // rad: below that a chord of directions is no loop
+  const Real middle = 0.5L * (from + to);
+  const Vec half = at(middle).d;
+  const auto angle = [](Vec a, Vec b) { return std::atan2(cross(a, b), dot(a, b)); };
+  const Real one = angle(start, half), other = angle(half, end);
+  if (halvings == 0 || std::max(std::abs(one), std::abs(other)) < kFarTurn) return one + other;
+  return turning_between(from, start, middle, half, halvings - 1) +
+         turning_between(middle, half, to, end, halvings - 1);
 }
 
 Real Span::turning_both_ways(Real from, Real to) const {
@@ -231,17 +244,27 @@ Real Span::turning_both_ways(Real from, Real to) const {
     return 0.5L * (to - from) * s->length * (both ? (a * a + b * b) / (a + b) : a + b);
   }
   constexpr int kSteps = 32, kHalvings = 60;
+  const auto turn = [this](Real a, const Jet& start, Real b, const Jet& end) {
+    return std::abs(turning_between(a, start.d, b, end.d, kMostHalvings));
+  };
   Real sum = 0.0L;
+  Jet before = at(from);
   for (int i = 0; i < kSteps; ++i) {
     const Real a = from + (to - from) * i / kSteps, b = from + (to - from) * (i + 1) / kSteps;
-    const auto left = [this](Real t) { return at(t).kappa() > 0.0L; };
-    Real low = a, high = b;  // of the step with an inflection both sides
-    for (int k = 0; left(a) != left(b) && k < kHalvings; ++k) {
-      const Real middle = 0.5L * (low + high);
-      (left(middle) == left(a) ? low : high) = middle;
+    const Jet now = at(b);
+    const bool left = before.kappa() > 0.0L;
+    if (left == (now.kappa() > 0.0L)) {
+      sum += turn(a, before, b, now);
+    } else {
+      Real low = a, high = b;  // of the step with an inflection both sides
+      for (int k = 0; k < kHalvings; ++k) {
+        const Real middle = 0.5L * (low + high);
+        ((at(middle).kappa() > 0.0L) == left ? low : high) = middle;
+      }
+      const Jet inflection = at(low);
+      sum += turn(a, before, low, inflection) + turn(low, inflection, b, now);
     }
-    sum += left(a) == left(b) ? std::abs(turning(a, b))
-                              : std::abs(turning(a, low)) + std::abs(turning(low, b));
+    before = now;
   }
   return sum;
 }

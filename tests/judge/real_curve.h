@@ -81,6 +81,9 @@ class Span {
   [[nodiscard]] Real turning_both_ways(Real from = 0.0L, Real to = 1.0L) const;
 
  private:
+  /// Turning between two parameters with the tangents there, in halves until each turns little.
+  [[nodiscard]] Real turning_between(Real from, Vec start, Real to, Vec end, int halvings) const;
+
   std::variant<SpiralForm, RationalForm> form_;
 };
 
