@@ -14,9 +14,15 @@ endfunction()
 # With sanitizers only what takes most of the time of the tests that run then is optimised: clang compiles
 # the rest in half the time.
 set(OBVID_OPTIMISED_WHEN_SANITIZED obvid_numeric obvid_curve obvid_region obvid_chain obvid_fairing obvid_certify)
+# Modules whose code fuzz targets reach hardly or not at all.
+set(OBVID_UNFED_BY_FUZZERS obvid_alignment obvid_cutting obvid_picture obvid_pipeline obvid_surface_builders
+    obvid_surface_cut obvid_toolpath obvid_cli)
 function(obvid_for_sanitizers target)
   if(OBVID_SANITIZE AND NOT target IN_LIST OBVID_OPTIMISED_WHEN_SANITIZED)
     target_compile_options(${target} PRIVATE -O0)
+  endif()
+  if(target IN_LIST OBVID_UNFED_BY_FUZZERS)
+    set_target_properties(${target} PROPERTIES OBVID_UNFED ON)
   endif()
 endfunction()
 

@@ -45,9 +45,16 @@ if(OBVID_WERROR)
 endif()
 if(OBVID_SANITIZE)
   # Traces need lines, not variables: a tenth less to compile.
-  set(obvid_sanitize -fsanitize=${OBVID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+  # What no fuzz target feeds need not count its branches for them: a third less to compile
+  # (target property OBVID_UNFED).
+  string(REPLACE "fuzzer-no-link," "" obvid_sanitizers "${OBVID_SANITIZE}")
+  set(obvid_sanitize -fsanitize=${obvid_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   target_compile_options(obvid_flags INTERFACE ${obvid_sanitize})
-  target_link_options(obvid_flags INTERFACE ${obvid_sanitize})
+  if(NOT obvid_sanitizers STREQUAL OBVID_SANITIZE)
+    target_compile_options(obvid_flags INTERFACE
+      $<$<NOT:$<BOOL:$<TARGET_PROPERTY:OBVID_UNFED>>>:-fsanitize=fuzzer-no-link>)
+  endif()
+  target_link_options(obvid_flags INTERFACE -fsanitize=${OBVID_SANITIZE})
   # g++ 12 takes sanitized code of its own standard library for uninitialized.
   target_compile_options(obvid_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()

@@ -18,9 +18,9 @@ constexpr std::array<Real, 5> kWeight = {
     0.29552422471475287017389299465133832941110L, 0.26926671930999635509122692156946935285975L,
     0.21908636251598204399553493422816319245877L, 0.14945134915058059314586339765769733240255L,
     0.06667134430868813759356880989333179285786L};
-constexpr Real kPanelTurn = 0.5L;   // rad: ten points are exact to 1e-20 up to here
-constexpr int kMostHalvings = 10;   // of a step whose turning is summed
-constexpr Real kMostPanels = 2e4L;  // beyond 1e4 rad nothing is followed
+constexpr Real kPanelTurn = 0.5L;      // rad: ten points are exact to 1e-20 up to here
+constexpr int kMostTurnHalvings = 10;  // of a step whose turning is summed
+constexpr Real kMostPanels = 2e4L;     // beyond 1e4 rad nothing is followed
 
 Real binomial(std::size_t n, std::size_t k) {
   Real out = 1.0L;
@@ -218,7 +218,7 @@ Real Span::turning(Real from, Real to) const {
   for (int i = 1; i <= kSteps; ++i) {
     const Real a = from + (to - from) * (i - 1) / kSteps, b = from + (to - from) * i / kSteps;
     const Vec now = at(b).d;
-    sum += turning_between(a, before, b, now, kMostHalvings);
+    sum += turning_between(a, before, b, now, kMostTurnHalvings);
     before = now;
   }
   return sum;
@@ -245,7 +245,7 @@ Real Span::turning_both_ways(Real from, Real to) const {
   }
   constexpr int kSteps = 32, kHalvings = 60;
   const auto turn = [this](Real a, const Jet& start, Real b, const Jet& end) {
-    return std::abs(turning_between(a, start.d, b, end.d, kMostHalvings));
+    return std::abs(turning_between(a, start.d, b, end.d, kMostTurnHalvings));
   };
   Real sum = 0.0L;
   Jet before = at(from);
