@@ -91,15 +91,16 @@ OBVID_LATER(std::string_view landxml_unit(std::string_view))
 OBVID_LATER(Result<std::string> landxml_text(const Contour&, const LandXmlOptions&))
 OBVID_LATER(Result<std::string> opendrive_text(const Contour&, const OpenDriveOptions&))
 OBVID_LATER(Result<SvgDrawing> svg_drawing(const Contour&, const SvgDrawingOptions&, Watch*))
-OBVID_LATER(Result<std::string> samples_csv(const Contour&, const SampleOptions&))
+OBVID_LATER(Result<std::string> samples_csv(const Contour&, const SampleOptions&, Watch*))
 OBVID_LATER(Result<AirfoilText> airfoil_text(const Contour&, const AirfoilOptions&))
 OBVID_LATER(Vec2 grades_meet(const ProfileElement&, ProfileCurves))
 OBVID_LATER(std::optional<AirfoilPointFigures> airfoil_point_figures(std::span<const Vec2>,
                                                                      const AirfoilFigures&))
-OBVID_LATER(Result<std::string> obj_text(const Contour&, const SampleOptions&))
-OBVID_LATER(Result<std::string> ply_text(const Contour&, const SampleOptions&))
-OBVID_LATER(Result<std::vector<SldcrvFile>> sldcrv_files(const Contour&, const SampleOptions&))
-OBVID_LATER(Result<std::string> solidworks_macro(const Contour&, const SampleOptions&))
+OBVID_LATER(Result<std::string> obj_text(const Contour&, const SampleOptions&, Watch*))
+OBVID_LATER(Result<std::string> ply_text(const Contour&, const SampleOptions&, Watch*))
+OBVID_LATER(Result<std::vector<SldcrvFile>> sldcrv_files(const Contour&, const SampleOptions&,
+                                                         Watch*))
+OBVID_LATER(Result<std::string> solidworks_macro(const Contour&, const SampleOptions&, Watch*))
 
 }  // namespace obvid
 // NOLINTEND(misc-unused-parameters)

@@ -116,11 +116,14 @@ Result<std::string> drawing_report(const obvid_input& input, const Request& requ
                     points ? series_report_json(points->series, points->analysis) : "");
 }
 
-Result<std::string> points_report(PointSeries& series) {
+Result<std::string> points_report(PointSeries& series, const RunContext& run) {
   const Result<Analysis> analysis = analyse(series.points);
   OBVID_TRY(analysis);
   add_rounding_warning(series, *analysis);
-  return series_report_json(series, *analysis);
+  Watch watch(run);
+  std::string text = series_report_json(series, *analysis, &watch);
+  if (watch.was_cancelled()) return fail(cancelled_error());
+  return text;
 }
 
 Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const Request& request,
@@ -181,12 +184,14 @@ int obvid_fit(const obvid_input* input, const char* options, const obvid_run* ru
     const RunContext context = context_of(run);
     Result<Fit> made = formed(*series, *request, context);
     OBVID_TRY(made);
-    if (const auto going = may_go_on(context); !going) return fail(going.error());
+    Watch watch(context);
+    const std::string told = report == nullptr ? "" : fit_report_json(*made, {}, &watch);
+    if (watch.cancelled()) return fail(cancelled_error());
     // a construction promises nothing: its certificate says what it is
     const bool promises = !request->worksheet.construction;
     const std::optional<Error> broken = promises ? broken_promise(*made) : std::nullopt;
     auto out = std::make_unique<obvid_contour>();
-    char* const text = report == nullptr ? nullptr : text_of(fit_report_json(*made, {}));
+    char* const text = report == nullptr ? nullptr : text_of(told);
     out->stored = {std::move(made->contour), std::move(made->report), std::move(made->certificate)};
     out->warnings = std::move(made->warnings);
     out->picture.name = series->name;
@@ -254,7 +259,7 @@ int obvid_analyse(const obvid_input* input, const char* options, const obvid_run
       Result<PointSeries> series = series_of(*input, *request, false);
       OBVID_TRY(series);
       OBVID_TRY(may_go_on(context));
-      return points_report(*series);
+      return points_report(*series, context);
     }();
     OBVID_TRY(text);
     hand_out_text(*text, report);

@@ -164,14 +164,15 @@ int obvid_surface_cut(const obvid_surface* surface, const char* options, const o
     const RunContext context = context_of(run);
     auto made = cut_surface(surface->model, request->cut, context);
     OBVID_TRY(made);
+    Watch watch(context);
     std::unique_ptr<obvid_files> out;
     if (files != nullptr) {
       out = std::make_unique<obvid_files>();
       const Sketch sketch = lines_drawing(*made, surface->model.name);
       OBVID_TRY(may_go_on(context));
-      out->files.push_back({".json", surface_cut_json(*made, {}, true)});
+      out->files.push_back({".json", surface_cut_json(*made, {}, true, &watch)});
       OBVID_TRY(may_go_on(context));
-      out->files.push_back({".csv", sections_csv(*made)});
+      out->files.push_back({".csv", sections_csv(*made, &watch)});
       OBVID_TRY(may_go_on(context));
       out->files.push_back({".svg", sketch_svg(sketch)});
       OBVID_TRY(may_go_on(context));
@@ -179,7 +180,9 @@ int obvid_surface_cut(const obvid_surface* surface, const char* options, const o
       out->remarks = made->warnings;
     }
     OBVID_TRY(may_go_on(context));
-    if (report != nullptr) *report = text_of(surface_cut_json(*made, {}, false));
+    std::string text = report == nullptr ? "" : surface_cut_json(*made, {}, false, &watch);
+    if (watch.was_cancelled()) return fail(cancelled_error());
+    if (report != nullptr) *report = text_of(text);
     if (files != nullptr) *files = out.release();
     if (const auto failed = not_proved(*made)) return fail(*failed);
     return {};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/curve/internal/joined_nurbs.h"
 
+#include "obvid/core/internal/questions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -227,7 +229,7 @@ bool stands_still(const RationalBezier& b) {
 /// All segments of a contour, in plain coordinates.
 class Joiner {
  public:
-  explicit Joiner(const Contour& contour) : contour_(contour) {}
+  Joiner(const Contour& contour, Watch* watch) : contour_(contour), watch_(watch) {}
 
   Result<NurbsCurve> run() {
     OBVID_TRY(add_all());
@@ -238,12 +240,15 @@ class Joiner {
       if (!add_all()) segments_ = std::move(uneven);
     }
     raise_all();
+    if (is_to_end(watch_)) return fail(cancelled_error());
     return assemble();
   }
 
  private:
   Result<void> add_all() {
+    Questions questions(watch_);
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
+      if (questions.end()) return fail(cancelled_error());
       const std::size_t first = segments_.size();
       OBVID_TRY(add(i, contour_.pieces[i]));
       const bool corner = i > 0 && i < contour_.joints.size() && is_corner(contour_.joints[i]);
@@ -358,7 +363,9 @@ class Joiner {
     constexpr std::size_t kLeastDegree = 2;  // one degree more than multiplicity 1
     std::size_t points = kLeastDegree + 1;
     for (const Segment& s : segments_) points = std::max(points, s.points.size());
+    Questions questions(watch_);
     for (Segment& s : segments_) {
+      if (questions.end()) return;
       while (s.points.size() < points) s = raised(s);
     }
   }
@@ -400,6 +407,7 @@ class Joiner {
   }
 
   const Contour& contour_;
+  Watch* watch_;
   bool even_ = false;  // equal speeds at both ends of each segment, at the cost of a degree
   std::vector<Segment> segments_;
 };
@@ -414,11 +422,11 @@ bool joins(const RationalBezier& piece, const NurbsCurve& before) {
 
 }  // namespace
 
-Result<NurbsCurve> joined_nurbs(const Contour& contour) {
+Result<NurbsCurve> joined_nurbs(const Contour& contour, Watch* watch) {
   if (contour.pieces.empty()) {
     return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
-  return Joiner(contour).run();
+  return Joiner(contour, watch).run();
 }
 
 std::optional<NurbsCurve> as_one_nurbs(const Contour& contour) {

@@ -12,6 +12,7 @@
 #include "contour_json_names.h"
 #include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/core/internal/format_into.h"
+#include "obvid/core/internal/questions.h"
 #include "obvid/io/contour_json.h"
 #include "text_lines.h"
 
@@ -22,6 +23,8 @@ namespace {
 /// that people can read and compare files.
 class Writer {
  public:
+  explicit Writer(Watch* watch = nullptr) : watch_(watch), questions_(watch) {}
+
   std::string write(const StoredContour& stored);
   std::string write(const FitReport& value);
   std::string write(const Certificate& value);
@@ -58,6 +61,8 @@ class Writer {
   void certificate(const Certificate& certificate);
 
   std::string buffer_;
+  Watch* watch_;
+  Questions questions_;
 };
 
 void Writer::number(double value) {
@@ -111,6 +116,7 @@ void Writer::inline_list(const List& list, Write write) {
   buffer_.push_back('[');
   bool first = true;
   for (const auto& item : list) {
+    if (questions_.end()) return;
     if (!first) raw(", ");
     first = false;
     write(item);
@@ -124,6 +130,7 @@ void Writer::line_list(std::string_view name, const List& list, std::string_view
   format_into(buffer_, "{}\"{}\": [", indent, name);
   bool first = true;
   for (const auto& item : list) {
+    if (questions_.end()) return;
     format_into(buffer_, "{}\n{}  ", first ? "" : ",", indent);
     first = false;
     write(item);
@@ -443,7 +450,7 @@ std::string Writer::write(const StoredContour& stored) {
   raw(",\n");
   line_list("pieces", contour.pieces, "  ",
             [&](const Piece& one) { std::visit([&](const auto& kind) { piece(kind); }, one); });
-  if (const auto made = nurbs_of(contour, {false})) one_nurbs(made->curve);
+  if (const auto made = nurbs_of(contour, {false}, watch_)) one_nurbs(made->curve);
   raw(",\n");
   line_list("runs", contour.runs, "  ", [&](const Run& run) {
     format_into(buffer_, "{{\"first_piece\": {}, \"last_piece\": {}, \"direction\": {}}}",
@@ -478,12 +485,16 @@ std::string Writer::write(const Certificate& value) {
 
 }  // namespace
 
-std::string report_to_json(const FitReport& report) { return Writer().write(report); }
-
-std::string certificate_to_json(const Certificate& certificate) {
-  return Writer().write(certificate);
+std::string report_to_json(const FitReport& report, Watch* watch) {
+  return Writer(watch).write(report);
 }
 
-std::string contour_to_json(const StoredContour& stored) { return Writer().write(stored); }
+std::string certificate_to_json(const Certificate& certificate, Watch* watch) {
+  return Writer(watch).write(certificate);
+}
+
+std::string contour_to_json(const StoredContour& stored, Watch* watch) {
+  return Writer(watch).write(stored);
+}
 
 }  // namespace obvid

@@ -28,13 +28,15 @@ void append_quoted(std::string& out, std::string_view text) {
 
 }  // namespace
 
-void JsonText::before_value() {
+bool JsonText::before_value() {
+  if (questions_.end()) return false;
   if (comma_) text_ += ", ";
   comma_ = true;
+  return true;
 }
 
 JsonText& JsonText::begin_object() {
-  before_value();
+  if (!before_value()) return *this;
   text_ += '{';
   comma_ = false;
   return *this;
@@ -47,7 +49,7 @@ JsonText& JsonText::end_object() {
 }
 
 JsonText& JsonText::begin_array() {
-  before_value();
+  if (!before_value()) return *this;
   text_ += '[';
   comma_ = false;
   return *this;
@@ -60,7 +62,7 @@ JsonText& JsonText::end_array() {
 }
 
 JsonText& JsonText::key(std::string_view name) {
-  before_value();
+  if (!before_value()) return *this;
   append_quoted(text_, name);
   text_ += ": ";
   comma_ = false;
@@ -69,19 +71,19 @@ JsonText& JsonText::key(std::string_view name) {
 
 JsonText& JsonText::value(double number) {
   if (!std::isfinite(number)) return null();
-  before_value();
+  if (!before_value()) return *this;
   format_into(text_, "{}", number);
   return *this;
 }
 
 JsonText& JsonText::value(std::size_t number) {
-  before_value();
+  if (!before_value()) return *this;
   text_ += std::to_string(number);
   return *this;
 }
 
 JsonText& JsonText::value(int number) {
-  before_value();
+  if (!before_value()) return *this;
   text_ += std::to_string(number);
   return *this;
 }
@@ -89,7 +91,7 @@ JsonText& JsonText::value(int number) {
 JsonText& JsonText::value(bool flag) { return raw(flag ? "true" : "false"); }
 
 JsonText& JsonText::value(std::string_view text) {
-  before_value();
+  if (!before_value()) return *this;
   append_quoted(text_, text);
   return *this;
 }
@@ -97,7 +99,7 @@ JsonText& JsonText::value(std::string_view text) {
 JsonText& JsonText::null() { return raw("null"); }
 
 JsonText& JsonText::raw(std::string_view json) {
-  before_value();
+  if (!before_value()) return *this;
   text_ += json;
   return *this;
 }

@@ -223,10 +223,13 @@ Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nea
   return {};
 }
 
-SurfaceCells cells_of(const Part& part, const StepRule& rule, const ToolpathOptions& options) {
+Result<SurfaceCells> cells_of(const Part& part, const StepRule& rule,
+                              const ToolpathOptions& options, const RunContext& run) {
   const double radius = part.cutter().radius;
   const double spacing = std::min(kCellOfRadius * radius, kCellOfStep * rule.level());
-  return {part, spacing, radius, options.threads};
+  SurfaceCells out(part, spacing, radius, options.threads, run);
+  OBVID_TRY(may_go_on(run));
+  return out;
 }
 
 Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
@@ -259,10 +262,11 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
   }
   const StepRule rule(cutter, options);
   if (rough) {
-    const SurfaceCells cells = cells_of(*part, rule, options);
-    std::vector<Nearest> reach(cells.cells().size());
+    const auto cells = cells_of(*part, rule, options, run);
+    OBVID_TRY(cells);
+    std::vector<Nearest> reach(cells->cells().size());
     OBVID_TRY(lay_rough(*part, options, run, out));
-    OBVID_TRY(finish(*part, cells, reach, options, run, out));
+    OBVID_TRY(finish(*part, *cells, reach, options, run, out));
     judge(out, options);
     return out;
   }
@@ -271,7 +275,9 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
   Walker walker(*part, rule.level(), straight ? std::optional(frame.along) : std::nullopt, options);
   auto family = family_of(*part, options, rule, walker, run);
   OBVID_TRY(family);
-  const SurfaceCells cells = cells_of(*part, rule, options);
+  const auto made = cells_of(*part, rule, options, run);
+  OBVID_TRY(made);
+  const SurfaceCells& cells = *made;
   std::vector<Nearest> reach(cells.cells().size());
   std::optional<LevelPasses> levels;
   if (flat_from(options)) {

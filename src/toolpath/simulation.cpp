@@ -7,10 +7,12 @@
 #include <numeric>
 
 #include "obvid/core/internal/parallel.h"
+#include "obvid/core/internal/questions.h"
 
 namespace obvid::toolpath {
 namespace {
 
+constexpr std::size_t kCellsBetweenQuestions = 16;
 constexpr double kNotThere = std::numeric_limits<double>::infinity();
 constexpr double kFarthest = 4.0;  // radii: rays are not followed any farther
 constexpr double kAbout = 1.5;     // as far as in the cell before: most likely enough
@@ -159,13 +161,15 @@ Result<void> Simulation::cut(const std::vector<Sweep>& sweeps, const RunContext&
                         of_tile_[t].push_back(static_cast<std::uint32_t>(s));
                       });
   }
-  return in_parallel(touched.size(), threads_, run, [&](std::size_t k) {
+  return in_parallel(touched.size(), threads_, run, [&](std::size_t k, const RunContext& own) {
+    Watch watch(own);
+    Questions questions(&watch, kCellsBetweenQuestions);
     const SurfaceCells::Tile& tile = cells_.tiles()[touched[k]];
     const auto fresh =
         std::span<const std::uint32_t>(of_tile_[touched[k]]).subspan(had[touched[k]]);
     Numbers near;
     double about = kAbout * part_.cutter().radius;
-    for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
+    for (std::size_t i = tile.first; i < tile.first + tile.count && !questions.end(); ++i) {
       const Cell& cell = cells_.cells()[i];
       const double most = radius_of(kForBoth, cell, nodes_[i]);
       const CellBounds b = bounds(kForBoth, cell, fresh, std::min(about, most), most, near);
@@ -185,13 +189,16 @@ const Nearest& Simulation::nearest(std::size_t node) {
 }
 
 Result<void> Simulation::look_into_reach(double limit, const RunContext& run) {
-  return in_parallel(cells_.tiles().size(), threads_, run, [&](std::size_t t) {
+  const auto look_into = [&](std::size_t t, const RunContext& own) {
+    Watch watch(own);
+    Questions questions(&watch, kCellsBetweenQuestions);
     const SurfaceCells::Tile& tile = cells_.tiles()[t];
-    for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
+    for (std::size_t i = tile.first; i < tile.first + tile.count && !questions.end(); ++i) {
       if (nodes_[i].left > limit && !(cells_.cells()[i].normal == Vec3{}))
         static_cast<void>(nearest(i));
     }
-  });
+  };
+  return in_parallel(cells_.tiles().size(), threads_, run, look_into);
 }
 
 bool Simulation::at_edge(std::size_t node, double limit) const {

@@ -118,10 +118,11 @@ Cell cell_at(const SurfaceModel& model, const CellPlace& at, Vec3 side, double a
   return cell;
 }
 
-SurfaceCells::SurfaceCells(const Part& part, double spacing, double tile, std::size_t threads)
+SurfaceCells::SurfaceCells(const Part& part, double spacing, double tile, std::size_t threads,
+                           const RunContext& run)
     : spacing_(spacing) {
   divide(part.model());
-  fill(part, threads);
+  if (!fill(part, threads, run)) return;
   sort_into_tiles(tile);
 }
 
@@ -150,7 +151,7 @@ CellPlace SurfaceCells::place(const Origin& at) const {
 
 CellPlace SurfaceCells::place(std::size_t cell) const { return place(origins_[cell]); }
 
-void SurfaceCells::fill(const Part& part, std::size_t threads) {
+Result<void> SurfaceCells::fill(const Part& part, std::size_t threads, const RunContext& run) {
   struct Row {
     std::uint32_t patch, j;
     std::size_t first;
@@ -166,7 +167,7 @@ void SurfaceCells::fill(const Part& part, std::size_t threads) {
   }
   cells_.resize(count);
   origins_.resize(count);
-  in_parallel(rows.size(), threads, [&](std::size_t r) {
+  return in_parallel(rows.size(), threads, run, [&](std::size_t r) {
     const Row& row = rows[r];
     for (std::uint32_t i = 0; i + 1 < grids_[row.patch].us.size(); ++i) {
       const Origin origin{row.patch, i, row.j};

@@ -33,7 +33,9 @@ struct Cell {
 /// `most_cells`), put together in tiles as seen from above.
 class SurfaceCells {
  public:
-  SurfaceCells(const Part& part, double spacing, double tile, std::size_t threads);
+  /// Cancelled, it is worth nothing.
+  SurfaceCells(const Part& part, double spacing, double tile, std::size_t threads,
+               const RunContext& run = {});
 
   struct Tile {
     std::uint32_t first = 0, count = 0;  ///< cells
@@ -77,7 +79,7 @@ class SurfaceCells {
   [[nodiscard]] std::size_t column(double x) const;
   [[nodiscard]] std::size_t row(double y) const;
   void divide(const SurfaceModel& model);
-  void fill(const Part& part, std::size_t threads);
+  [[nodiscard]] Result<void> fill(const Part& part, std::size_t threads, const RunContext& run);
   void sort_into_tiles(double tile);
 
   double spacing_;

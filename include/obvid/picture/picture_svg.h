@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/geom/internal/value_range.h"
 #include "obvid/report/stored_contour.h"
 
@@ -36,9 +37,9 @@ struct PicturePlots {
 /// Picture of a contour for a report: contour, points, curvature comb, vertices, inflections and
 /// corners, scale bar, and below it curvature and radius over arc length; where points have
 /// tolerances also where the contour passes within them. One self-contained SVG file that
-/// follows the viewer's light or dark scheme.
+/// follows the viewer's light or dark scheme. Under watch, one that was cancelled is worth nothing.
 [[nodiscard]] std::string picture_svg(const StoredContour& stored, const PictureTitles& titles = {},
-                                      const PicturePlots& plots = {});
+                                      const PicturePlots& plots = {}, Watch* watch = nullptr);
 
 /// Texts of a comparison.
 struct ComparisonTitles {

@@ -82,15 +82,17 @@ struct MadeSurfaceCut {
 /// E501 where contours are formed but not proved, else the first that was refused.
 [[nodiscard]] std::optional<Error> not_proved(const MadeSurfaceCut& made);
 
+// Under watch, a text that was cancelled is worth nothing.
+
 /// All branches: columns section, branch, x, y, z.
-[[nodiscard]] std::string sections_csv(const MadeSurfaceCut& made);
+[[nodiscard]] std::string sections_csv(const MadeSurfaceCut& made, Watch* watch = nullptr);
 /// One branch in its plane: columns x and y, which `fit` reads; of closed ones the first point
 /// comes again at the end.
 [[nodiscard]] std::string branch_csv(const MadeSurfaceCut& made, std::size_t section,
                                      std::size_t branch);
 /// docs/schema/surface_cut.schema.json; `points`: with all points.
 [[nodiscard]] std::string surface_cut_json(const MadeSurfaceCut& made, const Written& written,
-                                           bool points);
+                                           bool points, Watch* watch = nullptr);
 /// Lines drawing: profile (buttocks), half-breadth plan (waterlines) below it, body plan (stations)
 /// beside it, aligned, in one scale; other planes each for themselves below. For .svg and .dxf.
 [[nodiscard]] Sketch lines_drawing(const MadeSurfaceCut& made, const std::string& title);

@@ -80,8 +80,12 @@ Result<std::string> cad_text(const std::vector<CadCurve>& curves, const CadWrite
                              const CadRun& run) {
   if (options.format == CadFormat::kStepAp214 || options.format == CadFormat::kStepAp242) {
     const bool ap242 = options.format == CadFormat::kStepAp242;
-    return step_text(curves, {ap242 ? StepSchema::kAp242 : StepSchema::kAp214, options.units,
-                              options.face_width});
+    RunContext context;
+    context.cancelled = run.cancelled;
+    return step_text(
+        curves,
+        {ap242 ? StepSchema::kAp242 : StepSchema::kAp214, options.units, options.face_width},
+        context);
   }
   return asked(cad::WriteCurves{curves, options}, "", run, &cad::unpacked_text);
 }

@@ -52,7 +52,7 @@ Result<ContourNurbs> nurbs_of(const Contour& contour, const NurbsOptions& option
     return cubics_along(contour, *options.clothoid_tolerance, watch);
   }
   if (options.joined) {
-    auto joined = joined_nurbs(contour);
+    auto joined = joined_nurbs(contour, watch);
     OBVID_TRY(joined);
     return ContourNurbs{std::move(*joined), 0.0};
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/dxf/write.h"
+#include "obvid/core/internal/questions.h"
 #include "obvid/curve/internal/smooth_parts.h"
 
 #include <algorithm>
@@ -72,6 +73,7 @@ class DxfDrawer {
         break;
     }
     OBVID_TRY(done);
+    if (is_to_end(watch_)) return fail(cancelled_error());
     if (options_.profile == DxfProfile::kArcsR12) {
       result_.text = exchange::r12_head(layer_, dxf_unit(contour_.units), low_, high_) +
                      out_.take() + "  0\nENDSEC\n  0\nEOF\n";
@@ -159,11 +161,19 @@ class DxfDrawer {
     out_.pair(72, static_cast<int>(curve.knots.size()));
     out_.pair(73, static_cast<int>(curve.points.size()));
     out_.pair(74, 0);
-    for (const double knot : curve.knots) out_.pair(40, knot);
+    Questions questions(watch_);
+    for (const double knot : curve.knots) {
+      if (questions.end()) return;
+      out_.pair(40, knot);
+    }
     for (const double weight : curve.weights) {
+      if (questions.end()) return;
       if (rational) out_.pair(41, weight);
     }
-    for (const Vec2 p : curve.points) out_.point3(10, p);
+    for (const Vec2 p : curve.points) {
+      if (questions.end()) return;
+      out_.point3(10, p);
+    }
   }
 
   /// Ellipse arcs of a contour of conics; nothing where one of them is none, or is so near to a

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "obvid/core/internal/format_into.h"
+#include "obvid/core/internal/questions.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/curve/internal/flatten.h"
 #include "obvid/geom/internal/angle.h"
@@ -31,11 +32,13 @@ CurveSample sample_at(const ContourPath& path, ContourPath::Parameter at, double
   return {e.point, s, nearest_angle(e.theta, theta), e.kappa};
 }
 
-std::vector<CurveSample> at_lengths(const ContourPath& path, std::size_t count, double step) {
+Result<std::vector<CurveSample>> at_lengths(const ContourPath& path, std::size_t count, double step,
+                                            Questions questions) {
   std::vector<CurveSample> out;
   out.reserve(count);
   double theta = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
+    if (questions.end()) return fail(cancelled_error());
     const double s = i + 1 == count ? path.length() : static_cast<double>(i) * step;
     out.push_back(sample_at(path, path.parameter(s), s, theta));
     theta = out.back().theta;
@@ -43,10 +46,12 @@ std::vector<CurveSample> at_lengths(const ContourPath& path, std::size_t count, 
   return out;
 }
 
-Result<std::vector<CurveSample>> by_chords(const ContourPath& path, double tolerance) {
+Result<std::vector<CurveSample>> by_chords(const ContourPath& path, double tolerance,
+                                           Questions questions) {
   std::vector<CurveSample> out;
   double theta = 0.0;
   for (std::size_t i = 0; i < path.pieces().size(); ++i) {
+    if (questions.end()) return fail(cancelled_error());
     const Piece& piece = path.pieces()[i];
     const int fewest = std::holds_alternative<LinePiece>(piece) ? 1 : 2;
     const int n = chord_steps(piece, tolerance, fewest, fewest == 1 ? 1 : kMostChords);
@@ -135,19 +140,22 @@ Result<std::vector<CurveSample>> sample_at_parameters(std::span<const Piece> pie
   return out;
 }
 
-Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces,
-                                        const SampleOptions& options) {
+Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces, const SampleOptions& options,
+                                        Watch* watch) {
   if (pieces.empty()) {
     return error(ErrorCode::kNothingThere, "there is no curve to sample");
   }
-  const ContourPath path(pieces);
+  Watch nobody;
+  const ContourPath path(pieces, kFinestLength, watch != nullptr ? *watch : nobody);
+  const Questions questions(watch);
+  if (has_ended(watch)) return fail(cancelled_error());
   if (options.count) {
     if (*options.count < 2 || *options.count > kMostSamples) {
       return fail(
           bad("two to ten million samples are possible", static_cast<double>(*options.count)));
     }
-    return at_lengths(path, *options.count,
-                      path.length() / static_cast<double>(*options.count - 1));
+    return at_lengths(path, *options.count, path.length() / static_cast<double>(*options.count - 1),
+                      questions);
   }
   if (options.step) {
     constexpr double kRounding = 1e-12;  // of the length: a whole number of steps stays one
@@ -157,15 +165,16 @@ Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces,
                       *options.step));
     }
     return at_lengths(path, std::max<std::size_t>(2, static_cast<std::size_t>(count)),
-                      *options.step);
+                      *options.step, questions);
   }
   const double tolerance = options.chord_tolerance.value_or(kDefaultChord * path.length());
   if (!(tolerance > 0.0)) return fail(bad("the chord tolerance must be positive", tolerance));
-  return by_chords(path, tolerance);
+  return by_chords(path, tolerance, questions);
 }
 
-Result<std::string> samples_csv(const Contour& contour, const SampleOptions& options) {
-  const auto samples = sample(contour.pieces, options);
+Result<std::string> samples_csv(const Contour& contour, const SampleOptions& options,
+                                Watch* watch) {
+  const auto samples = sample(contour.pieces, options, watch);
   OBVID_TRY(samples);
   const std::string unit = plain(contour.units);
   std::string out =
@@ -173,7 +182,9 @@ Result<std::string> samples_csv(const Contour& contour, const SampleOptions& opt
           ? fmt::format("s_{0},x_{0},y_{0},heading_deg,curvature_1_per_{0},normal_x,normal_y\n",
                         unit)
           : "s,x,y,heading_deg,curvature,normal_x,normal_y\n";
+  Questions questions(watch);
   for (const CurveSample& one : *samples) {
+    if (questions.end()) return fail(cancelled_error());
     const Vec2 normal = left_normal(unit_at(one.theta));
     format_into(out, "{},{},{},{},{},{},{}\n", one.s, one.point.x, one.point.y,
                 one.theta * 180.0 / std::numbers::pi, figure_or_nothing(one.kappa), normal.x,
@@ -182,8 +193,8 @@ Result<std::string> samples_csv(const Contour& contour, const SampleOptions& opt
   return out;
 }
 
-Result<std::string> obj_text(const Contour& contour, const SampleOptions& options) {
-  const auto samples = sample(contour.pieces, options);
+Result<std::string> obj_text(const Contour& contour, const SampleOptions& options, Watch* watch) {
+  const auto samples = sample(contour.pieces, options, watch);
   OBVID_TRY(samples);
   const std::vector<Vec2> points = distinct(*samples, contour.closed);
   std::string out = "# Obvid contour, lengths in " + plain(contour.units) + "\n";
@@ -195,8 +206,8 @@ Result<std::string> obj_text(const Contour& contour, const SampleOptions& option
   return out + (contour.closed ? " 1\n" : "\n");
 }
 
-Result<std::string> ply_text(const Contour& contour, const SampleOptions& options) {
-  const auto samples = sample(contour.pieces, options);
+Result<std::string> ply_text(const Contour& contour, const SampleOptions& options, Watch* watch) {
+  const auto samples = sample(contour.pieces, options, watch);
   OBVID_TRY(samples);
   const std::vector<Vec2> points = distinct(*samples, contour.closed);
   const std::size_t edges = points.size() - (contour.closed ? 0 : 1);

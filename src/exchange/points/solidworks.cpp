@@ -28,8 +28,8 @@ std::span<const Piece> pieces_of(const Contour& contour, const Run& run) {
 /// Statements of the macro.
 class Macro {
  public:
-  Macro(const Contour& contour, const SampleOptions& options, double metres)
-      : contour_(contour), options_(options), scale_(metres) {}
+  Macro(const Contour& contour, const SampleOptions& options, double metres, Watch* watch)
+      : contour_(contour), options_(options), scale_(metres), watch_(watch) {}
 
   Result<std::string> run() {
     out_ =
@@ -95,7 +95,7 @@ class Macro {
 
   Result<void> spline(const std::vector<Piece>& pieces) {
     if (pieces.empty()) return {};
-    const auto samples = sample(pieces, options_);
+    const auto samples = sample(pieces, options_, watch_);
     OBVID_TRY(samples);
     add("  ReDim points({})\n", 3 * samples->size() - 1);
     for (std::size_t i = 0; i < samples->size(); ++i) {
@@ -110,19 +110,21 @@ class Macro {
   const Contour& contour_;
   const SampleOptions& options_;
   double scale_;
+  Watch* watch_;
   std::string out_;
 };
 
 }  // namespace
 
-Result<std::vector<SldcrvFile>> sldcrv_files(const Contour& contour, const SampleOptions& options) {
+Result<std::vector<SldcrvFile>> sldcrv_files(const Contour& contour, const SampleOptions& options,
+                                             Watch* watch) {
   if (contour.pieces.empty()) {
     return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   std::vector<SldcrvFile> out;
   const std::vector<Run> runs = runs_of(contour);
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const auto samples = sample(pieces_of(contour, runs[r]), options);
+    const auto samples = sample(pieces_of(contour, runs[r]), options, watch);
     OBVID_TRY(samples);
     SldcrvFile file{runs.size() == 1 ? "" : "-" + std::to_string(r + 1), {}};
     const CurveSample* before = nullptr;
@@ -136,13 +138,14 @@ Result<std::vector<SldcrvFile>> sldcrv_files(const Contour& contour, const Sampl
   return out;
 }
 
-Result<std::string> solidworks_macro(const Contour& contour, const SampleOptions& options) {
+Result<std::string> solidworks_macro(const Contour& contour, const SampleOptions& options,
+                                     Watch* watch) {
   if (contour.pieces.empty()) {
     return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
   const auto metres = unit_ratio(contour.units, "m", "macros of SolidWorks");
   OBVID_TRY(metres);
-  return Macro(contour, options, *metres).run();
+  return Macro(contour, options, *metres, watch).run();
 }
 
 }  // namespace obvid

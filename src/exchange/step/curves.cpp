@@ -97,13 +97,19 @@ StepId StepCurves::conic(const StepConic& one, double z) {
 
 StepId StepCurves::spline(const NurbsCurve& curve, bool closed, double z) {
   std::vector<StepId> points;
-  for (const Vec2 p : curve.points) points.push_back(point(p, z));
+  for (const Vec2 p : curve.points) {
+    if (file_.has_ended()) break;
+    points.push_back(point(p, z));
+  }
   return spline_through(curve, points, closed);
 }
 
 StepId StepCurves::spline(const SpaceCurve& curve) {
   std::vector<StepId> points;
-  for (const Vec3& p : curve.points) points.push_back(point({p.x, p.y}, p.z));
+  for (const Vec3& p : curve.points) {
+    if (file_.has_ended()) break;
+    points.push_back(point({p.x, p.y}, p.z));
+  }
   return spline_through(curve, points, curve.points.front() == curve.points.back());
 }
 

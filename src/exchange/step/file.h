@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "obvid/core/internal/questions.h"
+
 namespace obvid::exchange {
 
 /// Number of an instance: #12.
@@ -34,8 +36,15 @@ template <class Value>
 [[nodiscard]] std::string step_string(std::string_view text);
 
 /// Collects the instances of the data section, numbered as they come.
+/// Cancelled, it leaves out what comes then.
 class StepFile {
  public:
+  explicit StepFile(const RunContext& run = {}) : watch_(run), questions_(&watch_) {}
+  StepFile(const StepFile&) = delete;
+  StepFile& operator=(const StepFile&) = delete;
+
+  /// Of one of many: whether what comes is left out.
+  [[nodiscard]] bool has_ended() { return questions_.end(); }
   /// `record`: POINT(1.,2.). Long ones are broken into lines behind commas.
   StepId add(std::string_view record);
 
@@ -45,6 +54,8 @@ class StepFile {
  private:
   std::string data_;
   int count_ = 0;
+  Watch watch_;
+  Questions questions_;
 };
 
 }  // namespace obvid::exchange

@@ -55,8 +55,14 @@ SchemaText schema_text(StepSchema schema) {
 
 class StepDocument {
  public:
-  StepDocument(std::string name, const StepOptions& options, const StepUnit& unit, double mm)
-      : name_(std::move(name)), options_(options), unit_(unit), mm_(mm), curves_(file_) {}
+  StepDocument(std::string name, const StepOptions& options, const StepUnit& unit, double mm,
+               const RunContext& run)
+      : name_(std::move(name)),
+        options_(options),
+        unit_(unit),
+        mm_(mm),
+        file_(run),
+        curves_(file_) {}
 
   std::string run(const std::vector<StepChain>& chains, const std::vector<SpaceCurve>& spatial,
                   double width) {
@@ -159,7 +165,8 @@ class StepDocument {
 
 }  // namespace
 
-Result<std::string> step_text(const std::vector<CadCurve>& curves, const StepOptions& options) {
+Result<std::string> step_text(const std::vector<CadCurve>& curves, const StepOptions& options,
+                              const RunContext& run) {
   const std::string_view written = cad_unit(options.units);
   const auto known = unit_ratio(Units(options.units), "mm", "STEP files");
   OBVID_TRY(known);
@@ -188,8 +195,10 @@ Result<std::string> step_text(const std::vector<CadCurve>& curves, const StepOpt
     chains.push_back(std::move(*chain));
   }
   const std::string& name = curves.front().name;
-  return StepDocument(name.empty() ? "contour" : name, options, *unit, mm)
-      .run(chains, spatial, scale * options.face_width);
+  std::string text = StepDocument(name.empty() ? "contour" : name, options, *unit, mm, run)
+                         .run(chains, spatial, scale * options.face_width);
+  OBVID_TRY(may_go_on(run));
+  return text;
 }
 
 }  // namespace obvid

@@ -129,9 +129,10 @@ std::string measured_facts(const StoredContour& stored) {
 }  // namespace
 
 std::string picture_svg(const StoredContour& stored, const PictureTitles& titles,
-                        const PicturePlots& plots) {
+                        const PicturePlots& plots, Watch* watch) {
   const Contour& contour = stored.contour;
-  PictureTrack track = make_track(contour);
+  PictureTrack track = make_track(contour, watch);
+  if (has_ended(watch)) return {};
   if (stored.certificate) take_counts(track, *stored.certificate);
   const bool coloured = track.runs_tell && contour.runs.size() <= kMostColouredRuns;
   const VerdictLine verdict =

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "obvid/core/internal/questions.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/curve/internal/curvature_extent.h"
 
@@ -47,12 +48,14 @@ std::size_t steps_for(const Piece& piece, std::size_t pieces, double diagonal) {
   return std::max(usual, long_piece);
 }
 
-void sample_pieces(PictureTrack& track) {
+void sample_pieces(PictureTrack& track, Watch& watch) {
   const double diagonal = track.box.diagonal();
-  const ContourPath path(track.pieces, kLengthAccuracy);
+  const ContourPath path(track.pieces, kLengthAccuracy, watch);
+  Questions questions(&watch);
   track.length = path.length();
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {
     const Piece& piece = track.pieces[i];
+    if (questions.end()) return;
     track.first.push_back(track.samples.size());
     const std::size_t steps = steps_for(piece, track.pieces.size(), diagonal);
     for (std::size_t j = 0; j <= steps; ++j) {
@@ -67,8 +70,10 @@ void sample_pieces(PictureTrack& track) {
 }
 
 /// The longest tooth is that of the curve, not of the sample beside it.
-void refine_largest(PictureTrack& track) {
+void refine_largest(PictureTrack& track, Watch& watch) {
+  Questions questions(&watch);
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {
+    if (questions.end()) return;
     std::vector<double> at;
     for (std::size_t k = track.first[i]; k < track.first[i + 1]; ++k) {
       at.push_back(track.samples[k].t);
@@ -225,7 +230,9 @@ std::vector<double> curvature_change(const PictureTrack& track) {
 
 }  // namespace
 
-PictureTrack make_track(const Contour& contour) {
+PictureTrack make_track(const Contour& contour, Watch* watch) {
+  Watch nobody;
+  Watch& asked = watch != nullptr ? *watch : nobody;
   PictureTrack track;
   if (!contour.pieces.empty()) {
     track.reference = start_point(contour.pieces.front());
@@ -243,8 +250,9 @@ PictureTrack make_track(const Contour& contour) {
     track.box.add(track.points.back());
   }
   track.runs_tell = promises_monotone(contour.carrier);
-  sample_pieces(track);
-  refine_largest(track);
+  sample_pieces(track, asked);
+  if (asked.was_cancelled()) return track;
+  refine_largest(track, asked);
   set_directions(track, contour.runs);
   set_corners(track, contour);
   find_vertices(track);

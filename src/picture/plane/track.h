@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "obvid/certify/certificate.h"
+#include "obvid/core/internal/watch.h"
 #include "obvid/curve/contour.h"
 #include "obvid/geom/internal/box.h"
 
@@ -57,8 +58,8 @@ struct PictureTrack {
 /// Direction of a piece that stands in no run.
 inline constexpr int kNoRun = 2;
 
-/// Samples the contour. Cost O(pieces).
-[[nodiscard]] PictureTrack make_track(const Contour& contour);
+/// Samples the contour. Cost O(pieces). Under watch, one that was cancelled is worth nothing.
+[[nodiscard]] PictureTrack make_track(const Contour& contour, Watch* watch = nullptr);
 
 /// As many as are marked: of a track whose counts nothing else tells.
 [[nodiscard]] PictureCounts counts_of_marks(const PictureTrack& track);

@@ -127,7 +127,7 @@ Result<Exported> cad_file(const ContourExport& e, CadFormat format) {
   write.format = format;
   write.units = e.contour.units.name;
   write.face_width = e.options.face_width;
-  auto text = cad_text({curve}, write);
+  auto text = cad_text({curve}, write, {{}, [&e] { return is_to_end(e.watch); }});
   OBVID_TRY(text);
   out.files.push_back({"", std::move(*text)});
   return out;
@@ -191,7 +191,7 @@ SampleOptions samples_of(const ContourExport& e) {
 }
 
 Result<Exported> sldcrv_file(const ContourExport& e) {
-  auto made = sldcrv_files(e.contour, samples_of(e));
+  auto made = sldcrv_files(e.contour, samples_of(e), e.watch);
   OBVID_TRY(made);
   Exported out;
   for (SldcrvFile& file : *made) {
@@ -311,14 +311,14 @@ Result<void> can_plot(const ContourExport& e) {
 }
 
 Result<Exported> contour_as_json(const ContourExport& e) {
-  return as_it_is(e, contour_to_json(e.stored));
+  return as_it_is(e, contour_to_json(e.stored, e.watch));
 }
 
 /// A picture for a report, or a drawing in true scale.
 Result<Exported> contour_as_svg(const ContourExport& e) {
   if (!e.options.drawing) {
     OBVID_TRY(can_plot(e));
-    return as_it_is(e, picture_svg(e.stored, e.options.picture, e.options.plots));
+    return as_it_is(e, picture_svg(e.stored, e.options.picture, e.options.plots, e.watch));
   }
   return with_units(notes_of(e, UnitRule::kLength, "drawings in true scale", e.contour.units.name),
                     [&] { return drawing(e); });
@@ -371,7 +371,7 @@ Result<Exported> contour_as_landxml(const ContourExport& e) {
 }
 
 Result<Exported> contour_as_samples(const ContourExport& e) {
-  return as_it_is(e, samples_csv(e.contour, samples_of(e)));
+  return as_it_is(e, samples_csv(e.contour, samples_of(e), e.watch));
 }
 
 Result<Exported> contour_as_airfoil(const ContourExport& e) {
@@ -385,15 +385,17 @@ Result<Exported> contour_as_sldcrv(const ContourExport& e) {
 
 Result<Exported> contour_as_macro(const ContourExport& e) {
   return with_units(notes_of(e, UnitRule::kLength, "macros of SolidWorks", "m"),
-                    [&] { return one_text(solidworks_macro(e.contour, samples_of(e))); });
+                    [&] { return one_text(solidworks_macro(e.contour, samples_of(e), e.watch)); });
 }
 
 Result<Exported> contour_as_obj(const ContourExport& e) {
-  return without_unit(e, "OBJ files", [&] { return one_text(obj_text(e.contour, samples_of(e))); });
+  return without_unit(e, "OBJ files",
+                      [&] { return one_text(obj_text(e.contour, samples_of(e), e.watch)); });
 }
 
 Result<Exported> contour_as_ply(const ContourExport& e) {
-  return without_unit(e, "PLY files", [&] { return one_text(ply_text(e.contour, samples_of(e))); });
+  return without_unit(e, "PLY files",
+                      [&] { return one_text(ply_text(e.contour, samples_of(e), e.watch)); });
 }
 
 Result<Exported> contour_as_none(const ContourExport&) { return fail(not_held_by_format()); }
@@ -415,9 +417,11 @@ Result<Exported> export_contour(const StoredContour& stored, FileFormat format,
   OBVID_TRY(may_go_on(run));
   Watch watch(run);
   const double size = bounding_diagonal(places_of(stored.contour));
-  return contour_writer_of(format)({stored, stored.contour, options, size,
-                                    options.tolerance.value_or(kExportTolerance * size),
-                                    options.tolerance.value_or(kDefaultForArcs * size), &watch});
+  auto made = contour_writer_of(format)(
+      {stored, stored.contour, options, size, options.tolerance.value_or(kExportTolerance * size),
+       options.tolerance.value_or(kDefaultForArcs * size), &watch});
+  if (watch.was_cancelled()) return fail(cancelled_error());
+  return made;
 }
 
 }  // namespace obvid

@@ -21,8 +21,8 @@ constexpr double kUnknownFigure = std::numeric_limits<double>::quiet_NaN();  // 
 constexpr CurvatureRange kUnknownRange{kUnknownFigure, kUnknownFigure};
 
 /// A line of its own ends it, as in the contour file.
-void add_certificate(JsonText& json, const Certificate& certificate) {
-  json.key("certificate").raw(certificate_to_json(certificate) + "\n");
+void add_certificate(JsonText& json, const Certificate& certificate, Watch* watch = nullptr) {
+  json.key("certificate").raw(certificate_to_json(certificate, watch) + "\n");
 }
 
 void add_range(JsonText& json, const std::optional<FeasibleRange>& range) {
@@ -86,8 +86,8 @@ void add_taken_over(JsonText& json, const Contour& contour) {
 
 }  // namespace
 
-std::string fit_report_json(const Fit& fit, const Written& written) {
-  JsonText json;
+std::string fit_report_json(const Fit& fit, const Written& written, Watch* watch) {
+  JsonText json(watch);
   json.begin_object();
   add_units(json, fit.contour.units);
   json.pair("carrier", to_string(fit.contour.carrier));
@@ -97,8 +97,8 @@ std::string fit_report_json(const Fit& fit, const Written& written) {
   }
   json.pair("points", fit.contour.points.size()).pair("pieces", fit.contour.pieces.size());
   add_taken_over(json, fit.contour);
-  json.key("report").raw(report_to_json(fit.report));
-  add_certificate(json, fit.certificate);
+  json.key("report").raw(report_to_json(fit.report, watch));
+  add_certificate(json, fit.certificate, watch);
   add_list(json, "warnings", fit.warnings);
   add_list(json, "written", written.files);
   add_list(json, "remarks", written.remarks);

@@ -215,7 +215,7 @@ Result<Exported> contour_as_report(const ContourExport& e) {
   const auto notes = unit_notes(e.contour.units, UnitRule::kNone, "", e.contour.units.name);
   OBVID_TRY(notes);
   OBVID_TRY(can_plot(e));
-  const auto picture = picture_svg(e.stored, e.options.picture, e.options.plots);
+  const auto picture = picture_svg(e.stored, e.options.picture, e.options.plots, e.watch);
   Exported out;
   out.files.push_back({"", report_page(e, picture)});
   out.remarks = notes->remarks;

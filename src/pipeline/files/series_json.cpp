@@ -152,8 +152,8 @@ std::string series_json(const PointSeries& series) {
   return json.take();
 }
 
-std::string series_report_json(const PointSeries& series, const Analysis& analysis) {
-  JsonText json;
+std::string series_report_json(const PointSeries& series, const Analysis& analysis, Watch* watch) {
+  JsonText json(watch);
   json.begin_object().pair("name", series.name);
   add_units(json, series.units);
   json.pair("size", analysis.size);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "obvid/core/internal/format_into.h"
+#include "obvid/core/internal/questions.h"
 #include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/surface_cut_job.h"
 
@@ -93,8 +94,9 @@ void add_displaced(JsonText& json, const MadeSurfaceCut& made) {
 
 }  // namespace
 
-std::string surface_cut_json(const MadeSurfaceCut& made, const Written& written, bool points) {
-  JsonText json;
+std::string surface_cut_json(const MadeSurfaceCut& made, const Written& written, bool points,
+                             Watch* watch) {
+  JsonText json(watch);
   json.begin_object();
   add_units(json, made.units);
   json.pair("size", made.size).pair("tolerance", made.tolerance);
@@ -108,13 +110,15 @@ std::string surface_cut_json(const MadeSurfaceCut& made, const Written& written,
   return json.take();
 }
 
-std::string sections_csv(const MadeSurfaceCut& made) {
+std::string sections_csv(const MadeSurfaceCut& made, Watch* watch) {
+  Questions questions(watch);
   std::string out = fmt::format("section,branch,{},{},{}\n", column_in_units("x", made.units),
                                 column_in_units("y", made.units), column_in_units("z", made.units));
   for (const MadeSection& section : made.sections) {
     for (std::size_t i = 0; i < section.section.branches.size(); ++i) {
       const SectionBranch& branch = section.section.branches[i];
       for (const SectionPoint& p : branch.points) {
+        if (questions.end()) return out;
         format_into(out, "{},{},{},{},{}\n", section.name, i + 1, p.point.x, p.point.y, p.point.z);
       }
     }

@@ -4,14 +4,18 @@
 #include <string>
 #include <string_view>
 
+#include "obvid/core/internal/questions.h"
 #include "obvid/core/units.h"
 
 namespace obvid {
 
 /// Grows one JSON text; commas and escapes are its business, nesting the caller's.
-/// Numbers read back to the same double; NaN and infinity become null.
+/// Numbers read back to the same double; NaN and infinity become null. Where a watch says stop,
+/// what follows is left out, and the text is worth nothing.
 class JsonText {
  public:
+  explicit JsonText(Watch* watch = nullptr) : questions_(watch) {}
+
   JsonText& begin_object();
   JsonText& end_object();
   JsonText& begin_array();
@@ -33,9 +37,11 @@ class JsonText {
   [[nodiscard]] std::string take();
 
  private:
-  void before_value();
+  /// False: the text ends here.
+  bool before_value();
   std::string text_;
   bool comma_ = false;
+  Questions questions_;
 };
 
 /// "units", the name as it stands or is assumed, and "units_source", how it is known.

@@ -21,7 +21,8 @@
 namespace obvid {
 
 // What each job found, as one JSON object and a line feed: the same for every front end
-// (docs/formats.md). Figures that are not known are null.
+// (docs/formats.md). Figures that are not known are null. Under watch, a text that was cancelled is
+// worth nothing.
 
 /// Files that were written, and what their formats could not hold.
 struct Written {
@@ -30,7 +31,8 @@ struct Written {
 };
 
 /// {"report", "certificate", "warnings", "written", ...}, the first two as in the contour file.
-[[nodiscard]] std::string fit_report_json(const Fit& fit, const Written& written);
+[[nodiscard]] std::string fit_report_json(const Fit& fit, const Written& written,
+                                          Watch* watch = nullptr);
 
 /// Why there is no contour, and what would do. `error` as it is told to the user.
 [[nodiscard]] std::string refusal_json(const Error& error, const PointSeries& series,
@@ -54,7 +56,8 @@ struct Written {
                                          const std::vector<std::string>& written);
 
 /// What the points of a series alone say.
-[[nodiscard]] std::string series_report_json(const PointSeries& series, const Analysis& analysis);
+[[nodiscard]] std::string series_report_json(const PointSeries& series, const Analysis& analysis,
+                                             Watch* watch = nullptr);
 
 /// The series itself: its points and what is given at them.
 [[nodiscard]] std::string series_json(const PointSeries& series);

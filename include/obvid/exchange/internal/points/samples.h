@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 
@@ -30,9 +31,11 @@ struct SampleOptions {
 
 /// Samples along connected pieces. By chord tolerance the ends of all pieces are among them, and a
 /// corner stands twice: with the heading and curvature before it and after it.
-/// Errors: E203 options that are not positive, or more than ten million samples; E311 no pieces.
+/// Errors: E203 options that are not positive, or more than ten million samples; E311 no pieces;
+/// under watch, here and below, E103.
 [[nodiscard]] Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces,
-                                                      const SampleOptions& options);
+                                                      const SampleOptions& options,
+                                                      Watch* watch = nullptr);
 
 /// Places along connected pieces, each heading near the one before. Errors: E203 beyond the curve;
 /// E311 no pieces. Cost O(pieces) and some microseconds for each place.
@@ -45,12 +48,15 @@ struct SampleOptions {
 /// Columns `s_mm,x_mm,y_mm,heading_deg,curvature_1_per_mm,normal_x,normal_y` (the unit is the
 /// contour's; without it, `s,x,y,...,curvature,...`, when that is merely assumed; the normal is the
 /// left one). `parse_points` knows samples by these names. Numbers read back to the same doubles.
-[[nodiscard]] Result<std::string> samples_csv(const Contour& contour, const SampleOptions& options);
+[[nodiscard]] Result<std::string> samples_csv(const Contour& contour, const SampleOptions& options,
+                                              Watch* watch = nullptr);
 
 /// Wavefront OBJ: vertices and one polyline, closed for closed contours.
-[[nodiscard]] Result<std::string> obj_text(const Contour& contour, const SampleOptions& options);
+[[nodiscard]] Result<std::string> obj_text(const Contour& contour, const SampleOptions& options,
+                                           Watch* watch = nullptr);
 
 /// PLY (ASCII): vertices and edges.
-[[nodiscard]] Result<std::string> ply_text(const Contour& contour, const SampleOptions& options);
+[[nodiscard]] Result<std::string> ply_text(const Contour& contour, const SampleOptions& options,
+                                           Watch* watch = nullptr);
 
 }  // namespace obvid

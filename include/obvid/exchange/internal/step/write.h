@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/exchange/internal/cad_curve.h"
 
 namespace obvid {
@@ -28,8 +29,9 @@ struct StepOptions {
 /// product is that of the first curve. The same curves give the same bytes.
 /// Linear time. Errors: E203 a unit that STEP does not know; E303 a number that is not finite; E311
 /// no curves or no pieces; E310 a clothoid, and faces of a curve in space; what `check` finds of
-/// one; E101 pieces that do not meet, and knots, points and weights that make no NURBS curve.
+/// one; E103; E101 pieces that do not meet, and knots, points and weights that make no NURBS curve.
 [[nodiscard]] Result<std::string> step_text(const std::vector<CadCurve>& curves,
-                                            const StepOptions& options = {});
+                                            const StepOptions& options = {},
+                                            const RunContext& run = {});
 
 }  // namespace obvid
