@@ -42,50 +42,85 @@ Element place_on(const Chain& chain, const std::vector<Element>& joints, std::si
   return element_behind(chain.plane, start, (k1 - k0) / chain.length[k], s);
 }
 
-/// Derivatives of the point and heading at s on element k by its own numbers.
+/// Derivatives of the point and heading at a place on an element by its own numbers.
 struct OwnDerivatives {
   Vec2 kappa0, kappa1, length;
   double theta_kappa0 = 0.0, theta_kappa1 = 0.0, theta_length = 0.0;
 };
 
-OwnDerivatives derivatives_of(Plane plane, Transition law, double theta, double k0, double k1,
-                              double length, double s, bool to_end) {
-  OwnDerivatives out;
-  const double turn = std::abs(k0 * s) + std::abs(k1 * s);
-  // laws that are no polynomials of low degree, or have a corner in their middle, want more
-  const int least = law == Transition::kClothoid ? 1 : 8;
-  const int parts = least * (1 + static_cast<int>(turn));
-  const bool linear = law == Transition::kClothoid;
-  const auto turned_by = [&](double u) {
-    return linear ? u * u / (2.0 * length) : length * transition_turn(law, u / length);
-  };
-  const auto stretched_by = [&](double u, double square) {
-    return linear ? square / length : (u * transition_share(law, u / length) - square) / length;
-  };
-  const double h = s / parts;
-  for (int part = 0; part < parts; ++part) {
-    const double middle = (part + 0.5) * h;
-    for (std::size_t i = 0; i < 8; ++i) {
-      const double node = GaussRule<8>::kNode[i / 2] * (i % 2 == 0 ? 0.5 : -0.5);
-      const double u = middle + node * h;
-      const double weight = 0.5 * h * GaussRule<8>::kWeight[i / 2];
-      const double square = turned_by(u);
-      const Vec2 side = sideways(plane, theta + k0 * u + (k1 - k0) * square);
-      out.kappa0 = out.kappa0 + weight * (u - square) * side;
-      out.kappa1 = out.kappa1 + weight * square * side;
-      out.length = out.length - weight * (k1 - k0) * stretched_by(u, square) * side;
+/// These of one element, from its start on: integrals that go on where the place before ended.
+class DerivativesAlong {
+ public:
+  DerivativesAlong(Plane plane, Transition law, double theta, double k0, double k1, double length)
+      : plane_(plane), law_(law), theta_(theta), k0_(k0), k1_(k1), length_(length) {}
+
+  /// `s` in [0, length]; cheap where it lies behind the last one.
+  OwnDerivatives at(double s) {
+    if (s < s_) {
+      s_ = 0.0;
+      sum_ = {};
     }
+    go_on_to(s);
+    OwnDerivatives out = sum_;
+    const double square = turned_by(s);
+    out.theta_kappa0 = s - square;
+    out.theta_kappa1 = square;
+    out.theta_length = -(k1_ - k0_) * stretched_by(s, square);
+    return out;
   }
-  const double square = turned_by(s);
-  out.theta_kappa0 = s - square;
-  out.theta_kappa1 = square;
-  out.theta_length = -(k1 - k0) * stretched_by(s, square);
-  if (to_end) {  // the end moves on as the element grows
-    out.length = out.length + forward(plane, theta + 0.5 * (k0 + k1) * length);
-    out.theta_length += k1;
+
+  /// At the end, which moves on as the element grows.
+  OwnDerivatives at_end() {
+    OwnDerivatives out = at(length_);
+    out.length = out.length + forward(plane_, theta_ + 0.5 * (k0_ + k1_) * length_);
+    out.theta_length += k1_;
+    return out;
   }
-  return out;
-}
+
+ private:
+  static constexpr std::size_t kNodes = 4;
+  static constexpr double kTurnOfPart = 0.5;  ///< rad: four nodes are exact to 1e-11 up to here
+  /// Parts of an element whose law is no polynomial of low degree, or has a corner in its middle.
+  static constexpr double kPartsOfLaw = 16.0;
+
+  [[nodiscard]] bool linear() const { return law_ == Transition::kClothoid; }
+  [[nodiscard]] double turned_by(double u) const {
+    return linear() ? u * u / (2.0 * length_) : length_ * transition_turn(law_, u / length_);
+  }
+  [[nodiscard]] double stretched_by(double u, double square) const {
+    return linear() ? square / length_
+                    : (u * transition_share(law_, u / length_) - square) / length_;
+  }
+
+  void go_on_to(double s) {
+    const double way = s - s_;
+    if (!(way > 0.0)) return;
+    const double turn = (std::abs(k0_) + std::abs(k1_)) * way;
+    const double of_law = linear() ? 0.0 : kPartsOfLaw * way / length_;
+    const int parts = 1 + static_cast<int>(turn / kTurnOfPart + of_law);
+    const double h = way / parts;
+    for (int part = 0; part < parts; ++part) {
+      const double middle = s_ + (part + 0.5) * h;
+      for (std::size_t i = 0; i < kNodes; ++i) {
+        const double node = GaussRule<kNodes>::kNode[i / 2] * (i % 2 == 0 ? 0.5 : -0.5);
+        const double u = middle + node * h;
+        const double weight = 0.5 * h * GaussRule<kNodes>::kWeight[i / 2];
+        const double square = turned_by(u);
+        const Vec2 side = sideways(plane_, theta_ + k0_ * u + (k1_ - k0_) * square);
+        sum_.kappa0 = sum_.kappa0 + weight * (u - square) * side;
+        sum_.kappa1 = sum_.kappa1 + weight * square * side;
+        sum_.length = sum_.length - weight * (k1_ - k0_) * stretched_by(u, square) * side;
+      }
+    }
+    s_ = s;
+  }
+
+  Plane plane_;
+  Transition law_;
+  double theta_, k0_, k1_, length_;
+  double s_ = 0.0;
+  OwnDerivatives sum_;
+};
 
 class Fitter {
  public:
@@ -200,7 +235,7 @@ class Fitter {
 
   /// Row of derivatives of n . C at the foot, for the end e of the chain or a foot.
   void row_of(std::size_t element, double s, const Element& at, Vec2 direction,
-              std::vector<double>& row) const {
+              std::vector<double>& row) {
     std::fill(row.begin(), row.end(), 0.0);
     if (!held_.start) {
       row[0] = direction.x;
@@ -218,22 +253,19 @@ class Fitter {
     for (std::size_t k = 0; k < element; ++k) {
       add(k, whole_[k], at.point - joints_[k + 1].point);
     }
-    if (element < chain_.size()) {
-      add(element,
-          derivatives_of(chain_.plane, chain_.law[element], joints_[element].theta,
-                         chain_.curvature(element, 0), chain_.curvature(element, 1),
-                         chain_.length[element], s, false),
-          Vec2{});
-    }
+    if (element < chain_.size()) add(element, along_[element].at(s), Vec2{});
   }
 
   void set_whole() {
     joints_ = chain_.joints();
     whole_.clear();
+    along_.clear();
     for (std::size_t k = 0; k < chain_.size(); ++k) {
-      whole_.push_back(derivatives_of(chain_.plane, chain_.law[k], joints_[k].theta,
-                                      chain_.curvature(k, 0), chain_.curvature(k, 1),
-                                      chain_.length[k], chain_.length[k], true));
+      const DerivativesAlong along(chain_.plane, chain_.law[k], joints_[k].theta,
+                                   chain_.curvature(k, 0), chain_.curvature(k, 1),
+                                   chain_.length[k]);
+      along_.push_back(along);
+      whole_.push_back(DerivativesAlong(along).at_end());
     }
   }
 
@@ -508,6 +540,7 @@ class Fitter {
   std::vector<std::size_t> column_;
   std::vector<Element> joints_;
   std::vector<OwnDerivatives> whole_;
+  std::vector<DerivativesAlong> along_;  ///< of each element
   std::vector<double> matrix_, right_, scale_, largest_steps_;
   std::vector<Fixed> conditions_;
 };

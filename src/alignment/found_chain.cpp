@@ -56,12 +56,16 @@ class Simplifier {
     if (options.least_radius > 0.0) largest_curvature_ = 1.0 / options.least_radius;
   }
 
-  Result<void> run(const RunContext& run) {
+  /// `others`: there are other searches, so that one that leaves the tolerance after it was fitted
+  /// ends: fewer elements come no nearer.
+  Result<void> run(bool others, const RunContext& run) {
     const std::vector<Element> joints = chain_.joints();  // of the search: the points are there
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
     OBVID_TRY(polish(run, &joints));
+    if (others) OBVID_TRY(polish_to_tolerance(run));
+    if (others && largest() > 1.0) return {};
     OBVID_TRY(simplify(run));
     straighten();
     return {};
@@ -70,13 +74,16 @@ class Simplifier {
   /// The same around a loop: the ends of what was found are joined, and everything is tried once
   /// with the seam where the points begin and once with it half way around, where it is no other
   /// joint than the rest. At last the chain begins at the joint behind the first point.
-  Result<void> run_around(const RunContext& run) {
+  Result<void> run_around(bool others, const RunContext& run) {
     const std::vector<Element> joints = chain_.joints();
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
     OBVID_TRY(polish(run, &joints));
+    if (others && largest() > kHopelessOffset) return {};
     OBVID_TRY(close(run));
+    if (others) OBVID_TRY(polish_to_tolerance(run));
+    if (others && largest() > 1.0) return {};
     for (int turn = 0; turn < 2; ++turn) {
       OBVID_TRY(simplify(run));
       turn_to(chain_.size() / 2);
@@ -151,6 +158,10 @@ class Simplifier {
         if (!*taken && chain_.size() == before) break;
       }
     }
+    return polish_to_tolerance(run);
+  }
+
+  Result<void> polish_to_tolerance(const RunContext& run) {
     for (int i = 0; i < kPolishes && largest() > 1.0; ++i) {
       OBVID_TRY(polish(run));
     }
@@ -758,7 +769,7 @@ constexpr std::size_t kMostSearchedAgain = 400;
 /// Elements from one of these searches.
 Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
                             const AlignmentOptions& options, const Sought& sought,
-                            const Attempt& attempt, const RunContext& run) {
+                            const Attempt& attempt, bool others, const RunContext& run) {
   std::size_t begin = 0;
   if (options.closed) {  // the last point is the first one again
     const std::size_t n = points.size() - 1;
@@ -782,7 +793,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   find_feet(chain, points, feet);
   Simplifier out(std::move(points), std::move(tolerance), options, sought.constant,
                  std::move(chain), std::move(feet), begin);
-  OBVID_TRY(options.closed ? out.run_around(run) : out.run(run));
+  OBVID_TRY(options.closed ? out.run_around(others, run) : out.run(others, run));
   const double largest = out.largest();
   if (!(largest <= 1.0)) {
     return fail(
@@ -817,11 +828,13 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     allowed.push_back(allowed.front());
   }
   std::optional<Error> first;
+  const bool again = given.size() <= kMostSearchedAgain;
   double tried = 0.0;  // of open points it is all the same where they begin
   for (const Attempt& attempt : kAttempts) {
     if (!options.closed && attempt.part == tried) continue;
     tried = attempt.part;
-    auto found = searched(points, allowed, options, sought, attempt, run);
+    const bool others = again && &attempt != &kAttempts.back();
+    auto found = searched(points, allowed, options, sought, attempt, others, run);
     if (found) {
       out.chain = found->chain();
       for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(found->foot_of_given(i));
@@ -831,7 +844,7 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     const bool by_search = code == ErrorCode::kNoSpiral || code == ErrorCode::kToleranceNotReached;
     if (!by_search) return fail(found.error());
     if (!first) first = found.error();
-    if (given.size() > kMostSearchedAgain) break;
+    if (!again) break;
   }
   return fail(*first);
 }

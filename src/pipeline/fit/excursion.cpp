@@ -58,12 +58,12 @@ double distance_of(const Contour& contour, const Part& part, Vec2 from, Vec2 to)
 
 }  // namespace
 
-std::optional<std::string> warn_of_excursion(const Contour& contour,
-                                             const std::vector<bool>& given) {
+std::optional<std::string> warn_of_excursion(const Contour& contour, const std::vector<bool>& given,
+                                             Watch& watch) {
   const double extent = reach_across(contour.points);
   double worst = extent;
   const Part* at = nullptr;
-  const std::vector<Part> parts = parts_of(contour);
+  const std::vector<Part> parts = parts_of(contour, &watch);
   for (const Part& part : parts) {
     const auto is_given = [&](std::size_t i) { return i < given.size() && given[i]; };
     if (is_given(part.from) || is_given(part.to)) continue;

@@ -803,9 +803,10 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   for (const auto* more : {&prepared->warnings, &formed->warnings}) {
     out.warnings.insert(out.warnings.end(), more->begin(), more->end());
   }
-  if (auto warning = warn_of_excursion(out.contour, has_given_data(*prepared))) {
+  if (auto warning = warn_of_excursion(out.contour, has_given_data(*prepared), watch)) {
     out.warnings.push_back(std::move(*warning));
   }
+  if (watch.was_cancelled()) return fail(cancelled_error());
   if (auto warning = warn_of_crossings(out.contour, out.certificate)) {
     out.warnings.push_back(std::move(*warning));
   }

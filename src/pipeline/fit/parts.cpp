@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "obvid/core/internal/questions.h"
 #include "obvid/curve/internal/nearest.h"
 
 namespace obvid::pipeline_detail {
@@ -22,13 +23,14 @@ bool ahead(const Station& a, const Station& b) {
 /// Stations in order; the last one lies at the end of the last piece.
 class Stations {
  public:
-  explicit Stations(const Contour& contour) : contour_(contour) {}
+  Stations(const Contour& contour, Watch* watch) : contour_(contour), questions_(watch, 16) {}
 
   std::vector<Station> run() {
     const std::size_t n = contour_.pieces.size();
     for (std::size_t j = 0; j < n; ++j) {
       const auto source = contour_.joints[j].source;
       if (j > 0 && !source) continue;
+      if (questions_.end()) return std::move(stations_);
       reach({source.value_or(0), j, 0.0});
     }
     const Joint& last = contour_.joints[n % contour_.joints.size()];
@@ -46,7 +48,8 @@ class Stations {
 
   void add_feet(const Station& next) {
     const std::size_t n = contour_.points.size();
-    for (std::size_t i = stations_.back().point + 1; i % n != next.point; ++i) {
+    for (std::size_t i = stations_.back().point + 1; i % n != next.point && !questions_.end();
+         ++i) {
       if (i >= n && !contour_.closed) return;
       const Station foot = foot_of(i % n, next);
       if (ahead(stations_.back(), foot) && ahead(foot, next)) stations_.push_back(foot);
@@ -90,15 +93,16 @@ class Stations {
   static constexpr double kPassed = 8.0;
 
   const Contour& contour_;
+  Questions questions_;
   std::vector<Station> stations_;
 };
 
 }  // namespace
 
-std::vector<Part> parts_of(const Contour& contour) {
+std::vector<Part> parts_of(const Contour& contour, Watch* watch) {
   std::vector<Part> parts;
   if (contour.pieces.empty()) return parts;
-  const std::vector<Station> stations = Stations(contour).run();
+  const std::vector<Station> stations = Stations(contour, watch).run();
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
     const Station &a = stations[k], &b = stations[k + 1];
     Part part{a.point, b.point, a.piece, b.piece, a.t, b.t};

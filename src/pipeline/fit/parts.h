@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/curve/contour.h"
 
 namespace obvid::pipeline_detail {
@@ -20,8 +21,9 @@ struct Part {
 };
 
 /// Parts in order along the whole contour. Stations are the joints that stand on points; carriers
-/// whose joints do not (`CarrierInfo::between_joints`) have one at the place nearest to each point too,
-/// as far as these places follow each other in the order of the points.
-[[nodiscard]] std::vector<Part> parts_of(const Contour& contour);
+/// whose joints do not (`CarrierInfo::between_joints`) have one at the place nearest to each point
+/// too, as far as these places follow each other in the order of the points. Cancelled: some of
+/// them.
+[[nodiscard]] std::vector<Part> parts_of(const Contour& contour, Watch* watch = nullptr);
 
 }  // namespace obvid::pipeline_detail
