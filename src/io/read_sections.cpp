@@ -340,7 +340,8 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
 
 Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& paths,
                                                const SectionOptions& options,
-                                               std::vector<std::string>* assumed) {
+                                               std::vector<std::string>* assumed,
+                                               const RunContext& run) {
   if (paths.empty()) return error(ErrorCode::kUsage, "no files with sections");
   const bool matrices = std::all_of(paths.begin(), paths.end(), [](const std::string& path) {
     return matrix_with_siblings(path).has_value();
@@ -350,6 +351,7 @@ Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& p
   std::vector<SpaceSeries> sections;
   std::string flat_file, spatial_file;
   for (const std::string& path : paths) {
+    OBVID_TRY(may_go_on(run));
     const auto text = read_file(path);
     OBVID_TRY(text);
     if (is_blade_table(*text)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/surface/point_grid.h"
 
 namespace obvid {
@@ -22,10 +23,10 @@ struct SectionOptions {
 /// that places them (columns BlSpn, BlCrvAC, BlSwpAC, BlTwist, BlChord, BlAFID); tables of
 /// half-breadths of a ship, with labels and empty cells: a section for each station, of the cells
 /// that are there. `assumed`, where it is not null, gets what was read into labels and what was
-/// left out. Errors: E301 to E307 with place.
+/// left out. Asks between files. Errors: E103; E301 to E307 with place.
 [[nodiscard]] Result<std::vector<SpaceSeries>> read_sections(
     const std::vector<std::string>& paths, const SectionOptions& options = {},
-    std::vector<std::string>* assumed = nullptr);
+    std::vector<std::string>* assumed = nullptr, const RunContext& run = {});
 /// One text with one section or more. `flat` tells that no z was there.
 struct ParsedSections {
   std::vector<SpaceSeries> sections;

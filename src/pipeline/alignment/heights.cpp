@@ -119,6 +119,12 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
     auto own = heights_of_points(series, alignment);
     OBVID_TRY(own);
     out = std::move(*own);
+    // drawings fill a column that nobody measured
+    if (std::all_of(out.heights.begin(), out.heights.end(),
+                    [](const Vec2& at) { return at.y == 0.0; })) {
+      remarks.emplace_back("all heights are 0: no profile (--profile makes one of them, too)");
+      return std::optional<ProfileReport>();
+    }
   }
   // feet of neighbours may lie the other way round where points scatter along
   std::vector<std::size_t> order(out.heights.size());

@@ -53,11 +53,13 @@ Result<ParsedSections> parsed(const SurfaceInput& input, const SectionOptions& o
 
 Result<std::vector<SpaceSeries>> sections_of(const std::vector<SurfaceInput>& inputs,
                                              std::optional<double> spacing,
-                                             std::vector<std::string>* assumed) {
+                                             std::vector<std::string>* assumed,
+                                             const RunContext& run) {
   const SectionOptions options{spacing.value_or(1.0)};
-  if (are_files(inputs)) return read_sections(paths_of(inputs), options, assumed);
+  if (are_files(inputs)) return read_sections(paths_of(inputs), options, assumed, run);
   std::vector<SpaceSeries> out;
   for (const SurfaceInput& input : inputs) {
+    OBVID_TRY(may_go_on(run));
     auto some = parsed(input, options);
     OBVID_TRY(some);
     for (const std::string& what : some->assumed) {

@@ -111,7 +111,7 @@ Result<MadeSurface> make_kind(const IdKind& kind, const SurfaceJob& job, const R
 
 Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const RunContext& run) {
   std::vector<std::string> assumed;
-  const auto sections = sections_of(job.inputs, kind.spacing, &assumed);
+  const auto sections = sections_of(job.inputs, kind.spacing, &assumed, run);
   OBVID_TRY(sections);
   std::vector<Units> units;
   for (const SpaceSeries& section : *sections) units.push_back(section.units);

@@ -222,9 +222,14 @@ Result<void> set_kind(const SurfaceValues& raw, TrimKind& kind) {
     if (raw.contour->empty()) return fail(bad_option("no file is named", "--contour", ""));
     kind.contour = SurfaceInput(*raw.contour);
   }
-  const auto along = axis_number(raw.along);
+  if (!raw.along) return {};
+  if (!raw.contour) {
+    return fail(bad_option("planes are not projected", "--along",
+                           "leave it out, or give --contour FILE"));
+  }
+  const auto along = axis_number(*raw.along);
   if (!along)
-    return fail(bad_option("'" + raw.along + "' is no axis", "--along", "give x, y or z"));
+    return fail(bad_option("'" + *raw.along + "' is no axis", "--along", "give x, y or z"));
   kind.along = *along;
   return {};
 }

@@ -36,7 +36,7 @@ struct SurfaceValues {
   std::vector<std::string> planes;     ///< as of `SurfaceCutValues`, or "z=1.5"
   std::optional<std::string> keep;     ///< "above", "below"; "inside", "outside"
   std::optional<std::string> contour;  ///< path of a file
-  std::string along = "z";             ///< "x", "y", "z"
+  std::optional<std::string> along;    ///< "x", "y", "z" [z]
   std::optional<double> radius, radius_end;
   std::string faces;           ///< "A,B": names or numbers from 1
   std::string sides = "auto";  ///< or "front,back", ...
