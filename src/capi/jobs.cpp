@@ -301,17 +301,22 @@ int obvid_cut(const obvid_input* const* inputs, size_t count, const char* option
     if (count > 0) {
       job.plan.name = std::filesystem::path(inputs[0]->name).filename().string();
     }
-    auto made = make_cut(std::move(drawings), request->import, job, context_of(run));
+    const RunContext context = context_of(run);
+    auto made = make_cut(std::move(drawings), request->import, job, context);
     OBVID_TRY(made);
+    Watch watch(context);
+    std::unique_ptr<obvid_files> out;
+    if (files != nullptr) {
+      out = std::make_unique<obvid_files>();
+      const Sketch sketch = cut_sketch(*made, job);
+      out->files.push_back({"", std::move(made->program.text)});
+      out->files.push_back({".svg", sketch_svg(sketch, &watch)});
+      out->files.push_back({".dxf", sketch_dxf(sketch, &watch)});
+      out->remarks = made->warnings;
+      if (watch.was_cancelled()) return fail(cancelled_error());
+    }
     hand_out_text(cut_json(*made), report);
-    if (files == nullptr) return {};
-    const Sketch sketch = cut_sketch(*made, job);
-    auto out = std::make_unique<obvid_files>();
-    out->files.push_back({"", std::move(made->program.text)});
-    out->files.push_back({".svg", sketch_svg(sketch)});
-    out->files.push_back({".dxf", sketch_dxf(sketch)});
-    out->remarks = made->warnings;
-    *files = out.release();
+    if (files != nullptr) *files = out.release();
     return {};
   });
 }

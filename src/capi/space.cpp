@@ -184,10 +184,11 @@ int obvid_space_export(const obvid_space* space, const char* ending, const char*
     OBVID_TRY(request);
     SpaceChain chain = space->chain;
     if (request->units) (void)take_units(chain, *request->units);
-    const auto nurbs = chain_nurbs(chain, request->formats.tolerance, context_of(run));
+    const RunContext context = context_of(run);
+    const auto nurbs = chain_nurbs(chain, request->formats.tolerance, context);
     OBVID_TRY(nurbs);
     Result<Exported> made =
-        export_space(chain, *nurbs, "." + std::string(ending), request->formats);
+        export_space(chain, *nurbs, "." + std::string(ending), request->formats, context);
     OBVID_TRY(made);
     auto out = std::make_unique<obvid_files>();
     out->files = std::move(made->files);

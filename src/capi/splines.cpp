@@ -164,7 +164,7 @@ int obvid_nurbs_make(const obvid_input* table, const char* options, const char* 
     OBVID_TRY(made);
     const Units units = request->units.value_or(Units{});
     auto file = file_of(ending, files, [&](const std::string& path) {
-      return nurbs_file(*made, path, units, request->samples);
+      return nurbs_file(*made, path, units, request->samples, context);
     });
     OBVID_TRY(file);
     auto patch = surface_of(nurbs_surface(*made, units));

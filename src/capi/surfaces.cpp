@@ -174,9 +174,9 @@ int obvid_surface_cut(const obvid_surface* surface, const char* options, const o
       OBVID_TRY(may_go_on(context));
       out->files.push_back({".csv", sections_csv(*made, &watch)});
       OBVID_TRY(may_go_on(context));
-      out->files.push_back({".svg", sketch_svg(sketch)});
+      out->files.push_back({".svg", sketch_svg(sketch, &watch)});
       OBVID_TRY(may_go_on(context));
-      out->files.push_back({".dxf", sketch_dxf(sketch)});
+      out->files.push_back({".dxf", sketch_dxf(sketch, &watch)});
       out->remarks = made->warnings;
     }
     OBVID_TRY(may_go_on(context));

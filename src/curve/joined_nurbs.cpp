@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/curve/internal/joined_nurbs.h"
 
-#include "obvid/core/internal/questions.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
+
+#include "obvid/core/internal/questions.h"
 
 namespace obvid {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/sketch.h"
-#include "obvid/core/internal/picture_mark.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +11,9 @@
 #include "dxf/file.h"
 #include "dxf/units.h"
 #include "exact_conics.h"
+#include "obvid/core/internal/format_into.h"
+#include "obvid/core/internal/picture_mark.h"
+#include "obvid/core/internal/questions.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/geom/internal/box.h"
 #include "xml_text.h"
@@ -45,7 +47,8 @@ Box2 box_of(const Sketch& sketch) {
 
 class SketchDxf {
  public:
-  explicit SketchDxf(const Sketch& sketch) : sketch_(sketch), box_(box_of(sketch)) {}
+  SketchDxf(const Sketch& sketch, Watch* watch)
+      : sketch_(sketch), box_(box_of(sketch)), questions_(watch) {}
 
   std::string run() {
     constexpr double kLetters = 0.012;  // of the drawing's diagonal
@@ -77,10 +80,12 @@ class SketchDxf {
 
   void draw(const SketchLayer& layer) {
     for (const Vec2 p : layer.points) {
+      if (questions_.end()) return;
       begin("POINT", "AcDbPoint", layer.name);
       out_.point3(10, p);
     }
     for (const Piece& piece : layer.pieces) {
+      if (questions_.end()) return;
       const auto* arc = std::get_if<ArcPiece>(&piece);
       if (arc != nullptr) {
         draw(*arc, layer.name);
@@ -94,7 +99,10 @@ class SketchDxf {
       begin("LWPOLYLINE", "AcDbPolyline", layer.name);
       out_.pair(90, static_cast<int>(line.size()));
       out_.pair(70, layer.filled ? 1 : 0);
-      for (const Vec2 p : line) out_.point(10, p);
+      for (const Vec2 p : line) {
+        if (questions_.end()) return;
+        out_.point(10, p);
+      }
     }
   }
 
@@ -142,12 +150,14 @@ class SketchDxf {
 
   const Sketch& sketch_;
   Box2 box_;
+  Questions questions_;
   DxfWriter out_;
 };
 
 class SketchSvg {
  public:
-  explicit SketchSvg(const Sketch& sketch) : sketch_(sketch), box_(box_of(sketch)) {}
+  SketchSvg(const Sketch& sketch, Watch* watch)
+      : sketch_(sketch), box_(box_of(sketch)), questions_(watch) {}
 
   std::string run() {
     const Vec2 size = box_.high - box_.low;
@@ -198,8 +208,9 @@ class SketchSvg {
   void path(const std::vector<Vec2>& line, const SketchLayer& layer) {
     std::string data;
     for (const Vec2 p : line) {
+      if (questions_.end()) return;
       const Vec2 q = on_sheet(p);
-      data += fmt::format("{}{:.2f} {:.2f}", data.empty() ? 'M' : 'L', q.x, q.y);
+      format_into(data, "{}{:.2f} {:.2f}", data.empty() ? 'M' : 'L', q.x, q.y);
     }
     if (layer.filled) data += 'Z';
     text_ += fmt::format("<path d=\"{}\" {}/>\n", data, style(layer));
@@ -217,6 +228,7 @@ class SketchSvg {
       path(line, layer);
     }
     for (const Vec2 p : layer.points) {
+      if (questions_.end()) return;
       const Vec2 q = on_sheet(p);
       text_ += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.2\" fill=\"{}\"/>\n", q.x,
                            q.y, layer.color);
@@ -236,13 +248,16 @@ class SketchSvg {
 
   const Sketch& sketch_;
   Box2 box_;
+  Questions questions_;
   double scale_ = 1.0, top_ = 0.0;
   std::string text_;
 };
 
 }  // namespace
 
-std::string sketch_dxf(const Sketch& sketch) { return SketchDxf(sketch).run(); }
+std::string sketch_dxf(const Sketch& sketch, Watch* watch) {
+  return SketchDxf(sketch, watch).run();
+}
 
 SketchLayer sketch_layer(const char* name, const char* title, const char* color, int dxf_color,
                          double width) {
@@ -255,6 +270,8 @@ SketchLayer sketch_layer(const char* name, const char* title, const char* color,
   return out;
 }
 
-std::string sketch_svg(const Sketch& sketch) { return SketchSvg(sketch).run(); }
+std::string sketch_svg(const Sketch& sketch, Watch* watch) {
+  return SketchSvg(sketch, watch).run();
+}
 
 }  // namespace obvid

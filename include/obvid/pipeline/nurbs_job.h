@@ -70,9 +70,11 @@ struct NurbsReport {
 [[nodiscard]] std::optional<SurfaceModel> nurbs_surface(const NurbsReport& report,
                                                         const Units& units);
 /// The curve in the format that the ending of `path` tells: .json, .csv (`samples` points), .dxf,
-/// .step, .iges, .brep. Errors: E202 no such format of a curve, or a net; those of the formats.
+/// .step, .iges, .brep. Errors: E202 no such format of a curve, or a net; E103; those of the
+/// formats.
 [[nodiscard]] Result<std::string> nurbs_file(const NurbsReport& report, const std::string& path,
-                                             const Units& units, std::size_t samples);
+                                             const Units& units, std::size_t samples,
+                                             const RunContext& run = {});
 /// u, x, y, z, curvature at `count` equal steps of the parameter of a curve.
 [[nodiscard]] std::string nurbs_samples_csv(const SpaceCurve& curve, std::size_t count);
 

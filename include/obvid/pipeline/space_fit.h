@@ -192,8 +192,8 @@ struct SpaceChainVerification {
 /// formats.
 [[nodiscard]] Result<Exported> export_space(const SpaceChain& chain,
                                             const std::vector<SpaceNurbs>& nurbs,
-                                            const std::string& ending,
-                                            const ExportOptions& options);
+                                            const std::string& ending, const ExportOptions& options,
+                                            const RunContext& run = {});
 
 /// Place of a curve in space.
 struct SpaceSample {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/dxf/write.h"
-#include "obvid/core/internal/questions.h"
-#include "obvid/curve/internal/smooth_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +16,8 @@
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/contour/bsplines/nurbs_of.h"
+#include "obvid/core/internal/questions.h"
+#include "obvid/curve/internal/smooth_parts.h"
 #include "obvid/geom/internal/angle.h"
 
 namespace obvid {

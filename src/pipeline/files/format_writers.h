@@ -43,6 +43,7 @@ struct SpaceExport {
   const SpaceChain& chain;
   const std::vector<SpaceNurbs>& nurbs;
   const ExportOptions& options;
+  const RunContext& run;
 };
 
 [[nodiscard]] Error not_held_by_format();

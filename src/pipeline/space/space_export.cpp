@@ -46,7 +46,7 @@ Result<Exported> space_of_kernel(const SpaceExport& e, CadFormat format) {
     const bool one = e.nurbs.size() == 1;
     curves.push_back({one ? "contour" : fmt::format("contour, part {}", k + 1), e.nurbs[k].curve});
   }
-  auto text = cad_text(curves, write);
+  auto text = cad_text(curves, write, {{}, e.run.cancelled});
   OBVID_TRY(text);
   return one_space_file(std::move(*text));
 }
@@ -89,9 +89,10 @@ SpaceWriter space_writer_of(FileFormat format) {
 }  // namespace pipeline_detail
 
 Result<Exported> export_space(const SpaceChain& chain, const std::vector<SpaceNurbs>& nurbs,
-                              const std::string& ending, const ExportOptions& options) {
+                              const std::string& ending, const ExportOptions& options,
+                              const RunContext& run) {
   const auto format = space_format_of(ending);
-  if (format) return pipeline_detail::space_writer_of(*format)({chain, nurbs, options});
+  if (format) return pipeline_detail::space_writer_of(*format)({chain, nurbs, options, run});
   return error(ErrorCode::kUnknownFormat, "no file with this extension holds a curve in space")
       .hint("possible are " + known_space_endings() +
             "; --flat forms the contour in the plane of x and y");

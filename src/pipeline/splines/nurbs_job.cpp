@@ -340,7 +340,7 @@ std::optional<SurfaceModel> nurbs_surface(const NurbsReport& report, const Units
 }
 
 Result<std::string> nurbs_file(const NurbsReport& report, const std::string& path,
-                               const Units& units, std::size_t samples) {
+                               const Units& units, std::size_t samples, const RunContext& run) {
   if (!std::holds_alternative<SpaceCurve>(report.shape)) {
     return error(ErrorCode::kUnknownFormat, "a net is written as a surface").where(path);
   }
@@ -355,7 +355,7 @@ Result<std::string> nurbs_file(const NurbsReport& report, const std::string& pat
   if (format == FileFormat::kBrep) write.format = CadFormat::kBrep;
   const bool cad =
       format == FileFormat::kStep || format == FileFormat::kIges || format == FileFormat::kBrep;
-  if (cad) return cad_text({{"curve", curve}}, write);
+  if (cad) return cad_text({{"curve", curve}}, write, {{}, run.cancelled});
   return error(ErrorCode::kUnknownFormat, "nurbs writes no such file of a curve")
       .where(path)
       .hint("possible are .json, .csv, .step, .iges, .brep and .dxf");

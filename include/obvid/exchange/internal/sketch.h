@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/units.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/vec2.h"
@@ -42,10 +43,12 @@ struct Sketch {
 };
 
 /// R2000 DXF: LINE, ARC, LWPOLYLINE, POINT and TEXT in the plane z = 0, one layer each; unit as
-/// `dxf_unit` says. Lines and arcs are exact.
-[[nodiscard]] std::string sketch_dxf(const Sketch& sketch);
+/// `dxf_unit` says. Lines and arcs are exact. Under watch, a text that was cancelled is worth
+/// nothing.
+[[nodiscard]] std::string sketch_dxf(const Sketch& sketch, Watch* watch = nullptr);
 
-/// Picture on a white sheet, y upward, with a legend; the same scale in both directions.
-[[nodiscard]] std::string sketch_svg(const Sketch& sketch);
+/// Picture on a white sheet, y upward, with a legend; the same scale in both directions. Watch as
+/// above.
+[[nodiscard]] std::string sketch_svg(const Sketch& sketch, Watch* watch = nullptr);
 
 }  // namespace obvid
