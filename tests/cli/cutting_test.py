@@ -96,7 +96,7 @@ class Cutting(unittest.TestCase):
         arcs = self.cuts(Controller(self.run_cut(drawing(shapes), *options)))
         self.assertNotIn("G5 ", self.text)
         self.assertEqual(self.report["report"]["spline_blocks"], 0)
-        for more in ([], ["--tabs", 3, "--tab-width", 4, "--tab-height", 1]):
+        for more in ([], ["--lead-in", 1.2], ["--tabs", 3, "--tab-width", 4, "--tab-height", 1], ["--ramp", 3]):
             with self.subTest(more=more):
                 program = Controller(self.run_cut(drawing(shapes), *options, *more, "--motion", "splines"), splines=True)
                 exact = [k for k, s in enumerate(shapes) if not isinstance(s, Ellipse)]
