@@ -169,19 +169,14 @@ int obvid_surface_cut(const obvid_surface* surface, const char* options, const o
     if (files != nullptr) {
       out = std::make_unique<obvid_files>();
       const Sketch sketch = lines_drawing(*made, surface->model.name);
-      OBVID_TRY(may_go_on(context));
       out->files.push_back({".json", surface_cut_json(*made, {}, true, &watch)});
-      OBVID_TRY(may_go_on(context));
       out->files.push_back({".csv", sections_csv(*made, &watch)});
-      OBVID_TRY(may_go_on(context));
       out->files.push_back({".svg", sketch_svg(sketch, &watch)});
-      OBVID_TRY(may_go_on(context));
       out->files.push_back({".dxf", sketch_dxf(sketch, &watch)});
       out->remarks = made->warnings;
     }
-    OBVID_TRY(may_go_on(context));
-    std::string text = report == nullptr ? "" : surface_cut_json(*made, {}, false, &watch);
-    if (watch.was_cancelled()) return fail(cancelled_error());
+    const std::string text = report == nullptr ? "" : surface_cut_json(*made, {}, false, &watch);
+    if (watch.cancelled()) return fail(cancelled_error());
     if (report != nullptr) *report = text_of(text);
     if (files != nullptr) *files = out.release();
     if (const auto failed = not_proved(*made)) return fail(*failed);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/core/internal/questions.h"
 #include "obvid/numeric/internal/gauss.h"
 
 namespace obvid {
@@ -204,19 +205,15 @@ double PieceLength::parameter(double s) const {
   return cell.from + cell.width * inverse(cell, std::min(s - cell.start, cell.length));
 }
 
-ContourPath::ContourPath(std::span<const Piece> pieces, double accuracy) : pieces_(pieces) {
-  Watch nobody;
-  *this = ContourPath(pieces, accuracy, nobody);
-}
-
-ContourPath::ContourPath(std::span<const Piece> pieces, double accuracy, Watch& watch)
+ContourPath::ContourPath(std::span<const Piece> pieces, double accuracy, Watch* watch)
     : pieces_(pieces) {
   lengths_.reserve(pieces.size());
   start_.reserve(pieces.size() + 1);
   start_.push_back(0.0);
   const Piece none = LinePiece{};
+  Questions questions(watch);
   for (const Piece& piece : pieces) {
-    lengths_.emplace_back(watch.cancelled() ? none : piece, accuracy);
+    lengths_.emplace_back(questions.end() ? none : piece, accuracy);
     start_.push_back(start_.back() + lengths_.back().length());
   }
 }

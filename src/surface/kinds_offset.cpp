@@ -39,7 +39,8 @@ Vec3 normal_at(const NurbsSurface& base, double u, double v, const SurfaceJet& j
       std::abs(to_u) * (norm(jet.duu) * norm(jet.dv) + norm(jet.du) * norm(jet.duv)) +
       std::abs(to_v) * (norm(jet.duv) * norm(jet.dv) + norm(jet.du) * norm(jet.dvv));
   if (norm(inwards) > kFlat * terms) return unit(inwards);
-  for (const double part : {1e-5, 1e-3}) {  // poles of higher order: near them, not in them
+  constexpr std::array kBesidePole = {1e-5, 1e-3};  // of the way inwards, nearest first
+  for (const double part : kBesidePole) {           // poles of higher order: near them, not in them
     const double a = u + part * to_u, b = v + part * to_v;
     const SurfaceJet near = evaluate(base, a, b);
     if (!vanishes(base, near.point, near.du, near.dv)) return unit(cross(near.du, near.dv));

@@ -10,6 +10,7 @@ namespace {
 constexpr int kMostSteps = 12;
 constexpr int kMostBisections = 60;
 constexpr int kMostChordHalvings = 14;
+constexpr double kNoDistance = 1e-300;  ///< units: what keeps a ratio of distances finite
 
 }  // namespace
 
@@ -104,7 +105,7 @@ std::vector<SectionPoint> sampled(const PlaneFoot& foot, const CutPatch& patch,
   // how much nearer to one end than to the other
   const auto uneven = [](const SectionPoint& p, const SectionPoint& a, const SectionPoint& b) {
     const double from = norm(p.point - a.point), to = norm(p.point - b.point);
-    return std::max(from, to) / std::max(std::min(from, to), 1e-300);
+    return std::max(from, to) / std::max(std::min(from, to), kNoDistance);
   };
   // a place between two others by the parameter that the strand is a function of, or by the other
   // one where it runs along that

@@ -161,10 +161,11 @@ std::size_t variations(const std::vector<double>& line) {
 /// The only root, by halving: as exact as doubles are, whatever the slope.
 double only_root(const std::vector<double>& line) {
   const bool falls = line.back() < 0.0;
+  constexpr double kLeastOfParameter = 1e-17;  // beside 1 nothing: roots near 0 need no more digits
   double low = 0.0, high = 1.0;
   for (;;) {
     const double middle = 0.5 * (low + high);
-    if (!(middle > low && middle < high) || high - low < 1e-17) return middle;
+    if (!(middle > low && middle < high) || high - low < kLeastOfParameter) return middle;
     ((value_at(line, middle) < 0.0) == falls ? high : low) = middle;
   }
 }

@@ -25,6 +25,9 @@ enum : std::size_t { kArea, kFlat, kFlatX, kFlatY, kFlatYy, kVolume, kMomentX, k
 
 constexpr double kPartsDiffer = 1e-13;  ///< of the size, to the power of the dimension
 constexpr int kMostHalvingsOfParts = 10;
+/// The plane that tells wet cells from dry ones lies this far below the water, of the size and of
+/// the rounding of heights: a face in the waterplane is dry, and not cut.
+constexpr double kBelowOfSize = 1e-12, kBelowOfRounding = 16.0;
 
 Integrals operator+(Integrals a, const Integrals& b) {
   for (std::size_t i = 0; i < kIntegrals; ++i) a[i] += b[i];
@@ -311,7 +314,8 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
       std::max({std::abs(box.low.z), std::abs(box.high.z), std::abs(options.water)});
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * largest;
   const CutPlane plane{{0.0, 0.0, 1.0}, options.water};
-  const CutPlane decided{plane.normal, options.water - std::max(1e-12 * size, 16.0 * rounding)};
+  const double below = std::max(kBelowOfSize * size, kBelowOfRounding * rounding);
+  const CutPlane decided{plane.normal, options.water - below};
   const PlaneFoot foot(plane, 0.25 * rounding);
   const double middle_y = options.mirror ? 0.0 : box.middle().y;
   const Vec3 origin{box.middle().x, middle_y, options.water};

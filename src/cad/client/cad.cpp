@@ -12,6 +12,7 @@
 #include "helper_file.h"
 #include "helper_message.h"
 #include "helper_process.h"
+#include "obvid/core/internal/watch.h"
 #include "obvid/exchange/internal/step/write.h"
 
 namespace obvid {
@@ -80,12 +81,11 @@ Result<std::string> cad_text(const std::vector<CadCurve>& curves, const CadWrite
                              const CadRun& run) {
   if (options.format == CadFormat::kStepAp214 || options.format == CadFormat::kStepAp242) {
     const bool ap242 = options.format == CadFormat::kStepAp242;
-    RunContext context;
-    context.cancelled = run.cancelled;
+    Watch watch(RunContext{{}, run.cancelled});
     return step_text(
         curves,
         {ap242 ? StepSchema::kAp242 : StepSchema::kAp214, options.units, options.face_width},
-        context);
+        &watch);
   }
   return asked(cad::WriteCurves{curves, options}, "", run, &cad::unpacked_text);
 }

@@ -116,6 +116,7 @@ class TrimReader {
     out.at = {own_u_.at((p.X() - u_.from) / u_.length()),
               own_v_.at((p.Y() - v_.from) / v_.length())};
     constexpr int kMostSteps = 30;
+    constexpr double kOnPatch = 1e-15;  // of the size: nearer than coordinates tell
     for (int k = 0; k <= kMostSteps; ++k) {
       const SurfaceJet jet = evaluate(patch_, out.at.x, out.at.y);
       const Vec3 off = point - jet.point;
@@ -126,7 +127,7 @@ class TrimReader {
         return det > 0.0 ? Vec2{(g * a - f * b) / det, (e * b - f * a) / det} : Vec2{};
       };
       out.off = norm(off);
-      if (k == kMostSteps || out.off <= 1e-15 * size_ || !(det > 0.0)) {
+      if (k == kMostSteps || out.off <= kOnPatch * size_ || !(det > 0.0)) {
         out.d1 = solved(along);
         return out;
       }

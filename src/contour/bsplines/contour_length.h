@@ -12,7 +12,7 @@ class ContourLength {
   explicit ContourLength(const Contour& contour) : contour_(contour), path_(contour.pieces) {}
   /// Worth nothing when it was cancelled.
   ContourLength(const Contour& contour, Watch& watch)
-      : contour_(contour), path_(contour.pieces, kFinestLength, watch) {}
+      : contour_(contour), path_(contour.pieces, kFinestLength, &watch) {}
 
   /// Arc length from the start of the contour.
   [[nodiscard]] double at(double place) const {

@@ -145,8 +145,7 @@ Result<std::vector<CurveSample>> sample(std::span<const Piece> pieces, const Sam
   if (pieces.empty()) {
     return error(ErrorCode::kNothingThere, "there is no curve to sample");
   }
-  Watch nobody;
-  const ContourPath path(pieces, kFinestLength, watch != nullptr ? *watch : nobody);
+  const ContourPath path(pieces, kFinestLength, watch);
   const Questions questions(watch);
   if (has_ended(watch)) return fail(cancelled_error());
   if (options.count) {

@@ -39,9 +39,7 @@ template <class Value>
 /// Cancelled, it leaves out what comes then.
 class StepFile {
  public:
-  explicit StepFile(const RunContext& run = {}) : watch_(run), questions_(&watch_) {}
-  StepFile(const StepFile&) = delete;
-  StepFile& operator=(const StepFile&) = delete;
+  explicit StepFile(Watch* watch) : questions_(watch) {}
 
   /// Of one of many: whether what comes is left out.
   [[nodiscard]] bool has_ended() { return questions_.end(); }
@@ -54,7 +52,6 @@ class StepFile {
  private:
   std::string data_;
   int count_ = 0;
-  Watch watch_;
   Questions questions_;
 };
 

@@ -56,12 +56,12 @@ SchemaText schema_text(StepSchema schema) {
 class StepDocument {
  public:
   StepDocument(std::string name, const StepOptions& options, const StepUnit& unit, double mm,
-               const RunContext& run)
+               Watch* watch)
       : name_(std::move(name)),
         options_(options),
         unit_(unit),
         mm_(mm),
-        file_(run),
+        file_(watch),
         curves_(file_) {}
 
   std::string run(const std::vector<StepChain>& chains, const std::vector<SpaceCurve>& spatial,
@@ -166,7 +166,7 @@ class StepDocument {
 }  // namespace
 
 Result<std::string> step_text(const std::vector<CadCurve>& curves, const StepOptions& options,
-                              const RunContext& run) {
+                              Watch* watch) {
   const std::string_view written = cad_unit(options.units);
   const auto known = unit_ratio(Units(options.units), "mm", "STEP files");
   OBVID_TRY(known);
@@ -195,9 +195,9 @@ Result<std::string> step_text(const std::vector<CadCurve>& curves, const StepOpt
     chains.push_back(std::move(*chain));
   }
   const std::string& name = curves.front().name;
-  std::string text = StepDocument(name.empty() ? "contour" : name, options, *unit, mm, run)
+  std::string text = StepDocument(name.empty() ? "contour" : name, options, *unit, mm, watch)
                          .run(chains, spatial, scale * options.face_width);
-  OBVID_TRY(may_go_on(run));
+  if (is_to_end(watch)) return fail(cancelled_error());
   return text;
 }
 

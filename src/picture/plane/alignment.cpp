@@ -177,8 +177,8 @@ void profile_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentDia
       high = std::max(high, p.y);
     }
   }
-  // level ground gets an axis that shows that it is
-  const double least = 1e-3 * (profile.end_station - places.front().x);
+  constexpr double kLeastHeights = 1e-3;  // of the stations: level ground is seen to be level
+  const double least = kLeastHeights * (profile.end_station - places.front().x);
   if (high - low < least) {
     low -= 0.5 * least;
     high += 0.5 * least;

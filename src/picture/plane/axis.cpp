@@ -17,6 +17,8 @@ constexpr double kFewDecades = 3.2;
 /// Numbers between these are written without a power of ten.
 constexpr double kPlainFrom = 0.999e-4;
 constexpr double kPlainTo = 1e6;
+/// Steps and lowest ticks below this, a little under 0.001, are told by powers of ten.
+constexpr double kPlainStep = 0.9e-3;
 /// Most decades with a label each.
 constexpr double kManyDecades = 7.0;
 
@@ -42,7 +44,7 @@ double step_for(double range, int wanted) {
 /// Power of ten that keeps labels short: 0 while plain decimals do.
 int exponent_for(double largest, double step) {
   if (largest <= 0.0) return 0;
-  if (largest < 1e6 && step > 0.9e-3) return 0;
+  if (largest < kPlainTo && step > kPlainStep) return 0;
   return 3 * static_cast<int>(std::floor(std::log10(largest) / 3.0));
 }
 
@@ -98,7 +100,7 @@ PictureAxis log_axis(double low, double high) {
   const int every = std::max(1, static_cast<int>(std::ceil(decades / kManyDecades)));
   const int first = static_cast<int>(std::floor(std::log10(low)));
   const int last = static_cast<int>(std::floor(std::log10(high)));
-  const bool plain = low >= 0.9e-3 && high <= 1e6;
+  const bool plain = low >= kPlainStep && high <= kPlainTo;
   axis.exponent =
       plain ? 0
             : 3 * static_cast<int>(std::floor(std::log10(std::sqrt(low) * std::sqrt(high)) / 3.0));

@@ -48,10 +48,10 @@ std::size_t steps_for(const Piece& piece, std::size_t pieces, double diagonal) {
   return std::max(usual, long_piece);
 }
 
-void sample_pieces(PictureTrack& track, Watch& watch) {
+void sample_pieces(PictureTrack& track, Watch* watch) {
   const double diagonal = track.box.diagonal();
   const ContourPath path(track.pieces, kLengthAccuracy, watch);
-  Questions questions(&watch);
+  Questions questions(watch);
   track.length = path.length();
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {
     const Piece& piece = track.pieces[i];
@@ -70,8 +70,8 @@ void sample_pieces(PictureTrack& track, Watch& watch) {
 }
 
 /// The longest tooth is that of the curve, not of the sample beside it.
-void refine_largest(PictureTrack& track, Watch& watch) {
-  Questions questions(&watch);
+void refine_largest(PictureTrack& track, Watch* watch) {
+  Questions questions(watch);
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {
     if (questions.end()) return;
     std::vector<double> at;
@@ -231,8 +231,6 @@ std::vector<double> curvature_change(const PictureTrack& track) {
 }  // namespace
 
 PictureTrack make_track(const Contour& contour, Watch* watch) {
-  Watch nobody;
-  Watch& asked = watch != nullptr ? *watch : nobody;
   PictureTrack track;
   if (!contour.pieces.empty()) {
     track.reference = start_point(contour.pieces.front());
@@ -250,9 +248,9 @@ PictureTrack make_track(const Contour& contour, Watch* watch) {
     track.box.add(track.points.back());
   }
   track.runs_tell = promises_monotone(contour.carrier);
-  sample_pieces(track, asked);
-  if (asked.was_cancelled()) return track;
-  refine_largest(track, asked);
+  sample_pieces(track, watch);
+  if (has_ended(watch)) return track;
+  refine_largest(track, watch);
   set_directions(track, contour.runs);
   set_corners(track, contour);
   find_vertices(track);

@@ -23,7 +23,8 @@ bool ahead(const Station& a, const Station& b) {
 /// Stations in order; the last one lies at the end of the last piece.
 class Stations {
  public:
-  Stations(const Contour& contour, Watch* watch) : contour_(contour), questions_(watch, 16) {}
+  Stations(const Contour& contour, Watch* watch)
+      : contour_(contour), questions_(watch, kFeetBetweenQuestions) {}
 
   std::vector<Station> run() {
     const std::size_t n = contour_.pieces.size();
@@ -89,6 +90,7 @@ class Stations {
     return best;
   }
 
+  static constexpr std::size_t kFeetBetweenQuestions = 16;
   /// Pieces this much farther than the nearest one so far lead away from the point.
   static constexpr double kPassed = 8.0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once  // reentrant: docs/threads.md
+#pragma once
 
 #include <cstddef>
 

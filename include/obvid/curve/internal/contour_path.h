@@ -56,9 +56,9 @@ class PieceLength {
 /// Pieces in a row by their arc length. They must outlive the path.
 class ContourPath {
  public:
-  explicit ContourPath(std::span<const Piece> pieces, double accuracy = kFinestLength);
-  /// The same under watch: cancelled, all pieces behind have length 0.
-  ContourPath(std::span<const Piece> pieces, double accuracy, Watch& watch);
+  /// Cancelled, all pieces behind have length 0.
+  explicit ContourPath(std::span<const Piece> pieces, double accuracy = kFinestLength,
+                       Watch* watch = nullptr);
   /// E402 where a piece has a cusp (`index`: the piece, `value`: its parameter there).
   [[nodiscard]] static Result<ContourPath> without_cusps(std::span<const Piece> pieces,
                                                          double accuracy = kFinestLength);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
-#include "obvid/core/run_context.h"
 #include "obvid/exchange/internal/cad_curve.h"
 
 namespace obvid {
@@ -32,6 +32,6 @@ struct StepOptions {
 /// one; E103; E101 pieces that do not meet, and knots, points and weights that make no NURBS curve.
 [[nodiscard]] Result<std::string> step_text(const std::vector<CadCurve>& curves,
                                             const StepOptions& options = {},
-                                            const RunContext& run = {});
+                                            Watch* watch = nullptr);
 
 }  // namespace obvid
