@@ -132,10 +132,17 @@ Real Course::resolution() const {
 }
 
 /// Joints inside a part where a new direction begins, corners too. The vertex of arcs is a whole
-/// arc: there the runs of the file say which of its ends counts (the runs are judged on their own).
+/// arc: there the runs of the file say which of its ends counts (the runs are judged on their own;
+/// one of constant curvature turns nothing).
 std::vector<Real> Course::cuts_of(Real from, Real to, bool all_joints) const {
   std::vector<Real> out{from};
-  int before = 0;
+  int before = 0, run_before = 0;
+  const auto run_direction = [&](std::size_t piece) {
+    const auto run = std::find_if(file.runs.begin(), file.runs.end(), [piece](const FileRun& r) {
+      return r.first <= piece && piece <= r.last;
+    });
+    return run == file.runs.end() ? 0 : run->direction;
+  };
   for (auto i = static_cast<std::size_t>(from); static_cast<Real>(i) < to; ++i) {
     const bool inner = static_cast<Real>(i) > from;
     bool turns = inner && file.parted_at(i);
@@ -146,9 +153,11 @@ std::vector<Real> Course::cuts_of(Real from, Real to, bool all_joints) const {
       turns = turns || (inner && before != 0 && sign != before);
       before = sign;
     }
-    if (file.carrier == "arcs" && inner && !file.parted_at(i)) {
-      turns = std::any_of(file.runs.begin(), file.runs.end(),
-                          [i](const FileRun& run) { return run.first == i; });
+    if (file.carrier == "arcs") {
+      const int run = run_direction(i);
+      if (inner && !file.parted_at(i)) turns = run * run_before < 0;
+      if (file.parted_at(i)) run_before = 0;
+      if (run != 0) run_before = run;
     }
     if (turns || (all_joints && inner)) out.push_back(static_cast<Real>(i));
   }

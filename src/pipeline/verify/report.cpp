@@ -157,18 +157,25 @@ class PartMeasure {
     }
   }
 
-  /// Arcs come in pairs between elements of the spirals.
+  /// Arcs come in pairs between elements of the spirals; both ends of a pair are elements.
   void bound_arcs(const Part& part, SegmentReport& row) const {
+    std::size_t last_element = part.first_piece;  // joint with the last element that was counted
+    const auto insert_at = [&](std::size_t joint) {
+      if (joint == last_element || joint > part.last_piece) return;
+      ++row.inserted;
+      last_element = joint;
+    };
     for (std::size_t k = part.first_piece; k <= part.last_piece; ++k) {
       if (direction_[k] == 0 || k == part.last_piece) continue;
-      row.inserted += k > part.first_piece ? 1 : 0;
+      insert_at(k);
       const double turn = turning_both_ways(contour_.pieces[k], 0.0, 1.0) +
                           turning_both_ways(contour_.pieces[k + 1], 0.0, 1.0);
       if (turn < std::numbers::pi) {
         row.width = std::max(row.width, arc_pair_width(k));
       } else {  // the joint is an element too: an arc is its own region
-        ++row.inserted;
+        insert_at(k + 1);
       }
+      insert_at(k + 2);
       ++k;
     }
   }
