@@ -36,8 +36,9 @@ constexpr double kRoom = 2e-3, kRefused = 1.1e-3;
 constexpr double kLoop = -1.0;  ///< stands for the room of a loop
 /// Closed-form margin with which the chain carries a link in one piece.
 constexpr double kOnePiece = 0.02;
-/// Newton steps times links, some microseconds each: the search gives up beyond.
-constexpr double kWork = 200'000.0, kWorkPerLink = 14'000.0;
+/// Newton steps times links, some microseconds each: the search gives up beyond, within a few
+/// seconds.
+constexpr double kWork = 200'000.0, kWorkPerLink = 14'000.0, kMostWork = 1'000'000.0;
 
 /// What a window of a draft came to.
 struct Trial {
@@ -164,7 +165,8 @@ class Mender {
 
   [[nodiscard]] bool worn_out() const {
     return !watch_.may_go_on() ||
-           work_ > kWork + kWorkPerLink * static_cast<double>(series_.points.size());
+           work_ > std::min(kMostWork,
+                            kWork + kWorkPerLink * static_cast<double>(series_.points.size()));
   }
 
   /// Changes the directions around the trouble that `last_` names. False when nothing helps.

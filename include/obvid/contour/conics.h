@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"
@@ -105,8 +106,10 @@ struct KeptByConics {
 /// Frees the headings: elements at the same points, as near to the given ones as was found, over
 /// which `conic_chain` is elliptic and monotone, curvature growing and falling where that of the
 /// given elements does. For elements of a convex spiral contour. Gauss-Newton, O(n) per step.
-/// Errors: E304, E401 as above (an inflection is one); E501 no such headings were found.
+/// Errors: E304, E401 as above (an inflection is one); E501 no such headings were found, or `watch`
+/// ended the search: each step is work of one unit per element.
 [[nodiscard]] Result<std::vector<Element>> headings_for_conics(const std::vector<Element>& elements,
-                                                               const KeptByConics& kept = {});
+                                                               const KeptByConics& kept = {},
+                                                               Watch* watch = nullptr);
 
 }  // namespace obvid

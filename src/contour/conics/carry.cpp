@@ -91,13 +91,16 @@ Result<Carried> carry_conics(const Contour& spirals, const CarryOptions& options
   Carried out{like(spirals, Carrier::kConics), {}};
   std::vector<Joint> joints = spirals.joints;
   GivenToConics kept = given_to_conics(joints, given);
-  auto freed = headings_for_conics(elements_of(joints), {kept.headings, kept.curvature});
+  auto freed =
+      headings_for_conics(elements_of(joints), {kept.headings, kept.curvature}, &options.watch);
   int parts = 1;
-  while (!freed && freed.error().code == ErrorCode::kNotProved && parts < kMostParts) {
+  while (!freed && freed.error().code == ErrorCode::kNotProved && parts < kMostParts &&
+         options.watch.may_go_on()) {
     parts *= 2;
     joints = joints_on(spirals, parts);
     kept = given_to_conics(joints, given);
-    freed = headings_for_conics(elements_of(joints), {kept.headings, kept.curvature});
+    freed =
+        headings_for_conics(elements_of(joints), {kept.headings, kept.curvature}, &options.watch);
   }
   if (!freed && freed.error().code != ErrorCode::kNotProved) {
     return at_point(freed.error(), spirals, freed.error().index / parts, kOtherCarriers);

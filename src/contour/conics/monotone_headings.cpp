@@ -107,8 +107,8 @@ class BandedNormal {
 class HeadingSearch {
  public:
   HeadingSearch(const std::vector<Element>& elements, const std::vector<conics::Link>& links,
-                const KeptByConics& kept)
-      : given_(elements), kept_(2 * elements.size(), false) {
+                const KeptByConics& kept, Watch* watch)
+      : given_(elements), kept_(2 * elements.size(), false), watch_(watch) {
     for (std::size_t i = 0; i < kept.headings.size(); ++i) kept_[2 * i] = kept.headings[i];
     if (kept.curvature) kept_[2 * *kept.curvature + 1] = true;
     for (std::size_t i = 0; i < links.size(); ++i) add_segment(i, links[i].triangle);
@@ -129,17 +129,19 @@ class HeadingSearch {
   }
 
  private:
-  /// Gauss-Newton steps, halved until they help. False where the start is outside all triangles.
+  /// Gauss-Newton steps, halved until they help. False where the start is outside all triangles,
+  /// and where the watch says to stop.
   bool descend() {
-    double merit = merit_of(unknowns_);
+    double merit = merit_of(unknowns_, INFINITY);
     if (!std::isfinite(merit)) return false;
     for (int step = 0; step < kMostSteps; ++step) {
+      if (watch_ != nullptr && !watch_->spend(static_cast<double>(given_.size()))) return false;
       const std::vector<double> move = newton_move();
       double part = 1.0;
       int halvings = 0;
       for (; halvings < kMostHalvings; ++halvings, part *= 0.5) {
         const auto next = moved(move, part);
-        const double there = merit_of(next);
+        const double there = merit_of(next, merit);
         if (!(there < merit)) continue;
         unknowns_ = next;
         merit = there;
@@ -208,8 +210,9 @@ class HeadingSearch {
     return pull_ / (s.room * s.angle);
   }
 
-  /// Sum of squares; infinite where a segment has no triangle or no range.
-  [[nodiscard]] double merit_of(const std::vector<double>& x) const {
+  /// Sum of squares; infinite where a segment has no triangle or no range, and once it is not less
+  /// than `limit`.
+  [[nodiscard]] double merit_of(const std::vector<double>& x, double limit) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       const Segment& s = segments_[i];
@@ -217,6 +220,7 @@ class HeadingSearch {
       if (!(p > 0.0 && q > 0.0 && p + q < 0.5 * std::numbers::pi)) return INFINITY;
       const auto r = residuals(s, logs_of(s, p, q), x[2 * i + 1], x[2 * i + 3]);
       sum += r.joint * r.joint + r.weight * r.weight;
+      if (!(sum < limit)) return INFINITY;
     }
     for (std::size_t i = 0; i < given_.size(); ++i) {
       const double away = pull_weight(i) * (x[2 * i] - given_[i].theta);
@@ -231,21 +235,22 @@ class HeadingSearch {
     constexpr double kDifference = 1e-5;  // of the smaller angle: 1e-10 of a slope is left
     const double d = kDifference * std::min(p, q);
     const Logs here = logs_of(s, p, q);
-    const auto slope = [&](double Logs::*m, bool by_start) {
-      const Logs above = logs_of(s, p + (by_start ? d : 0.0), q + (by_start ? 0.0 : d));
-      const Logs below = logs_of(s, p - (by_start ? d : 0.0), q - (by_start ? 0.0 : d));
-      return (by_start ? -s.turning : s.turning) * (above.*m - below.*m) / (2.0 * d);
+    const auto slopes = [&](const Logs& above, const Logs& below, int side) {
+      const double per = side / (2.0 * d);
+      return Logs{per * (above.curvature_ratio - below.curvature_ratio),
+                  per * (above.weighted - below.weighted), per * (above.middle - below.middle)};
     };
+    const Logs by_start = slopes(logs_of(s, p + d, q), logs_of(s, p - d, q), -s.turning);
+    const Logs by_end = slopes(logs_of(s, p, q + d), logs_of(s, p, q - d), s.turning);
     const auto r = residuals(s, here, unknowns_[2 * i + 1], unknowns_[2 * i + 3]);
     const double joint = joint_weight_ / s.room, weight = 1.0 / s.room;
-    system.add<4>(2 * i,
-                  {-joint * slope(&Logs::curvature_ratio, true), -joint,
-                   -joint * slope(&Logs::curvature_ratio, false), joint},
-                  r.joint);
-    const auto both = [&](bool by_start) {
-      return weight * (slope(&Logs::weighted, by_start) - slope(&Logs::middle, by_start));
-    };
-    system.add<3>(2 * i, {both(true), -weight, both(false)}, r.weight);
+    system.add<4>(
+        2 * i, {-joint * by_start.curvature_ratio, -joint, -joint * by_end.curvature_ratio, joint},
+        r.joint);
+    system.add<3>(2 * i,
+                  {weight * (by_start.weighted - by_start.middle), -weight,
+                   weight * (by_end.weighted - by_end.middle)},
+                  r.weight);
   }
 
   [[nodiscard]] std::vector<double> newton_move() const {
@@ -278,6 +283,7 @@ class HeadingSearch {
   std::vector<Segment> segments_;
   std::vector<double> unknowns_;
   double pull_ = 0.0, joint_weight_ = 0.0;
+  Watch* watch_;
 };
 
 /// Whether each conic's curvature changes as it does between the given elements.
@@ -293,7 +299,7 @@ bool same_directions(const std::vector<RationalBezier>& pieces,
 }  // namespace
 
 Result<std::vector<Element>> headings_for_conics(const std::vector<Element>& elements,
-                                                 const KeptByConics& kept) {
+                                                 const KeptByConics& kept, Watch* watch) {
   const auto links = conics::links_over(elements);
   OBVID_TRY(links);
   const auto works = [&](const std::vector<Element>& e) {
@@ -301,7 +307,7 @@ Result<std::vector<Element>> headings_for_conics(const std::vector<Element>& ele
     return chain && chain->elliptic && chain->monotone && same_directions(chain->pieces, elements);
   };
   if (works(elements)) return elements;
-  HeadingSearch search(elements, *links, kept);
+  HeadingSearch search(elements, *links, kept, watch);
   for (const double pull : kPulls) {
     const auto found = search.run(pull);
     if (found && works(*found)) return *found;
