@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "obvid/curve/internal/curvature_extent.h"
 #include "obvid/curve/internal/path_distance.h"
 
 namespace obvid::cutting {
@@ -225,12 +226,10 @@ class Joined {
       p = splines_.last_digit *
           Vec2{std::round(p.x / splines_.last_digit), std::round(p.y / splines_.last_digit)};
     }
-    double kappa = 0.0;
-    for (int k = 0; k <= kCurvatures; ++k) {
-      kappa = std::max(kappa,
-                       std::abs(curvature(evaluate(cubic, static_cast<double>(k) / kCurvatures))));
-    }
-    return feed_for(kappa, rules_);
+    std::vector<double> at;
+    for (int k = 0; k <= kCurvatures; ++k) at.push_back(static_cast<double>(k) / kCurvatures);
+    const CurvatureExtent extent = curvature_extent(cubic, at);
+    return feed_for(std::max(-extent.least, extent.largest), rules_);
   }
 
   std::vector<CutBlock> blocks_, out_;

@@ -13,11 +13,21 @@ using exchange::fixed;
 
 constexpr double kMilliseconds = 1000.0;  // in a second
 
-/// A figure with few decimals, but not 0.
-std::string few_decimals(double value) {
+/// Few decimals, but not 0.
+int decimals_of(double value) {
   constexpr double kLarge = 10.0;
   constexpr int kFew = 1, kMore = 4;
-  return fixed(value, value >= kLarge ? kFew : kMore);
+  return value >= kLarge ? kFew : kMore;
+}
+
+std::string few_decimals(double value) { return fixed(value, decimals_of(value)); }
+
+/// Rounded down: no faster than meant.
+std::string feed_text(double feed) {
+  constexpr double kRounding = 1e-12;  // of the feed: 0.3 is 3000 digits, not 2999.9999999999995
+  const int decimals = decimals_of(feed);
+  const double digits = std::pow(10.0, decimals);
+  return fixed(std::floor(feed * digits * (1.0 + kRounding)) / digits, decimals);
 }
 
 /// Revolutions are whole numbers; power on a scale of 1 is not.
@@ -99,7 +109,7 @@ std::string CutText::height_words(double z) {
 }
 
 std::string CutText::feed_words(double feed) {
-  const std::string words = " F" + few_decimals(feed);
+  const std::string words = " F" + feed_text(feed);
   if (words == feed_) return "";
   feed_ = words;
   return words;

@@ -125,8 +125,8 @@ class Cutting(unittest.TestCase):
         curves = [m for m in program.moves if m.code == 5]
         self.assertTrue(curves)
         for m in curves:
-            bend = max(abs(m.curvature(k / 200)) for k in range(201))
-            self.assertLessEqual((m.feed / 60) ** 2 * bend, 400 * 1.01)
+            bend = max(abs(m.curvature(k / 5000)) for k in range(5001))
+            self.assertLessEqual((m.feed / 60) ** 2 * bend, 400 * (1 + 1e-6))
 
     def test_splines_are_refused_where_they_are_not_known(self):
         one = drawing([Ellipse(0, 0, 40, 8)])
