@@ -442,28 +442,40 @@ Result<std::array<double, 2>> ball_sides_of(const std::array<const SurfacePatch*
   return to_be_told("the faces share no border from corner to corner");
 }
 
-/// Places where the ball touches both faces, one for each crossing of a raster's line.
+/// Places where the ball touches both faces, one for each crossing of a line of a raster on either.
 class WaySearch {
  public:
   WaySearch(const RollingBall& ball, const RunContext& run) : ball_(ball), run_(run) {}
 
   template <class Take>
   Result<void> each(const Take& take) {
-    const BallFace& face = ball_.face(0);
+    for (const std::size_t own : {std::size_t{0}, std::size_t{1}}) {
+      OBVID_TRY(each_from(own, take));
+    }
+    return {};
+  }
+
+ private:
+  /// A place of one face, its centre's foot on the other one, and how far outside the ball that is.
+  struct Node {
+    Vec2 at, other;
+    double off = std::nan("");
+  };
+
+  template <class Take>
+  Result<void> each_from(std::size_t own, const Take& take) {
+    const BallFace& face = ball_.face(own);
     const NurbsSurface& s = face.patch().surface;
-    other_.patches.push_back({"", ball_.face(1).patch().surface});
-    const NearestOnModel nearest(other_);
-    struct Node {
-      Vec2 at, other;
-      double off = std::nan("");
-    };
+    SurfaceModel other;
+    other.patches.push_back({"", ball_.face(1 - own).patch().surface});
+    const NearestOnModel nearest(other);
     const auto node = [&](Vec2 at) {
       Node out{at, {}, std::nan("")};
-      const Vec3 centre = centre_at(at);
+      const Vec3 centre = centre_at(own, at);
       if (!is_finite(centre) || !face.inside(at)) return out;
       const NearestPlace foot = nearest.at(centre);
       out.other = {foot.u, foot.v};
-      out.off = ball_.face(1).side() * foot.off - ball_.radius_at(0.0);
+      out.off = ball_.face(1 - own).side() * foot.off - ball_.radius_at(0.0);
       return out;
     };
     const Range u = domain_u(s), v = domain_v(s);
@@ -480,7 +492,7 @@ class WaySearch {
           if (std::isnan(from.off) || std::isnan(to->off)) continue;
           const double part = from.off / (from.off - to->off);
           const Vec2 at = from.at + part * (to->at - from.at);
-          OBVID_TRY(found(at, part < 0.5 ? from.other : to->other, take));
+          OBVID_TRY(found(own, at, part < 0.5 ? from.other : to->other, take));
         }
       }
       std::swap(before, here);
@@ -488,18 +500,19 @@ class WaySearch {
     return {};
   }
 
- private:
-  [[nodiscard]] Vec3 centre_at(Vec2 at) const {
-    const SurfaceJet jet = ball_.face(0).jet(at);
-    return jet.point + (ball_.radius_at(0.0) * ball_.face(0).side()) * unit(cross(jet.du, jet.dv));
+  [[nodiscard]] Vec3 centre_at(std::size_t own, Vec2 at) const {
+    const BallFace& face = ball_.face(own);
+    const SurfaceJet jet = face.jet(at);
+    return jet.point + (ball_.radius_at(0.0) * face.side()) * unit(cross(jet.du, jet.dv));
   }
 
   template <class Take>
-  Result<void> found(Vec2 at, Vec2 other, const Take& take) {
-    const SurfaceJet a = ball_.face(0).jet(at), b = ball_.face(1).jet(other);
+  Result<void> found(std::size_t own, Vec2 at, Vec2 other, const Take& take) {
+    const std::array<Vec2, 2> places = own == 0 ? std::array{at, other} : std::array{other, at};
+    const SurfaceJet a = ball_.face(0).jet(places[0]), b = ball_.face(1).jet(places[1]);
     const Vec3 normal = unit(cross(cross(a.du, a.dv), cross(b.du, b.dv)));
     if (!(norm(normal) > 0.0)) return {};
-    const auto place = ball_.in_plane({at, other}, 0.0, centre_at(at), normal);
+    const auto place = ball_.in_plane({places[0], places[1]}, 0.0, centre_at(own, at), normal);
     if (!place || !ball_.face(0).inside(place->touch[0].at) ||
         !ball_.face(1).inside(place->touch[1].at)) {
       return {};
@@ -509,7 +522,6 @@ class WaySearch {
 
   const RollingBall& ball_;
   const RunContext& run_;
-  SurfaceModel other_;
 };
 
 double distance_from_way(const BallWay& way, Vec3 p) {

@@ -66,7 +66,7 @@ class PatchTrimmer {
   }
 
   Result<TrimmedPatch> made(const std::vector<CutLine>& lines) {
-    find_crossings();
+    find_crossings(lines);
     for (const CutLine& line : lines) {
       if (line.closed && patch_.trims.empty()) {
         closed_.push_back(line.places);
@@ -124,12 +124,50 @@ class PatchTrimmer {
     return distinct(std::move(out));
   }
 
-  void find_crossings() {
+  /// With a place between each two that lines of the cut meet, so that both crossings are seen
+  /// however near to each other they are.
+  [[nodiscard]] static std::vector<double> with_places_between(const NurbsCurve& curve,
+                                                               std::vector<double> places,
+                                                               const std::vector<CutLine>& lines) {
+    std::vector<double> met;
+    Vec2 a = evaluate(curve, places.front()).point;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      const Vec2 b = evaluate(curve, places[i]).point;
+      for (const CutLine& line : lines) {
+        for (std::size_t k = 0; k + (line.closed ? 0 : 1) < line.places.size(); ++k) {
+          const auto part =
+              part_met(a, b, line.places[k], line.places[(k + 1) % line.places.size()]);
+          if (part) met.push_back(places[i - 1] + *part * (places[i] - places[i - 1]));
+        }
+      }
+      a = b;
+    }
+    std::sort(met.begin(), met.end());
+    for (std::size_t i = 1; i < met.size(); ++i) places.push_back(0.5 * (met[i - 1] + met[i]));
+    std::sort(places.begin(), places.end());
+    return distinct(std::move(places));
+  }
+
+  /// The part of a chord a-b at which it meets the chord p-q.
+  [[nodiscard]] static std::optional<double> part_met(Vec2 a, Vec2 b, Vec2 p, Vec2 q) {
+    constexpr double kBeyond = 1e-6;  // of a chord: lines that end on a border end there but for
+                                      // rounding
+    const Vec2 along = b - a, over = q - p;
+    const double turn = cross(along, over);
+    if (turn == 0.0) return std::nullopt;
+    const double part = cross(p - a, over) / turn, beside = cross(p - a, along) / turn;
+    if (std::abs(part - 0.5) > 0.5 + kBeyond || std::abs(beside - 0.5) > 0.5 + kBeyond) {
+      return std::nullopt;
+    }
+    return std::clamp(part, 0.0, 1.0);
+  }
+
+  void find_crossings(const std::vector<CutLine>& lines) {
     for (std::size_t l = 0; l < loops_.size(); ++l) {
       for (std::size_t c = 0; c < loops_[l].curves.size(); ++c) {
         const NurbsCurve& curve = loops_[l].curves[c];
         const auto value = [&](double t) { return kept_value(evaluate(curve, t).point); };
-        const std::vector<double> places = places_of(curve);
+        const std::vector<double> places = with_places_between(curve, places_of(curve), lines);
         double before = value(places.front());
         // between the end of one curve and the begin of the next nothing lies, but rounding may
         if (last_ && (*last_ < 0.0) != (before < 0.0)) add(l, c, places.front(), before >= 0.0);

@@ -99,6 +99,35 @@ class Fillets(trims_test.Trims):
                     self.assertAlmostEqual(area / truth, 1.0, delta=2e-5)  # areas of whole patches are good to some 1e-4
                     self.assertTrue(floor["trims"] and wall["trims"])
 
+    def test_many_edges_beside_each_other_are_all_found_whichever_face_is_first(self):
+        """A roof of twelve ridges through a plate: 24 edges, a cylinder along each, and 25 strips of the plate."""
+        periods, r = 12, 0.05
+        ridge = [(0.5 * k, -0.25 if k % 2 == 0 else 0.25) for k in range(2 * periods + 1)]
+        knots = [0.0] + list(range(2 * periods + 1)) + [2.0 * periods]
+        roof = patch("roof", (1, 1), (knots, FLAT), [[x, y, z] for y in (0.0, 2.0) for x, z in ridge])
+        ground = plate("ground", (-1, 0, 0), (13, 0, 0), (-1, 2, 0), (13, 2, 0))
+        lean = r * math.tan(math.pi / 8)  # the centre is above both, beside where they meet
+        axes = [0.25 + 0.5 * k + (-lean if k % 2 == 0 else lean) for k in range(2 * periods)]
+        for faces in ("ground,roof", "roof,ground"):
+            with self.subTest(faces=faces):
+                patches, said, out = self.filleted([ground, roof], "--faces", faces, "--radius", r, "--sides", "front,front")
+                blends = [one for one in patches if one["name"].startswith("blend")]
+                self.assertEqual(len(blends), 2 * periods, said)
+                used = []
+                for blend in blends:
+                    middle = at_surface(blend, 0.5, 0.5)
+                    axis = min(range(len(axes)), key=lambda k: abs(axes[k] - middle[0]))
+                    used.append(axis)
+                    for _, _, p in self.blend_points(blend):
+                        self.assertAlmostEqual(math.hypot(p[0] - axes[axis], p[2] - r), r, delta=1e-9)
+                self.assertEqual(sorted(used), list(range(2 * periods)))
+                # of the plate both ends and what is between neighbours that the roof is below; of the roof what is above
+                area, _ = self.area(out)
+                plate_left = 2.0 * (14.0 - periods * 0.5 - 2 * periods * lean)
+                roof_left = 2.0 * (periods * math.sqrt(2.0) * 0.5 - 2 * periods * lean)
+                blend_area = 2.0 * 2 * periods * r * math.pi / 4
+                self.assertAlmostEqual(area / (plate_left + roof_left + blend_area), 1.0, delta=1e-6)
+
     def test_a_tube_on_a_plate_gives_a_torus(self):
         """Outside the ball's centre runs at R + r, inside at R - r."""
         big, r = 2.0, 0.5
@@ -175,7 +204,7 @@ class Fillets(trims_test.Trims):
             self.run_it("surface", "fillet", source, *options, "-o", self.work / "no.json", code=code)
         source.write_text(json.dumps(model(disc(5.0, 0.0), tube(0.3, 0.0, 4.0))))
         # inside a tube a ball fits that is smaller than it
-        self.run_it("surface", "fillet", source, "--faces", "1,2", "--radius", 0.4, "--sides", "front,back", "-o", self.work / "no.json", code=3)
+        self.run_it("surface", "fillet", source, "--faces", "1,2", "--radius", 0.4, "--sides", "front,back", "-o", self.work / "no.json", code=4)
         told = self.run_it("surface", "fillet", source, "--faces", "1,2", "--radius", 0.1, "-o", self.work / "no.json", code=2)
         self.assertIn("--sides", told.stderr)
         self.assertFalse((self.work / "no.json").exists())

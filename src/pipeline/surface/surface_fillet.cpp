@@ -24,9 +24,9 @@ std::string place_text(Vec3 p) { return fmt::format("at {:.6g} {:.6g} {:.6g}", p
 void add_facts(const std::vector<Fillet>& blends, const std::array<std::string, 2>& names,
                MadeSurface& made) {
   const std::string unit = made.model.units.text();
-  made.facts.emplace_back("found",
-                          fmt::format("{}, of those that cross a cell between 49 x 49 places of {}",
-                                      counted(blends.size(), "blend", "blends"), names[0]));
+  made.facts.emplace_back(
+      "found", fmt::format("{}, of those that cross a cell between 49 x 49 places of either face",
+                           counted(blends.size(), "blend", "blends")));
   for (std::size_t k = 0; k < blends.size(); ++k) {
     const Fillet& one = blends[k];
     const std::string which = blends.size() > 1 ? fmt::format(" {}", k + 1) : "";
@@ -89,7 +89,8 @@ Result<std::size_t> face_named(const SurfaceModel& model, const std::string& nam
     if (names.back() == name) found.push_back(i);
   }
   if (found.size() == 1) return found.front();
-  const auto number = typed_number(name);
+  const bool by_number = !name.empty() && name.front() == '#';  // whatever names there are
+  const auto number = typed_number(by_number ? name.substr(1) : name);
   const auto count = static_cast<double>(names.size());
   if (found.empty() && number && *number >= 1.0 && *number <= count &&
       std::floor(*number) == *number) {
@@ -102,7 +103,7 @@ Result<std::size_t> face_named(const SurfaceModel& model, const std::string& nam
       .hint(found.empty()
                 ? did_you_mean(name, names,
                                fmt::format("give a name, or a number from 1 to {}", names.size()))
-                : fmt::format("give its number, 1 to {}", names.size()));
+                : fmt::format("give its number, #1 to #{}", names.size()));
 }
 
 Result<MadeSurface> made_fillet(const RolledBall& by, const SurfaceJob& job,

@@ -60,8 +60,8 @@ struct Fillet {
 /// coordinates through as many sections as `tolerance` needs. Where one face ends before the other
 /// the blend's end is trimmed.
 ///
-/// Spines are looked for on a raster of 49 x 49 places of the first face: those that cross none of
-/// its cells are missed, and of several within a cell all but one. A hole of a face in the ball's
+/// Spines are looked for on rasters of 49 x 49 places of both faces: those that cross none of
+/// their cells are missed, and of several within a cell all but one. A hole of a face in the ball's
 /// way is refused where one of 31 places between two steps shows it. That the ball touches nothing
 /// but the two places is not looked at elsewhere than near them. Distances, angles and deviation
 /// are measured, not proved.
