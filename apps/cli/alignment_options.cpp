@@ -77,8 +77,8 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
     app.add_option(option.name, raw.*option.text, option.help)->type_name(option.value);
   }
   app.add_option("--transitions", raw.typed.transitions,
-                 "Kind of the transitions between lines and arcs: clothoid, bloss, sine, cosine or "
-                 "helmert [clothoid]")
+                 "Kind of the transitions between lines and arcs: clothoid, bloss, sine, cosine, "
+                 "helmert or cubic (parabola) [clothoid]")
       ->type_name("KIND");
   app.add_option(
          "--deviations", command.deviations,

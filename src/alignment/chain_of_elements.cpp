@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "obvid/alignment/internal/transition_law.h"
 #include "obvid/numeric/internal/banded.h"
 #include "obvid/numeric/internal/gauss.h"
 
@@ -32,12 +33,22 @@ constexpr double kTurn = 0.3;         ///< rad: an element turns by no more in o
 constexpr double kDampingStart = 1e-6, kDampingMost = 1e6, kDampingLeast = 1e-12,
                  kDampingClosing = 1.0;
 
+std::vector<TransitionLaw> laws_of(const Chain& chain) {
+  std::vector<TransitionLaw> out;
+  out.reserve(chain.size());
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    out.emplace_back(chain.law[k], chain.curvature(k, 0), chain.curvature(k, 1), chain.length[k]);
+  }
+  return out;
+}
+
 /// Element at s behind the start of element k.
-Element place_on(const Chain& chain, const std::vector<Element>& joints, std::size_t k, double s) {
+Element place_on(const Chain& chain, const std::vector<TransitionLaw>& laws,
+                 const std::vector<Element>& joints, std::size_t k, double s) {
   const double k0 = chain.curvature(k, 0), k1 = chain.curvature(k, 1);
   const Element start{joints[k].point, joints[k].theta, k0};
   if (chain.law[k] != Transition::kClothoid) {
-    return transition_at(chain.law[k], start, k1, chain.length[k], s);
+    return transition_at(laws[k], start, k1, chain.length[k], s);
   }
   return element_behind(chain.plane, start, (k1 - k0) / chain.length[k], s);
 }
@@ -48,11 +59,23 @@ struct OwnDerivatives {
   double theta_kappa0 = 0.0, theta_kappa1 = 0.0, theta_length = 0.0;
 };
 
-/// These of one element, from its start on: integrals that go on where the place before ended.
+/// These of one element, from its start on: integrals that go on where the place before ended. The
+/// law of a cubic parabola is held: what its own change adds is smaller by the square of its
+/// turning.
 class DerivativesAlong {
  public:
-  DerivativesAlong(Plane plane, Transition law, double theta, double k0, double k1, double length)
-      : plane_(plane), law_(law), theta_(theta), k0_(k0), k1_(k1), length_(length) {}
+  DerivativesAlong(Plane plane, Transition kind, const TransitionLaw& law, double theta, double k0,
+                   double k1, double length)
+      : plane_(plane),
+        linear_(kind == Transition::kClothoid),
+        parts_(linear_                      ? 0.0
+               : kind == Transition::kCubic ? kPartsOfCubic
+                                            : kPartsOfLaw),
+        law_(law),
+        theta_(theta),
+        k0_(k0),
+        k1_(k1),
+        length_(length) {}
 
   /// `s` in [0, length]; cheap where it lies behind the last one.
   OwnDerivatives at(double s) {
@@ -62,17 +85,18 @@ class DerivativesAlong {
     }
     go_on_to(s);
     OwnDerivatives out = sum_;
-    const double square = turned_by(s);
+    const auto [square, stretched] = of_law(s);
     out.theta_kappa0 = s - square;
     out.theta_kappa1 = square;
-    out.theta_length = -(k1_ - k0_) * stretched_by(s, square);
+    out.theta_length = -(k1_ - k0_) * stretched;
     return out;
   }
 
   /// At the end, which moves on as the element grows.
   OwnDerivatives at_end() {
     OwnDerivatives out = at(length_);
-    out.length = out.length + forward(plane_, theta_ + 0.5 * (k0_ + k1_) * length_);
+    out.length =
+        out.length + forward(plane_, theta_ + k0_ * length_ + (k1_ - k0_) * of_law(length_).square);
     out.theta_length += k1_;
     return out;
   }
@@ -80,24 +104,27 @@ class DerivativesAlong {
  private:
   static constexpr std::size_t kNodes = 4;
   static constexpr double kTurnOfPart = 0.5;  ///< rad: four nodes are exact to 1e-11 up to here
-  /// Parts of an element whose law is no polynomial of low degree, or has a corner in its middle.
-  static constexpr double kPartsOfLaw = 16.0;
+  /// Parts of an element whose law waves, or has a corner in its middle; of a cubic parabola.
+  static constexpr double kPartsOfLaw = 16.0, kPartsOfCubic = 2.0;
 
-  [[nodiscard]] bool linear() const { return law_ == Transition::kClothoid; }
-  [[nodiscard]] double turned_by(double u) const {
-    return linear() ? u * u / (2.0 * length_) : length_ * transition_turn(law_, u / length_);
-  }
-  [[nodiscard]] double stretched_by(double u, double square) const {
-    return linear() ? square / length_
-                    : (u * transition_share(law_, u / length_) - square) / length_;
+  /// What the heading changes by with the end's curvature, and what that does as the element grows.
+  struct OfLaw {
+    double square, stretched;
+  };
+  [[nodiscard]] OfLaw of_law(double u) const {
+    if (linear_) {
+      const double square = u * u / (2.0 * length_);
+      return {square, square / length_};
+    }
+    const TransitionLaw::Place place = law_.at(u / length_);
+    return {length_ * place.turn, u / length_ * place.share - place.turn};
   }
 
   void go_on_to(double s) {
     const double way = s - s_;
     if (!(way > 0.0)) return;
     const double turn = (std::abs(k0_) + std::abs(k1_)) * way;
-    const double of_law = linear() ? 0.0 : kPartsOfLaw * way / length_;
-    const int parts = 1 + static_cast<int>(turn / kTurnOfPart + of_law);
+    const int parts = 1 + static_cast<int>(turn / kTurnOfPart + parts_ * way / length_);
     const double h = way / parts;
     for (int part = 0; part < parts; ++part) {
       const double middle = s_ + (part + 0.5) * h;
@@ -105,18 +132,20 @@ class DerivativesAlong {
         const double node = GaussRule<kNodes>::kNode[i / 2] * (i % 2 == 0 ? 0.5 : -0.5);
         const double u = middle + node * h;
         const double weight = 0.5 * h * GaussRule<kNodes>::kWeight[i / 2];
-        const double square = turned_by(u);
+        const auto [square, stretched] = of_law(u);
         const Vec2 side = sideways(plane_, theta_ + k0_ * u + (k1_ - k0_) * square);
         sum_.kappa0 = sum_.kappa0 + weight * (u - square) * side;
         sum_.kappa1 = sum_.kappa1 + weight * square * side;
-        sum_.length = sum_.length - weight * (k1_ - k0_) * stretched_by(u, square) * side;
+        sum_.length = sum_.length - weight * (k1_ - k0_) * stretched * side;
       }
     }
     s_ = s;
   }
 
   Plane plane_;
-  Transition law_;
+  bool linear_;
+  double parts_;  ///< that the law asks for, of a whole element
+  TransitionLaw law_;
   double theta_, k0_, k1_, length_;
   double s_ = 0.0;
   OwnDerivatives sum_;
@@ -258,10 +287,11 @@ class Fitter {
 
   void set_whole() {
     joints_ = chain_.joints();
+    laws_ = laws_of(chain_);
     whole_.clear();
     along_.clear();
     for (std::size_t k = 0; k < chain_.size(); ++k) {
-      const DerivativesAlong along(chain_.plane, chain_.law[k], joints_[k].theta,
+      const DerivativesAlong along(chain_.plane, chain_.law[k], laws_[k], joints_[k].theta,
                                    chain_.curvature(k, 0), chain_.curvature(k, 1),
                                    chain_.length[k]);
       along_.push_back(along);
@@ -287,7 +317,7 @@ class Fitter {
     };
     for (std::size_t i = 0; i < feet_.size(); ++i) {
       const Foot& foot = feet_[i];
-      const Element at = place_on(chain_, joints_, foot.element, foot.s);
+      const Element at = place_on(chain_, laws_, joints_, foot.element, foot.s);
       row_of(foot.element, foot.s, at, left_normal(forward(chain_.plane, at.theta)), row);
       double weight = 1.0 / (tolerance_[i] * tolerance_[i]);
       if (power > 2.0)
@@ -316,18 +346,14 @@ class Fitter {
       conditions_.push_back({row, dot(direction, points_[i] - at.point)});
     };
     if (!held_.start) along(0, false);
-    if (held_.end || held_.closed) {
-      const Element goal = held_.end ? *held_.end : joints_.front();
+    if (held_.end) {
+      const Element goal = *held_.end;
       for (const Vec2 axis : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
         row_of(chain_.size(), 0.0, end, axis, row);
-        if (held_.closed && !held_.start) {
-          row[0] -= axis.x;
-          row[1] -= axis.y;
-        }
         conditions_.push_back({row, dot(axis, goal.point - end.point)});
       }
       std::fill(row.begin(), row.end(), 0.0);
-      if (!held_.start && !held_.closed) row[2] = 1.0;
+      if (!held_.start) row[2] = 1.0;
       for (std::size_t k = 0; k < chain_.size(); ++k) {
         const auto put = [&](std::size_t column, double turn) {
           if (column != kNone) row[column] += turn;
@@ -468,11 +494,11 @@ class Fitter {
       gap = std::max(gap, std::abs(dot(direction, point - at.point)));
     };
     if (!held_.start) along(joints.front(), points_.front());
-    if (!held_.end && !held_.closed) {
+    if (!held_.end) {
       along(joints.back(), points_.back());
       return gap;
     }
-    const Element goal = held_.end ? *held_.end : joints.front();
+    const Element goal = *held_.end;
     double length = 0.0;
     for (const double l : chain.length) length += l;
     const double turn = turn_between(chain.plane, joints.back().theta, goal.theta);
@@ -539,6 +565,7 @@ class Fitter {
   double closed_ = 0.0;  ///< units: a gap that counts as none
   std::vector<std::size_t> column_;
   std::vector<Element> joints_;
+  std::vector<TransitionLaw> laws_;
   std::vector<OwnDerivatives> whole_;
   std::vector<DerivativesAlong> along_;  ///< of each element
   std::vector<double> matrix_, right_, scale_, largest_steps_;
@@ -552,11 +579,14 @@ std::vector<Element> Chain::joints() const {
   for (std::size_t k = 0; k < size(); ++k) {
     const double k0 = curvature(k, 0), k1 = curvature(k, 1);
     const Element& from = out.back();
-    const Vec2 end = law[k] == Transition::kClothoid
-                         ? from.point + step_along(plane, from.theta, k0, k1, length[k])
-                         : transition_at(law[k], from, k1, length[k], length[k]).point;
-    out.push_back(
-        {end, from.theta + 0.5 * (k0 + k1) * length[k], k + 1 < size() ? curvature(k + 1, 0) : k1});
+    const double next = k + 1 < size() ? curvature(k + 1, 0) : k1;
+    if (law[k] == Transition::kClothoid) {
+      out.push_back({from.point + step_along(plane, from.theta, k0, k1, length[k]),
+                     from.theta + 0.5 * (k0 + k1) * length[k], next});
+    } else {
+      const Element end = transition_at(law[k], from, k1, length[k], length[k]);
+      out.push_back({end.point, end.theta, next});
+    }
   }
   return out;
 }
@@ -564,6 +594,7 @@ std::vector<Element> Chain::joints() const {
 void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<Foot>& feet) {
   constexpr int kNewton = 12;
   const std::vector<Element> joints = chain.joints();
+  const std::vector<TransitionLaw> laws = laws_of(chain);
   for (std::size_t i = 0; i < points.size(); ++i) {
     Foot& foot = feet[i];
     for (int step = 0; step < kNewton; ++step) {
@@ -571,7 +602,7 @@ void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<
         foot.s -= chain.length[foot.element++];
       }
       while (foot.s < 0.0 && foot.element > 0) foot.s += chain.length[--foot.element];
-      const Element at = place_on(chain, joints, foot.element, foot.s);
+      const Element at = place_on(chain, laws, joints, foot.element, foot.s);
       const Vec2 away = points[i] - at.point;
       foot.offset = cross(forward(chain.plane, at.theta), away);
       foot.along = dot(lengthwise(chain.plane, at.theta), away);

@@ -51,7 +51,6 @@ void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<
 struct Held {
   bool start = false;            ///< the pose at the start
   std::optional<Element> end{};  ///< the pose at the end: point and heading
-  bool closed = false;           ///< the end is the start
   std::vector<int> kappa{};      ///< numbers of curvatures
   double least_length = 0.0;     ///< that elements keep
   /// Largest offset over its tolerance after least squares at which the fit gives up.

@@ -82,27 +82,79 @@ ProfilePlace on_element(const ProfileElement& e, ProfileCurves curves, double al
   return {e.height + along * std::tan(0.5 * (theta0 + theta)), std::tan(theta)};
 }
 
+/// The same loop from another station on. What passes it is cut there.
+VerticalProfile begun_at(const VerticalProfile& profile, double begin, double lap) {
+  constexpr double kAtJoint = 1e-9;  // of a lap
+  VerticalProfile out = profile;
+  out.elements.clear();
+  const double laps = std::floor((begin - profile.elements.front().station) / lap);
+  std::vector<ProfileElement> behind;
+  for (ProfileElement e : profile.elements) {
+    e.station += laps * lap;
+    const double along = begin - e.station;
+    if (along <= kAtJoint * lap) {
+      out.elements.push_back(e);
+      continue;
+    }
+    if (along < e.length - kAtJoint * lap) {
+      const ProfilePlace place = on_element(e, profile.curves, along);
+      ProfileElement rest = e;
+      rest.station = begin;
+      rest.length = e.length - along;
+      rest.height = place.height;
+      rest.grade0 = place.grade;
+      out.elements.push_back(rest);
+      e.length = along;
+      e.grade1 = place.grade;
+    }
+    e.station += lap;
+    behind.push_back(e);
+  }
+  out.elements.insert(out.elements.end(), behind.begin(), behind.end());
+  out.end_station = out.elements.front().station + lap;
+  out.end_height = out.elements.front().height;
+  return out;
+}
+
+Result<void> check_stations(const std::vector<Vec2>& points, const ProfileOptions& options) {
+  if (!(options.lap >= 0.0 && std::isfinite(options.lap) && std::isfinite(options.begin))) {
+    return error(ErrorCode::kBadOption, "the lap of a profile must be 0 or more")
+        .value(options.lap);
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (!(points[i].x > points[i - 1].x)) {
+      return error(ErrorCode::kChordReversal, "stations of heights must ascend")
+          .point(static_cast<std::ptrdiff_t>(i))
+          .value(points[i].x);
+    }
+    if (options.lap > 0.0 && !(points[i].x - points[0].x < options.lap)) {
+      return error(ErrorCode::kChordReversal, "heights go around the loop more than once")
+          .point(static_cast<std::ptrdiff_t>(i))
+          .hint("give those of one lap")
+          .value(points[i].x);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 }  // namespace alignment
 
 Result<VerticalProfile> fit_profile(const std::vector<Vec2>& points,
                                     const std::vector<double>& tolerance,
                                     const ProfileOptions& options, const RunContext& run) {
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].x > points[i - 1].x) continue;
-    return error(ErrorCode::kChordReversal, "stations of heights must ascend")
-        .point(static_cast<std::ptrdiff_t>(i))
-        .value(points[i].x);
-  }
+  OBVID_TRY(alignment::check_stations(points, options));
   AlignmentOptions limits;
   limits.least_length = options.least_length;
+  limits.closed = options.lap > 0.0;
   const bool arcs = options.curves == ProfileCurves::kArcs;
-  const alignment::Sought sought{arcs ? alignment::Plane::kMap : alignment::Plane::kGraph, true};
+  const alignment::Sought sought{
+      arcs ? alignment::Plane::kMap : alignment::Plane::kGraph, true, {options.lap, 0.0}};
   const auto found = alignment::find_chain(points, tolerance, limits, sought, run);
   OBVID_TRY(found);
   VerticalProfile out = alignment::profile_of(*found, options.curves, tolerance);
   OBVID_TRY(alignment::keeps_length(out, found->chain, options.least_length));
-  return out;
+  return limits.closed ? alignment::begun_at(out, options.begin, options.lap) : out;
 }
 
 ProfilePlace profile_at(const VerticalProfile& profile, double station) {

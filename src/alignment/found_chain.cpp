@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fewest_pieces.h"
+#include "obvid/alignment/internal/transition_law.h"
 #include "whole_circle.h"
 
 namespace obvid::alignment {
@@ -34,15 +35,16 @@ constexpr int kMoreAtSeam = 2;           ///< elements that may be added to clos
 
 class Simplifier {
  public:
-  /// Of a closed alignment the last point is the first one again; `close` leaves it out.
+  /// Of a closed alignment the last point is the first one again, a lap on; `close` leaves it out.
   /// `first_given`: number, as given, of the first point.
   Simplifier(std::vector<Vec2> points, std::vector<double> tolerance,
-             const AlignmentOptions& options, bool constant, Chain chain, std::vector<Foot> feet,
-             std::size_t first_given)
+             const AlignmentOptions& options, const Sought& sought, Chain chain,
+             std::vector<Foot> feet, std::size_t first_given)
       : points_(std::move(points)),
         tolerance_(std::move(tolerance)),
         transitions_(options.transitions),
-        constant_(constant),
+        constant_(sought.constant),
+        lap_(sought.lap),
         first_given_(first_given),
         chain_(std::move(chain)),
         feet_(std::move(feet)) {
@@ -199,7 +201,7 @@ class Simplifier {
     if (last < chain.size()) {
       out.held.end = joints[end];
     } else if (closed_) {
-      out.held.end = joints.front();
+      out.held.end = a_lap_on(joints.front());
     }
     for (std::size_t k = first; k < last; ++k) {
       out.chain.length.push_back(chain.length[k]);
@@ -242,8 +244,19 @@ class Simplifier {
   /// Whether its elements, fitted, pass its points.
   static bool fits(Window& window) {
     if (window.points.empty()) return false;
-    return fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held)
-               .largest <= 1.0;
+    const Fitted fitted =
+        fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
+    return fitted.largest <= 1.0 && transitions_exist(window.chain);
+  }
+
+  [[nodiscard]] static bool transitions_exist(const Chain& chain) {
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      if (chain.law[k] == Transition::kClothoid) continue;
+      const TransitionLaw law(chain.law[k], chain.curvature(k, 0), chain.curvature(k, 1),
+                              chain.length[k]);
+      if (!law.exists()) return false;
+    }
+    return true;
   }
 
   void put_back(const Window& window, Chain& chain) {
@@ -277,7 +290,9 @@ class Simplifier {
       if (window.points.empty()) continue;
       const Fitted fitted =
           fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
-      if (std::isfinite(fitted.largest)) put_back(window, chain_);
+      if (std::isfinite(fitted.largest) && transitions_exist(window.chain)) {
+        put_back(window, chain_);
+      }
       if (last == chain_.size()) break;
     }
     find_feet(chain_, points_, feet_);
@@ -583,6 +598,11 @@ class Simplifier {
            (closed_ && before && !behind && uses(0));
   }
 
+  [[nodiscard]] Element a_lap_on(Element at) const {
+    at.point = at.point + lap_;
+    return at;
+  }
+
   /// Begins the chain, and the points, with element m.
   void turn_to(std::size_t m) {
     const std::vector<Element> joints = chain_.joints();
@@ -600,6 +620,7 @@ class Simplifier {
                        feet_.begin();
     for (Foot& foot : feet_) foot.element = (foot.element + chain_.size() - m) % chain_.size();
     std::rotate(feet_.begin(), feet_.begin() + first, feet_.end());
+    for (auto i = points_.begin(); i < points_.begin() + first; ++i) *i = *i + lap_;
     std::rotate(points_.begin(), points_.begin() + first, points_.end());
     std::rotate(tolerance_.begin(), tolerance_.begin() + first, tolerance_.end());
     first_given_ = (first_given_ + static_cast<std::size_t>(first)) % points_.size();
@@ -647,7 +668,7 @@ class Simplifier {
         const std::size_t first = seam - std::min(seam, beside);
         const std::size_t last = std::min(seam + beside, chain_.size());
         Window window = cut(chain_, first, last);
-        if (last < chain_.size()) window.held.end = open[last - seam];
+        if (last < chain_.size()) window.held.end = a_lap_on(open[last - seam]);
         if (fits(window)) {
           put_back(window, chain_);
           return {};
@@ -697,6 +718,7 @@ class Simplifier {
   Transition transitions_ = Transition::kClothoid;
   bool constant_ = false;        ///< curvature of each element
   bool closed_ = false;          ///< the pose at the end is that at the start, and stays
+  Vec2 lap_;                     ///< from the start to the end
   std::size_t first_given_ = 0;  ///< number, as given, of the first point
   Chain chain_;
   std::vector<Foot> feet_;
@@ -774,6 +796,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   if (options.closed) {  // the last point is the first one again
     const std::size_t n = points.size() - 1;
     begin = static_cast<std::size_t>(attempt.begin * static_cast<double>(n));
+    for (std::size_t i = 0; i < begin; ++i) points[i] = points[i] + sought.lap;
     const auto turn = [begin](auto& of_points) {
       of_points.pop_back();
       std::rotate(of_points.begin(), of_points.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -781,6 +804,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
       of_points.push_back(of_points.front());
     };
     turn(points);
+    points.back() = points.back() + sought.lap;
     turn(tolerance);
   }
   std::vector<double> within = tolerance;
@@ -791,8 +815,8 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   std::vector<Foot> feet;
   set_chain(*nodes, points.size(), sought, chain, feet);
   find_feet(chain, points, feet);
-  Simplifier out(std::move(points), std::move(tolerance), options, sought.constant,
-                 std::move(chain), std::move(feet), begin);
+  Simplifier out(std::move(points), std::move(tolerance), options, sought, std::move(chain),
+                 std::move(feet), begin);
   OBVID_TRY(options.closed ? out.run_around(others, run) : out.run(others, run));
   const double largest = out.largest();
   if (!(largest <= 1.0)) {
@@ -818,13 +842,14 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
   for (const Vec2 p : given) points.push_back(p - out.origin);
   std::vector<double> allowed = tolerance;
   if (options.closed) {
-    if (auto circle = whole_circle(points, tolerance)) {
+    auto circle = sought.lap == Vec2{} ? whole_circle(points, tolerance) : std::nullopt;
+    if (circle) {
       if (!(std::abs(circle->chain.kappa.front()) * options.least_radius > 1.0)) {
         circle->origin = out.origin;
         return *circle;
       }
     }
-    points.push_back(points.front());
+    points.push_back(points.front() + sought.lap);
     allowed.push_back(allowed.front());
   }
   std::optional<Error> first;

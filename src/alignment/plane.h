@@ -21,6 +21,7 @@ enum class Plane {
 struct Sought {
   Plane plane = Plane::kMap;
   bool constant = false;  ///< curvature along each of them: arcs and lines only
+  Vec2 lap{};  ///< of closed ones, from the start to where it is reached again: none on a map
 };
 
 /// Direction of a heading.

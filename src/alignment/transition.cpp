@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/alignment/internal/transition_law.h"
 #include "obvid/contour/clothoids.h"
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/geom/internal/angle.h"
@@ -15,27 +16,105 @@ namespace obvid {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::array<std::string_view, 5> kNames = {"clothoid", "bloss", "sine", "cosine",
-                                                    "helmert"};
+constexpr std::array<std::string_view, 6> kNames = {"clothoid", "bloss",   "sine",
+                                                    "cosine",   "helmert", "cubic"};
 /// Rad that a part of Gauss's rule turns, and parts of the length that it covers, at the most.
 constexpr double kPartTurn = 0.5;
 constexpr double kPartShare = 0.125;  // the middle, where Helmert's law has a corner, is a joint
 constexpr int kMostClothoids = 1024;
 constexpr int kLooks = 4;  ///< places of a clothoid that are compared
 
-}  // namespace
+// The cubic parabola y = x^3/3: slope x^2, curvature 2 G(x), arc length S(x) from its inflection.
+// All others are larger or smaller ones.
 
-std::string_view name_of(Transition kind) { return kNames[static_cast<std::size_t>(kind)]; }
+/// Of an arc length: a step of Newton's method behind which rounding is left.
+constexpr double kSettledArc = 1e-12;
 
-std::optional<Transition> transition_named(std::string_view name) {
-  const auto at = std::find(kNames.begin(), kNames.end(), name);
-  if (at == kNames.end()) return std::nullopt;
-  return static_cast<Transition>(at - kNames.begin());
+/// Where its curvature is greatest: x^4 = 1/5.
+constexpr double kFarthest = 0.66874030497642202;
+
+double half_curvature(double x) {
+  const double v = 1.0 + x * x * x * x;
+  return x / (v * std::sqrt(v));
 }
 
-double transition_share(Transition kind, double u) {
+/// Binomial coefficients of sqrt(1 + w) over 4 k + 1: up to w = 1/5 what is left is 1e-19.
+constexpr auto kArcSeries = [] {
+  std::array<double, 22> out{};
+  double term = 1.0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const auto n = static_cast<double>(k);
+    if (k > 0) term *= (1.5 - n) / n;
+    out[k] = term / (4.0 * n + 1.0);
+  }
+  return out;
+}();
+
+/// The integral of sqrt(1 + x^4) from 0; x^4 <= 1/5.
+double length_to(double x) {
+  const double w = x * x * x * x;
+  double sum = 0.0;
+  for (std::size_t k = kArcSeries.size(); k-- > 0;) sum = sum * w + kArcSeries[k];
+  return x * sum;
+}
+
+double arc_rate(double x) { return std::sqrt(1.0 + x * x * x * x); }
+
+double curvature_rate(double x) {
+  const double w = x * x * x * x, v = 1.0 + w;
+  return (1.0 - 5.0 * w) / (v * v * std::sqrt(v));
+}
+
+/// Abscissa with half the curvature `g`, or the farthest. Newton's steps from below: G is concave.
+double place_with(double g) {
+  constexpr int kMost = 64;
+  const double goal = std::abs(g);
+  if (goal >= half_curvature(kFarthest)) return std::copysign(kFarthest, g);
+  double x = goal;
+  for (int i = 0; i < kMost; ++i) {
+    const double next = std::min(
+        kFarthest, x + (goal - half_curvature(x)) / curvature_rate(std::min(x, kFarthest)));
+    if (!(next > x)) break;
+    x = next;
+  }
+  return std::copysign(x, g);
+}
+
+/// Arc length between the places where the curvature times it is `turn0` and `turn1` > `turn0`; one
+/// or both of them the farthest place where there is none.
+double arc_between(double turn0, double turn1) {
+  constexpr int kMost = 100;
+  struct Ends {
+    double x0, x1, excess;  ///< of arc length between them
+  };
+  const auto ends_with = [&](double arc) {
+    const double x0 = place_with(0.5 * turn0 / arc), x1 = place_with(0.5 * turn1 / arc);
+    return Ends{x0, x1, length_to(x1) - length_to(x0) - arc};
+  };
+  const double least = 0.5 * std::max(std::abs(turn0), std::abs(turn1)) / half_curvature(kFarthest);
+  if (!(ends_with(least).excess > 0.0)) return least;
+  double low = least, high = 2.0 * length_to(kFarthest);
+  double arc = std::clamp(std::sqrt(0.5 * (turn1 - turn0)), low, high);
+  for (int i = 0; i < kMost; ++i) {
+    const auto [x0, x1, excess] = ends_with(arc);
+    (excess > 0.0 ? low : high) = arc;
+    const double rate =
+        (turn0 * arc_rate(x0) / curvature_rate(x0) - turn1 * arc_rate(x1) / curvature_rate(x1)) /
+            (2.0 * arc * arc) -
+        1.0;
+    double next = arc - excess / rate;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const bool settled = std::abs(next - arc) <= kSettledArc * arc;
+    arc = next;
+    if (settled) break;
+  }
+  return arc;
+}
+
+double plain_share(Transition kind, double u) {
   switch (kind) {
     case Transition::kClothoid:
+    case Transition::kCubic:
       break;
     case Transition::kBloss:
       return u * u * (3.0 - 2.0 * u);
@@ -49,9 +128,10 @@ double transition_share(Transition kind, double u) {
   return u;
 }
 
-double transition_turn(Transition kind, double u) {
+double plain_turn(Transition kind, double u) {
   switch (kind) {
     case Transition::kClothoid:
+    case Transition::kCubic:
       break;
     case Transition::kBloss:
       return u * u * u * (1.0 - 0.5 * u);
@@ -69,22 +149,90 @@ double transition_turn(Transition kind, double u) {
   return 0.5 * u * u;
 }
 
-Element transition_at(Transition kind, const Element& start, double kappa1, double length,
+}  // namespace
+
+std::string_view name_of(Transition kind) { return kNames[static_cast<std::size_t>(kind)]; }
+
+std::optional<Transition> transition_named(std::string_view name) {
+  const auto at = std::find(kNames.begin(), kNames.end(), name);
+  if (at == kNames.end()) return std::nullopt;
+  return static_cast<Transition>(at - kNames.begin());
+}
+
+TransitionLaw::TransitionLaw(Transition kind, double kappa0, double kappa1, double length)
+    : kind_(kappa0 == kappa1 ? Transition::kClothoid : kind) {
+  if (kind_ != Transition::kCubic) return;
+  const double side = kappa1 > kappa0 ? 1.0 : -1.0;
+  const double turn0 = side * kappa0 * length, turn1 = side * kappa1 * length;
+  const double arc = arc_between(turn0, turn1);
+  from_ = place_with(0.5 * turn0 / arc);
+  to_ = place_with(0.5 * turn1 / arc);
+  before_ = length_to(from_);
+  along_ = length_to(to_) - before_;
+  scale_ = length / along_;
+  side_ = side;
+  constexpr double kSameArc = 1e-12;  // of the farthest place
+  exists_ = along_ >= arc - kSameArc;
+  if (half_curvature(to_) > half_curvature(from_)) return;
+  kind_ = Transition::kClothoid;  // both are the farthest
+  exists_ = false;
+}
+
+/// Newton's steps along a rate between 1 and 1.1.
+double TransitionLaw::cubic_place(double u) const {
+  constexpr int kMostSteps = 5;
+  constexpr double kLastStep = 1e-8;  // the next one is its square
+  double x = from_ + u * (to_ - from_);
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double step = (before_ + u * along_ - length_to(x)) / arc_rate(x);
+    x += step;
+    if (std::abs(step) <= kLastStep) break;
+  }
+  return x;
+}
+
+TransitionLaw::Place TransitionLaw::at(double u) const {
+  if (kind_ != Transition::kCubic) return {plain_share(kind_, u), plain_turn(kind_, u), {}};
+  const double g0 = half_curvature(from_), g1 = half_curvature(to_);
+  const double x = cubic_place(u), d = x - from_, slope = from_ * from_;
+  Place out;
+  out.share = (half_curvature(x) - g0) / (g1 - g0);
+  // atan x^2 - atan from^2, the heading, without cancellation
+  const double turned = std::atan2(d * (x + from_), 1.0 + x * x * slope);
+  out.turn = (turned / (2.0 * along_) - g0 * u) / (g1 - g0);
+  if (!exists_) return out;
+  const Vec2 chord{d, d * (x * x + x * from_ + slope) / 3.0};
+  const double cosine = 1.0 / std::sqrt(1.0 + slope * slope);
+  const Vec2 tangent{cosine, slope * cosine};
+  out.step = scale_ * Vec2{dot(tangent, chord), side_ * cross(tangent, chord)};
+  return out;
+}
+
+double TransitionLaw::share(double u) const { return at(u).share; }
+
+double TransitionLaw::turn(double u) const { return at(u).turn; }
+
+Element transition_at(const TransitionLaw& law, const Element& start, double kappa1, double length,
                       double s) {
   const double change = kappa1 - start.kappa;
-  if (kind == Transition::kClothoid || change == 0.0) {
+  if (law.is_linear()) {
     return clothoid_at(start, change / length, s);
   }
   if (s < 0.0) return clothoid_at(start, 0.0, s);
   if (s > length) {
-    return clothoid_at(transition_at(kind, start, kappa1, length, length), 0.0, s - length);
+    return clothoid_at(transition_at(law, start, kappa1, length, length), 0.0, s - length);
   }
   const auto theta_at = [&](double u) {
-    return start.theta + start.kappa * length * u + change * length * transition_turn(kind, u);
+    return start.theta + start.kappa * length * u + change * length * law.turn(u);
   };
+  const double whole = s / length;
+  const TransitionLaw::Place end = law.at(whole);
+  const double theta = start.theta + (start.kappa * whole + change * end.turn) * length;
+  const double kappa = start.kappa + change * end.share;
+  if (end.step)
+    return {start.point + complex_product(unit_at(start.theta), *end.step), theta, kappa};
   const double turn = (std::abs(start.kappa) + std::abs(change)) * length;
   const double share = std::min(kPartShare, std::exp2(std::floor(std::log2(kPartTurn / turn))));
-  const double whole = s / length;
   Vec2 step;
   for (double from = 0.0; from < whole; from += share) {  // powers of two: exact
     const double to = std::min(from + share, whole);
@@ -95,8 +243,12 @@ Element transition_at(Transition kind, const Element& start, double kappa1, doub
       step = step + weight * unit_at(theta_at(middle + node * width));
     }
   }
-  return {start.point + step, theta_at(whole),
-          start.kappa + change * transition_share(kind, whole)};
+  return {start.point + step, theta_at(whole), start.kappa + change * law.share(whole)};
+}
+
+Element transition_at(Transition kind, const Element& start, double kappa1, double length,
+                      double s) {
+  return transition_at(TransitionLaw(kind, start.kappa, kappa1, length), start, kappa1, length, s);
 }
 
 std::vector<ClothoidPiece> clothoids_along(Transition kind, const Element& start, double kappa1,

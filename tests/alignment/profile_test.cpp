@@ -169,5 +169,72 @@ TEST(Profile, RefusesStationsThatDoNotAscend) {
   EXPECT_EQ(found.error().index, 2);
 }
 
+/// A loop of 1000 m: 3 % up to the crest between 200 and 400, 3 % down to the sag between 700 and
+/// 900, by the textbook.
+double height_around(double s) {
+  s -= 1000.0 * std::floor(s / 1000.0);
+  const double bend = 0.06 / 200.0;  // of both curves
+  if (s < 200.0) return 0.03 * s;
+  if (s < 400.0) return 6.0 + 0.03 * (s - 200.0) - 0.5 * bend * (s - 200.0) * (s - 200.0);
+  if (s < 700.0) return 6.0 - 0.03 * (s - 400.0);
+  if (s < 900.0) return -3.0 - 0.03 * (s - 700.0) + 0.5 * bend * (s - 700.0) * (s - 700.0);
+  return -3.0 + 0.03 * (s - 900.0);
+}
+
+TEST(Profile, GoesOnFromItsEndToItsStartAroundALoop) {
+  for (const ProfileCurves curves : {ProfileCurves::kParabolas, ProfileCurves::kArcs}) {
+    const bool arcs = curves == ProfileCurves::kArcs;
+    for (const double first : {5.0, 305.0, 850.0}) {  // where the heights begin
+      std::vector<Vec2> points;
+      for (int i = 0; i < 100; ++i) {
+        points.push_back({first + 10.0 * i, height_around(first + 10.0 * i)});
+      }
+      for (const double begin : {0.0, 300.0, 2000.0}) {  // where the profile does
+        ProfileOptions options;
+        options.curves = curves;
+        options.lap = 1000.0;
+        options.begin = begin;
+        const auto found =
+            fit_profile(points, std::vector<double>(points.size(), arcs ? 0.02 : 1e-3), options);
+        ASSERT_TRUE(found) << first << ' ' << begin << ' ' << found.error().what;
+        EXPECT_EQ(found->elements.size(), 5U) << first << ' ' << begin;  // one is cut
+        EXPECT_NEAR(found->elements.front().station, begin, 1e-6);
+        EXPECT_NEAR(found->end_station, begin + 1000.0, 1e-6);
+        EXPECT_EQ(found->end_height, found->elements.front().height);
+        EXPECT_NEAR(found->elements.front().grade0, found->elements.back().grade1, 1e-9);
+        double at = found->elements.front().station;
+        for (const ProfileElement& e : found->elements) {
+          EXPECT_NEAR(e.station, at, 1e-6);
+          at = e.station + e.length;
+          EXPECT_NEAR(e.height, height_around(e.station), arcs ? 0.04 : 2e-3);
+          if (e.kind != ProfileKind::kGrade) {
+            EXPECT_NEAR(std::abs(e.radius), 200.0 / 0.06, arcs ? 60.0 : 20.0);
+          }
+        }
+        EXPECT_NEAR(at, found->end_station, 1e-6);
+        ASSERT_EQ(found->offsets.size(), points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          double station = points[i].x;
+          while (station >= begin + 1000.0) station -= 1000.0;
+          while (station < begin) station += 1000.0;
+          const double offset = points[i].y - profile_at(*found, station).height;
+          EXPECT_NEAR(found->offsets[i], offset, arcs ? 1e-4 : 1e-9);
+          EXPECT_LE(std::abs(offset), arcs ? 0.0201 : 1e-3 * (1 + 1e-9));
+        }
+      }
+    }
+  }
+}
+
+TEST(Profile, HeightsOfALoopAreThoseOfOneLap) {
+  ProfileOptions options;
+  options.lap = 30.0;
+  const std::vector<Vec2> points = {{0, 1}, {10, 2}, {20, 2}, {30, 1}};
+  const auto made = fit_profile(points, {0.1, 0.1, 0.1, 0.1}, options);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ErrorCode::kChordReversal);
+  EXPECT_EQ(made.error().index, 3);
+}
+
 }  // namespace
 }  // namespace obvid

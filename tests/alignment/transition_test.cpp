@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -11,9 +12,11 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "obvid/alignment/alignment.h"
+#include "obvid/alignment/internal/transition_law.h"
 
 namespace obvid {
 namespace {
@@ -34,6 +37,65 @@ const std::vector<Law> kLaws = {
      [](double u) { return (1 - std::cos(kPi * u)) / 2; }},
     {Transition::kHelmert, AlignmentKind::kHelmert,
      [](double u) { return u < 0.5 ? 2 * u * u : -1 + 4 * u - 2 * u * u; }}};
+
+/// The cubic parabola y = c x^3 between two abscissas, as textbooks print it.
+struct Parabola {
+  double c, x0, x1;
+
+  [[nodiscard]] Vec2 point(double x) const { return {x, c * x * x * x}; }
+  [[nodiscard]] double heading(double x) const { return std::atan(3 * c * x * x); }
+  [[nodiscard]] double kappa(double x) const {
+    return 6 * c * x / std::pow(1 + 9 * c * c * x * x * x * x, 1.5);
+  }
+  /// Simpson's rule.
+  [[nodiscard]] double arc(double x) const {
+    constexpr int kSlices = 400;
+    const double h = (x - x0) / kSlices;
+    double sum = 0.0;
+    for (int i = 0; i <= kSlices; ++i) {
+      const double slope = 3 * c * (x0 + i * h) * (x0 + i * h);
+      sum += (i == 0 || i == kSlices ? 1 : i % 2 == 1 ? 4 : 2) * std::sqrt(1 + slope * slope);
+    }
+    return sum * h / 3;
+  }
+  /// Abscissa at a length behind x0, by bisection.
+  [[nodiscard]] double at(double length) const {
+    double low = x0, high = x0 + length;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (arc(middle) < length ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+};
+
+/// The parabola from its inflection that has the curvature `kappa` behind `length`, by bisection.
+Parabola parabola_to(double kappa, double length) {
+  double low = 0.0, high = kappa / length;  // 6 c x = kappa for small ones: c = kappa/(6 length)
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    const Parabola one{middle, 0.0, 0.0};
+    (one.kappa(one.at(length)) < kappa ? low : high) = middle;
+  }
+  Parabola out{0.5 * (low + high), 0.0, 0.0};
+  out.x1 = out.at(length);
+  return out;
+}
+
+/// Shares of a cubic parabola's curvature, between places so close that lines between them do.
+std::function<double(double)> share_of_parabola(double kappa, double length) {
+  constexpr int kPlaces = 300;
+  const Parabola curve = parabola_to(kappa, length);
+  std::vector<double> share;
+  for (int i = 0; i <= kPlaces; ++i) {
+    share.push_back(curve.kappa(curve.at(length * i / kPlaces)) / kappa);
+  }
+  return [share](double u) {
+    const double place = std::clamp(u, 0.0, 1.0) * kPlaces;
+    const auto i = std::min(static_cast<std::size_t>(place), share.size() - 2);
+    return share[i] + (place - static_cast<double>(i)) * (share[i + 1] - share[i]);
+  };
+}
 
 /// Walks along a curvature by the middle rule on slices of a millimetre's order: the heading is
 /// exact to the square of a slice, the place too.
@@ -91,10 +153,48 @@ TEST(Transition, PlacesAreThoseOfTheLawIntegrated) {
 
 TEST(Transition, TurnsHalfOfTheChangeOverItsLength) {
   for (const Law& law : kLaws) {
-    EXPECT_NEAR(transition_turn(law.kind, 1.0), 0.5, 1e-15);
-    EXPECT_EQ(transition_turn(law.kind, 0.0), 0.0);
-    EXPECT_NEAR(transition_share(law.kind, 1.0), 1.0, 1e-15);
+    const TransitionLaw own(law.kind, 0.0, 0.01, 30.0);
+    EXPECT_TRUE(own.exists());
+    EXPECT_NEAR(own.turn(1.0), 0.5, 1e-15);
+    EXPECT_EQ(own.turn(0.0), 0.0);
+    EXPECT_NEAR(own.share(1.0), 1.0, 1e-15);
     EXPECT_EQ(transition_named(name_of(law.kind)), law.kind);
+  }
+  EXPECT_EQ(transition_named("cubic"), Transition::kCubic);
+}
+
+TEST(Transition, ACubicOneIsTheParabolaBetweenItsCurvatures) {
+  // from the inflection (up to where it turns by 21 degrees), between two curvatures, through the
+  // inflection, towards it; of nearly no turning
+  for (const Parabola& curve :
+       {Parabola{2e-5, 0.0, 80.0}, Parabola{2e-5, 30.0, 75.0}, Parabola{2e-5, -40.0, 70.0},
+        Parabola{2e-5, -70.0, -10.0}, Parabola{-2e-5, 5.0, 70.0}, Parabola{1e-9, 0.0, 100.0}}) {
+    const double length = curve.arc(curve.x1);
+    const Element start{curve.point(curve.x0), curve.heading(curve.x0), curve.kappa(curve.x0)};
+    const TransitionLaw law(Transition::kCubic, start.kappa, curve.kappa(curve.x1), length);
+    EXPECT_TRUE(law.exists()) << curve.x0;
+    for (const double share : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+      const double x = curve.at(share * length);
+      const Element found =
+          transition_at(Transition::kCubic, start, curve.kappa(curve.x1), length, share * length);
+      EXPECT_NEAR(found.point.x, curve.point(x).x, 1e-9) << curve.x0 << ' ' << share;
+      EXPECT_NEAR(found.point.y, curve.point(x).y, 1e-9) << curve.x0 << ' ' << share;
+      EXPECT_NEAR(found.theta, curve.heading(x), 1e-11);
+      EXPECT_NEAR(found.kappa, curve.kappa(x), 1e-12);
+    }
+  }
+}
+
+TEST(Transition, NoCubicOneLeadsToMoreThanItsGreatestCurvature) {
+  // x^4 = 1/5 of y = x^3/3, by its formulas: curvature 1.0174, arc length 0.68178
+  EXPECT_TRUE(TransitionLaw(Transition::kCubic, 0.0, 1.0174, 0.6815).exists());
+  EXPECT_FALSE(TransitionLaw(Transition::kCubic, 0.0, 1.0174, 0.6825).exists());
+  EXPECT_FALSE(TransitionLaw(Transition::kCubic, 1.0, 1.01, 1.0).exists());
+  for (const double kappa1 : {0.69, 0.7, 1.0, 30.0}) {  // whatever is asked for is finite
+    const TransitionLaw law(Transition::kCubic, -0.1, kappa1, 1.0);
+    EXPECT_NEAR(law.share(1.0), 1.0, 1e-12);
+    EXPECT_GT(law.turn(1.0), 0.3);
+    EXPECT_LT(law.turn(1.0), 0.7);
   }
 }
 
@@ -121,19 +221,31 @@ TEST(Transition, ClothoidsAlongItStayWithinTheTolerance) {
   }
 }
 
-TEST(Alignment, FindsTransitionsOfOtherKindsBetweenLinesAndArcs) {
+/// A law with the shares of transitions from straight: `kappa`, length.
+using SharesOf = std::function<std::function<double(double)>(double, double)>;
+std::vector<std::pair<Law, SharesOf>> all_laws() {
+  std::vector<std::pair<Law, SharesOf>> out;
   for (const Law& law : kLaws) {
+    out.emplace_back(law, [law](double, double) { return law.share; });
+  }
+  out.emplace_back(Law{Transition::kCubic, AlignmentKind::kCubic, {}}, share_of_parabola);
+  return out;
+}
+
+TEST(Alignment, FindsTransitionsOfOtherKindsBetweenLinesAndArcs) {
+  for (const auto& [law, shares_of] : all_laws()) {
     std::vector<Vec2> points;
     Walk walk;
     const auto straight = [](double) { return 0.0; };
     const double arc = 1 / 320.0;
+    const auto in = shares_of(arc, 90), behind = shares_of(arc, 70);
     walk.along(150, straight, 5, points);
     walk.along(
-        90, [&](double s) { return arc * law.share(s / 90); }, 5, points);
+        90, [&](double s) { return arc * in(s / 90); }, 5, points);
     walk.along(
         160, [&](double) { return arc; }, 5, points);
     walk.along(
-        70, [&](double s) { return arc * law.share(1 - s / 70); }, 5, points);
+        70, [&](double s) { return arc * behind(1 - s / 70); }, 5, points);
     walk.along(120, straight, 5, points);
     points.push_back(walk.at());
     for (const double tolerance : {1e-3, 8e-3}) {
@@ -158,11 +270,12 @@ TEST(Alignment, FindsTransitionsOfOtherKindsBetweenLinesAndArcs) {
 }
 
 TEST(Alignment, ATransitionAloneIsOneElementOfItsKind) {
-  for (const Law& law : kLaws) {
+  for (const auto& [law, shares_of] : all_laws()) {
     std::vector<Vec2> points;
     Walk walk;
+    const auto share = shares_of(1 / 300.0, 100);
     walk.along(
-        100, [&](double s) { return law.share(s / 100) / 300; }, 1, points);
+        100, [&](double s) { return share(s / 100) / 300; }, 1, points);
     points.push_back(walk.at());
     AlignmentOptions options;
     options.transitions = law.kind;

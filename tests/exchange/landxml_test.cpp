@@ -243,6 +243,33 @@ TEST(LandXmlRead, SpiralsOfOtherLawsTurnAsTheyShould) {
   }
 }
 
+TEST(LandXmlRead, ACubicParabolaHasItsOwnLengthAndRadius) {
+  constexpr double c = 1.0 / 150000.0, x = 100.0;  // y = c x^3: its tangents meet at 2 x/3
+  constexpr double slope = 3.0 * c * x * x;
+  constexpr int kSlices = 20000;
+  double length = 0.0;
+  for (int i = 0; i < kSlices; ++i) {
+    const double middle = x * (i + 0.5) / kSlices;
+    length += x / kSlices * std::hypot(1.0, 3.0 * c * middle * middle);
+  }
+  const auto stated = [&](double radius) {
+    return read_landxml_text(
+        file_of(fmt::format("<Spiral spiType='cubicParabola' length='{:.12f}' radiusStart='INF' "
+                            "radiusEnd='{:.12f}' rot='ccw'><Start>0 0</Start><PI>0 {:.12f}</PI>"
+                            "<End>{:.12f} {:.12f}</End></Spiral>",
+                            length, radius, 2.0 / 3.0 * x, c * x * x * x, x)));
+  };
+  const Drawing d = stated(std::pow(1.0 + slope * slope, 1.5) / (6.0 * c * x));
+  ASSERT_EQ(d.curves.size(), 1U);
+  ASSERT_EQ(d.curves[0].transitions.size(), 1U);
+  EXPECT_EQ(d.curves[0].transitions[0].kind, Transition::kCubic);
+  EXPECT_FALSE(warns(d, "from their stated ends"));
+  EXPECT_FALSE(warns(d, "contradicts"));
+  const Vec2 inside = evaluate(d.curves[0].pieces.front(), 1.0).point;
+  EXPECT_NEAR(inside.y, c * inside.x * inside.x * inside.x, 2e-5);  // 1e-7 of the length
+  EXPECT_TRUE(warns(stated(120.0), "does not turn so far between its radii"));
+}
+
 TEST(LandXmlRead, ContradictionsAreNamed) {
   EXPECT_TRUE(
       warns(read_landxml_text(file_of(curve("rot='ccw' radius='11'", "0 10", "0 0", "10 0"))),

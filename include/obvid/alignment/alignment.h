@@ -12,7 +12,8 @@
 namespace obvid {
 
 /// What surveyors call the elements of a horizontal alignment.
-enum class AlignmentKind { kLine, kArc, kClothoid, kBloss, kSine, kCosine, kHelmert };
+enum class AlignmentKind { kLine, kArc, kClothoid, kBloss, kSine, kCosine, kHelmert, kCubic };
+inline constexpr std::size_t kAlignmentKinds = 8;
 
 /// The law of an element whose curvature changes; that of clothoids for all others.
 [[nodiscard]] Transition transition_of(AlignmentKind kind);

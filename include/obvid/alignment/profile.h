@@ -47,6 +47,8 @@ struct ProfileOptions {
   ProfileCurves curves = ProfileCurves::kParabolas;
   double least_length = 0.0;  ///< of each element, units (of arcs along the curve); 0: a quarter of
                               ///< the mean distance of heights. A profile of one may be shorter
+  double lap = 0.0;           ///< of a loop: its length, units; 0: not closed
+  double begin = 0.0;         ///< of a loop: the station at which the profile begins
 };
 
 /// Few grades and vertical curves, each beginning with the grade of the one before, within
@@ -56,11 +58,12 @@ struct ProfileOptions {
 ///
 /// Guaranteed: every offset is at most its tolerance (else an error), grades are continuous but for
 /// rounding, elements are as long as asked for. Not guaranteed: that no fewer elements exist.
-/// Deterministic; reentrant.
+/// Around a loop (`lap`; heights within one lap) height and grade at the end are those at the
+/// start; the element that passes `begin` is cut there. Deterministic; reentrant.
 ///
-/// Errors: E203 a least length that is negative or no number, E304 fewer than two heights, E402
-/// stations that do not ascend (`index`), E401 none found, E502 not within the tolerance with such
-/// lengths, E103 cancelled.
+/// Errors: E203 a least length or a lap that is negative or no number, E304 fewer than two heights
+/// (around a loop three), E402 stations that do not ascend or are a lap apart (`index`), E401 none
+/// found, E502 not within the tolerance with such lengths, E103 cancelled.
 [[nodiscard]] Result<VerticalProfile> fit_profile(const std::vector<Vec2>& points,
                                                   const std::vector<double>& tolerance,
                                                   const ProfileOptions& options = {},

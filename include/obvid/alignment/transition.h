@@ -19,6 +19,7 @@ enum class Transition {
   kSine,      ///< u - sin(2 pi u)/(2 pi): Klein's
   kCosine,    ///< (1 - cos(pi u))/2
   kHelmert,   ///< 2 u^2 up to the middle, 1 - 2 (1 - u)^2 behind it: Schramm's
+  kCubic,     ///< that of y = c x^3 between the two curvatures: a cubic parabola, f depends on them
 };
 
 /// A transition of which a contour has clothoids: pieces [first_piece, first_piece + pieces).
@@ -29,13 +30,9 @@ struct PlacedTransition {
   double length = 0.0;                ///< units
 };
 
-/// "clothoid", "bloss", "sine", "cosine", "helmert".
+/// "clothoid", "bloss", "sine", "cosine", "helmert", "cubic".
 [[nodiscard]] std::string_view name_of(Transition kind);
 [[nodiscard]] std::optional<Transition> transition_named(std::string_view name);
-
-/// f(u), and its integral from 0 to u; u in [0, 1]. The integral to 1 is 1/2 for all of them.
-[[nodiscard]] double transition_share(Transition kind, double u);
-[[nodiscard]] double transition_turn(Transition kind, double u);
 
 /// The element at `s` behind `start` on a transition of this length from the curvature of `start`
 /// to `kappa1`; beyond its ends curvature stays as it is there. By Gauss's rule on parts that turn

@@ -46,7 +46,7 @@ void add_profile(JsonText& json, const VerticalProfile& profile);
 /// "grade", "crest", "sag".
 [[nodiscard]] const char* to_string(ProfileKind kind);
 
-/// "line", "arc", "clothoid", "bloss", "sine", "cosine", "helmert".
+/// "line", "arc", "clothoid", "bloss", "sine", "cosine", "helmert", "cubic".
 [[nodiscard]] const char* to_string(AlignmentKind kind);
 /// Parameter of a clothoid, sqrt(length / |change of curvature|), units; 0 of other elements.
 [[nodiscard]] double clothoid_parameter(const AlignmentElement& element);

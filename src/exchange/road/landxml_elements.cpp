@@ -6,6 +6,7 @@
 #include <numbers>
 #include <variant>
 
+#include "obvid/alignment/internal/transition_law.h"
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/geom/internal/angle.h"
 
@@ -99,6 +100,10 @@ std::optional<PlacedPiece> placed(const StatedSpiral& spiral, std::string& why) 
   c.length = spiral.length;
   if (!(c.length > 0.0)) {
     why = "a Spiral whose length is not greater than 0";
+    return std::nullopt;
+  }
+  if (!TransitionLaw(spiral.law, c.kappa0, c.kappa1, c.length).exists()) {
+    why = "a Spiral of a type that does not turn so far between its radii";
     return std::nullopt;
   }
   const auto step = [&](double theta) {

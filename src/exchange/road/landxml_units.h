@@ -21,7 +21,7 @@ inline constexpr std::array kLandXmlUnits = {
 
 /// What `spiType` calls transitions, in the order of `Transition`. The format calls Helmert's
 /// (Schramm's) law biquadratic.
-inline constexpr std::array<std::string_view, 5> kLandXmlSpirals = {"clothoid", "bloss", "sinusoid",
-                                                                    "cosine", "biquadratic"};
+inline constexpr std::array<std::string_view, 6> kLandXmlSpirals = {
+    "clothoid", "bloss", "sinusoid", "cosine", "biquadratic", "cubicParabola"};
 
 }  // namespace obvid::exchange

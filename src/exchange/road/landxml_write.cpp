@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "obvid/alignment/internal/transition_law.h"
 #include "obvid/core/internal/format_into.h"
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/exchange/internal/road/landxml.h"
@@ -74,8 +75,10 @@ std::vector<RoadElement> parts_of(const RoadElement& e) {
 }
 
 /// Where the tangents at both ends meet.
-Vec2 tangents_meet(const RoadElement& e) {
-  const Vec2 a = unit_at(e.theta), b = unit_at(e.theta + 0.5 * (e.kappa0 + e.kappa1) * e.length);
+Vec2 tangents_meet(const RoadElement& e, Transition kind) {
+  const double share = TransitionLaw(kind, e.kappa0, e.kappa1, e.length).turn(1.0);
+  const double turn = (e.kappa0 + share * (e.kappa1 - e.kappa0)) * e.length;
+  const Vec2 a = unit_at(e.theta), b = unit_at(e.theta + turn);
   if (std::abs(cross(a, b)) < kParallel) return 0.5 * (e.start + e.end);
   return e.start + cross(e.end - e.start, b) / cross(a, b) * a;
 }
@@ -151,17 +154,18 @@ class LandXmlWriter {
       point("End", e.end);
       put("        </Curve>\n");
     } else {
-      spiral(e, "clothoid", named);
+      spiral(e, Transition::kClothoid, named);
     }
   }
 
-  void spiral(const RoadElement& e, std::string_view kind, const std::string& named = {}) {
+  void spiral(const RoadElement& e, Transition kind, const std::string& named = {}) {
     put("        <Spiral{} length=\"{}\" radiusStart=\"{}\" radiusEnd=\"{}\" rot=\"{}\" "
         "spiType=\"{}\">\n",
         named, e.length, radius(e.kappa0), radius(e.kappa1),
-        e.kappa0 + e.kappa1 > 0.0 ? "ccw" : "cw", kind);
+        e.kappa0 + e.kappa1 > 0.0 ? "ccw" : "cw",
+        exchange::kLandXmlSpirals[static_cast<std::size_t>(kind)]);
     point("Start", e.start);
-    point("PI", tangents_meet(e));
+    point("PI", tangents_meet(e, kind));
     point("End", e.end);
     put("        </Spiral>\n");
   }
@@ -172,8 +176,8 @@ class LandXmlWriter {
     whole.end = last.end;
     whole.kappa0 = t.kappa0 / ratio_;
     whole.kappa1 = t.kappa1 / ratio_;
-    whole.length = t.length * ratio_;  // turns as a clothoid does: by half of both curvatures
-    spiral(whole, exchange::kLandXmlSpirals[static_cast<std::size_t>(t.kind)]);
+    whole.length = t.length * ratio_;
+    spiral(whole, t.kind);
   }
 
   /// A PVI at both ends, where grades meet one with its curve, and at corners one without.

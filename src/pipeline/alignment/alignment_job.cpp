@@ -10,6 +10,7 @@
 
 #include "alignment/heights.h"
 #include "alignment/profile_table.h"
+#include "obvid/alignment/internal/transition_law.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/io/internal/json_text.h"
@@ -154,10 +155,6 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   OBVID_TRY(tolerance);
   const auto limit = speed_limit(series.units, job.acceleration);
   OBVID_TRY(limit);
-  if (job.closed && job.heights) {
-    return fail({ErrorCode::kBadOption, "a closed alignment has no profile", "--profile",
-                 "leave one of --closed and --profile out"});
-  }
   AlignmentOptions limits;
   limits.least_length = job.least_length;
   limits.least_radius = job.least_radius;
@@ -185,7 +182,7 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
 }
 
 std::string kinds_text(const Alignment& alignment) {
-  std::array<std::size_t, 7> count{};
+  std::array<std::size_t, kAlignmentKinds> count{};
   for (const auto& e : alignment.elements) ++count[static_cast<std::size_t>(e.kind)];
   std::string out =
       fmt::format("{}, {}, {}", counted(count[0], "line", "lines"),
@@ -208,8 +205,9 @@ std::string alignment_picture(const AlignmentReport& report) {
     AlignmentDiagram::Part part{e.station, e.length, "", {}};
     const Transition law = transition_of(e.kind);
     const int steps = law == Transition::kClothoid ? 1 : kDrawnSteps;
+    const TransitionLaw along(law, e.start.kappa, e.kappa1, e.length);
     for (int k = 0; k <= steps; ++k) {
-      const double share = transition_share(law, static_cast<double>(k) / steps);
+      const double share = along.share(static_cast<double>(k) / steps);
       part.curvatures.push_back(e.start.kappa + (e.kappa1 - e.start.kappa) * share);
     }
     const double parameter = clothoid_parameter(e);

@@ -37,7 +37,8 @@ Result<void> set_alignment(const AlignmentValues& typed, AlignmentJob& job) {
     const auto kind = transition_named(typed.transitions);
     if (!kind) {
       return fail(bad_option("transitions are of another kind than " + typed.transitions,
-                             "--transitions", "name clothoid, bloss, sine, cosine or helmert"));
+                             "--transitions",
+                             "name clothoid, bloss, sine, cosine, helmert or cubic"));
     }
     job.transitions = *kind;
   }

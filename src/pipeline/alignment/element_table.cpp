@@ -145,8 +145,8 @@ const char* to_string(ProfileKind kind) {
 }
 
 const char* to_string(AlignmentKind kind) {
-  static constexpr std::array kNames = {"line", "arc",    "clothoid", "bloss",
-                                        "sine", "cosine", "helmert"};
+  static constexpr std::array<const char*, kAlignmentKinds> kNames = {
+      "line", "arc", "clothoid", "bloss", "sine", "cosine", "helmert", "cubic"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

@@ -81,6 +81,22 @@ Result<double> height_tolerance(const std::vector<Vec2>& heights, double roundin
       .value(tolerance);
 }
 
+/// Whether the last height of a loop is that of the first point again; an error where it is another
+/// one.
+Result<bool> repeats_first(const std::vector<Vec2>& heights, bool of_points, double lap) {
+  constexpr double kSamePlace = 1e-9;  // of a lap
+  const Vec2 first = heights.front(), last = heights.back();
+  const double apart = std::abs(last.x - first.x);
+  const bool same = heights.size() > 1 && (of_points ? apart <= kSamePlace * lap
+                                                     : std::abs(apart - lap) <= kSamePlace * lap);
+  if (!same || last.y == first.y) return same;
+  return error(ErrorCode::kBadOption, "the first and the last height of the loop are of one place")
+      .where(of_points ? "z" : "--profile")
+      .hint("give one height there, or leave the loop open (without --closed)")
+      .point(static_cast<std::ptrdiff_t>(heights.size()) - 1)
+      .value(last.y - first.y);
+}
+
 }  // namespace
 
 Result<double> estimated_noise(const std::vector<Vec2>& points, const Units& units,
@@ -106,10 +122,6 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   const bool any = std::any_of(series.fixed.begin(), series.fixed.end(),
                                [](const FixedData& f) { return f.height.has_value(); });
   if (!job.heights && !any) return std::optional<ProfileReport>();
-  if (alignment.closed) {
-    remarks.emplace_back("heights are not used: a closed alignment has no profile");
-    return std::optional<ProfileReport>();
-  }
   ProfileReport out;
   double rounding = series.height_rounding;
   if (job.heights) {
@@ -126,8 +138,17 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
       return std::optional<ProfileReport>();
     }
   }
+  ProfileOptions options = job.profile;
+  bool again = false;
+  if (alignment.closed) {
+    options.lap = alignment.length;
+    options.begin = alignment.elements.front().station;
+    const auto repeats = repeats_first(out.heights, out.of_points, options.lap);
+    OBVID_TRY(repeats);
+    again = *repeats;
+  }
   // feet of neighbours may lie the other way round where points scatter along
-  std::vector<std::size_t> order(out.heights.size());
+  std::vector<std::size_t> order(out.heights.size() - (again ? 1 : 0));
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return out.heights[a].x < out.heights[b].x;
@@ -138,10 +159,11 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   OBVID_TRY(tolerance);
   out.tolerance = *tolerance;
   auto profile =
-      fit_profile(ascending, std::vector<double>(ascending.size(), *tolerance), job.profile, run);
+      fit_profile(ascending, std::vector<double>(ascending.size(), *tolerance), options, run);
   OBVID_TRY(profile);
   std::vector<double> offsets(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) offsets[order[k]] = profile->offsets[k];
+  if (again) offsets.push_back(offsets.front());
   profile->offsets = std::move(offsets);
   out.profile = std::move(*profile);
   return std::optional(std::move(out));

@@ -13,7 +13,7 @@ struct AlignmentValues {
   std::string noise;           ///< a length, rounding or auto
   std::string profile_noise;   ///< likewise
   std::string profile_curves;  ///< parabolas or arcs
-  std::string transitions;     ///< clothoid, bloss, sine, cosine or helmert
+  std::string transitions;     ///< clothoid, bloss, sine, cosine, helmert or cubic
 };
 
 /// Errors: E203 what is none of these; `where` names the option.
