@@ -178,6 +178,11 @@ TransitionLaw::TransitionLaw(Transition kind, double kappa0, double kappa1, doub
   exists_ = false;
 }
 
+std::optional<double> TransitionLaw::inflection() const {
+  if (kind_ != Transition::kCubic || !exists_ || !(from_ < 0.0 && to_ > 0.0)) return std::nullopt;
+  return -before_ / along_;
+}
+
 /// Newton's steps along a rate between 1 and 1.1.
 double TransitionLaw::cubic_place(double u) const {
   constexpr int kMostSteps = 5;

@@ -74,7 +74,7 @@ class Cutting {
       blocks.blocks = with_splines(std::move(blocks.blocks), rules_, splines, watch_);
       if (watch_.was_cancelled()) return fail(cancelled_error());
     }
-    CutText text(options_, inches_, decimals_);
+    CutText text(options_, rules_, inches_, decimals_);
     for (const CutBlock& block : blocks.blocks) {
       if (block.kind == CutBlock::Kind::kCut && block.feed < kLeastFeed) return fail(no_feed());
       text.add(block);

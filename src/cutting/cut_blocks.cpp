@@ -223,7 +223,7 @@ class Blocks {
     if (tabs.count == 0 || !visit.path.closed || tracks_[visit.track].side == CutSide::kOn) return;
     const double apart = along.length() / tabs.count;
     for (int k = 0; k < tabs.count; ++k) {
-      const double middle = (k + 0.5) * apart;
+      const double middle = on_a_line(visit.path, (k + 0.5) * apart, apart);
       const auto half = half_of_tab(along, middle, 0.5 * kMostOfPath * apart);
       if (!half) {
         tabs_.clear();
@@ -232,6 +232,27 @@ class Blocks {
       }
       tabs_.push_back({middle - *half, middle + *half});
     }
+  }
+
+  /// Where a tab goes that is wanted at a place: the nearest one on a line, away from its ends,
+  /// where there is one near enough that tabs keep their order; a corner is hard to file.
+  [[nodiscard]] double on_a_line(const ArcPath& path, double wanted, double apart) const {
+    constexpr double kMostAway = 0.25;  // of the distance of tabs
+    const double width = rules_.tabs.width + rules_.tool_diameter;
+    double best = wanted, away = kMostAway * apart, begin = 0.0;
+    for (const Piece& piece : path.pieces) {
+      const double length = length_of(piece), room = 0.5 * (length - width);
+      if (std::holds_alternative<LinePiece>(piece) && room > 0.0) {
+        const double inside = 0.5 * width + std::min(room, width);
+        const double place = std::clamp(wanted, begin + inside, begin + length - inside);
+        if (std::abs(place - wanted) < away) {
+          best = place;
+          away = std::abs(place - wanted);
+        }
+      }
+      begin += length;
+    }
+    return best;
   }
 
   /// Half of the gap in the path that leaves a bridge of the width of a tab: both ends of the cut
@@ -250,22 +271,29 @@ class Blocks {
   /// Along the path between two lengths of it; the height changes evenly, but stays above tabs.
   void walk(const Along& along, double from, double to, double z_from, double z_to) {
     const double whole = along.length(), tab_z = -rules_.depth + rules_.tabs.height;
+    const auto height = [&](double s) {
+      return z_from + (z_to - z_from) * (s - from) / (to - from);
+    };
     std::vector<double> cuts{from, to};
+    std::vector<Tab> in_the_way;  // in lengths of the walk; what passes above a tab stays whole
     for (const Tab& tab : tabs_) {
       for (double turn = std::floor(from / whole) * whole; turn < to; turn += whole) {
-        for (const double edge : {turn + tab.from, turn + tab.to}) {
+        const double begin = std::max(turn + tab.from, from), end = std::min(turn + tab.to, to);
+        if (!(begin < end) || !(std::min(height(begin), height(end)) < tab_z)) continue;
+        in_the_way.push_back({begin, end});
+        for (const double edge : {begin, end}) {
           if (edge > from && edge < to) cuts.push_back(edge);
         }
       }
     }
     std::sort(cuts.begin(), cuts.end());
-    const auto height = [&](double s) {
-      return z_from + (z_to - z_from) * (s - from) / (to - from);
-    };
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       const double a = cuts[k], b = cuts[k + 1];
       if (!(b - a > kNothing * whole)) continue;
-      const bool over = over_tab(std::fmod(0.5 * (a + b), whole));
+      const double middle = 0.5 * (a + b);
+      const bool over = std::any_of(in_the_way.begin(), in_the_way.end(), [&](const Tab& tab) {
+        return middle > tab.from && middle < tab.to;
+      });
       const auto kept = [&](double z) { return over ? std::max(z, tab_z) : z; };
       down(kept(height(a)));
       const std::vector<Piece> pieces = along.between(a, b);
@@ -276,11 +304,6 @@ class Blocks {
         cut(pieces[i], kept(last && b == to ? z_to : height(last ? b : std::min(done, b))));
       }
     }
-  }
-
-  [[nodiscard]] bool over_tab(double at) const {
-    return std::any_of(tabs_.begin(), tabs_.end(),
-                       [&](const Tab& tab) { return at > tab.from && at < tab.to; });
   }
 
   const std::vector<Track>& tracks_;

@@ -37,8 +37,9 @@ std::string power_text(double value) {
 
 }  // namespace
 
-CutText::CutText(const CutOptions& options, bool inches, int decimals)
+CutText::CutText(const CutOptions& options, const BlockRules& rules, bool inches, int decimals)
     : options_(options),
+      rules_(rules),
       height_decimals_(std::max(decimals, exchange::kLeastGcodeDecimals + (inches ? 1 : 0))),
       path_(1.0, decimals) {}
 
@@ -82,7 +83,7 @@ void CutText::cut(const CutBlock& block) {
   const std::string feed_before = feed_;
   const double z_before = z_;
   const std::string level = block.z == z_ ? "" : height_words(block.z);
-  path_.say_behind(level + feed_words(block.feed));
+  path_.say_behind(level + feed_words(printed_feed(block)));
   const std::size_t printed = path_.pieces().size();
   if (const auto* arc = std::get_if<ArcPiece>(&block.piece)) {
     path_.follow_arc(*arc);
@@ -101,6 +102,19 @@ void CutText::cut(const CutBlock& block) {
     cut_tracks_.push_back(block.track);
     first_pass_.push_back(block.first_pass);
   }
+}
+
+double CutText::printed_feed(const CutBlock& block) const {
+  const auto* arc = std::get_if<ArcPiece>(&block.piece);
+  if (arc == nullptr || !(rules_.across > 0.0)) return block.feed;
+  exchange::GcodePath printed = path_.from_here();
+  printed.follow_arc(*arc);
+  double feed = block.feed;
+  for (const Piece& piece : printed.pieces()) {
+    const auto* one = std::get_if<ArcPiece>(&piece);
+    if (one != nullptr) feed = std::min(feed, feed_for(one->kappa, rules_));
+  }
+  return feed;
 }
 
 std::string CutText::height_words(double z) {

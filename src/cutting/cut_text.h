@@ -13,7 +13,7 @@ namespace obvid::cutting {
 /// The text of blocks.
 class CutText {
  public:
-  CutText(const CutOptions& options, bool inches, int decimals);
+  CutText(const CutOptions& options, const BlockRules& rules, bool inches, int decimals);
 
   void add(const CutBlock& block);
 
@@ -29,12 +29,15 @@ class CutText {
 
  private:
   void cut(const CutBlock& block);
+  /// The feed of a block, or less where its arc bends more as it is printed.
+  [[nodiscard]] double printed_feed(const CutBlock& block) const;
   [[nodiscard]] std::string on_words() const;
   [[nodiscard]] std::string dwell_words() const;
   [[nodiscard]] std::string feed_words(double feed);
   [[nodiscard]] std::string height_words(double z);
 
   const CutOptions& options_;
+  const BlockRules& rules_;
   int height_decimals_;
   exchange::GcodePath path_;
   bool placed_ = false;

@@ -254,7 +254,8 @@ TEST(LandXmlRead, ACubicParabolaHasItsOwnLengthAndRadius) {
   }
   const auto stated = [&](double radius) {
     return read_landxml_text(
-        file_of(fmt::format("<Spiral spiType='cubicParabola' length='{:.12f}' radiusStart='INF' "
+        file_of(line("0 -50", "0 0") +
+                fmt::format("<Spiral spiType='cubicParabola' length='{:.12f}' radiusStart='INF' "
                             "radiusEnd='{:.12f}' rot='ccw'><Start>0 0</Start><PI>0 {:.12f}</PI>"
                             "<End>{:.12f} {:.12f}</End></Spiral>",
                             length, radius, 2.0 / 3.0 * x, c * x * x * x, x)));
@@ -262,12 +263,48 @@ TEST(LandXmlRead, ACubicParabolaHasItsOwnLengthAndRadius) {
   const Drawing d = stated(std::pow(1.0 + slope * slope, 1.5) / (6.0 * c * x));
   ASSERT_EQ(d.curves.size(), 1U);
   ASSERT_EQ(d.curves[0].transitions.size(), 1U);
-  EXPECT_EQ(d.curves[0].transitions[0].kind, Transition::kCubic);
+  const PlacedTransition& found = d.curves[0].transitions[0];
+  EXPECT_EQ(found.kind, Transition::kCubic);
   EXPECT_FALSE(warns(d, "from their stated ends"));
   EXPECT_FALSE(warns(d, "contradicts"));
-  const Vec2 inside = evaluate(d.curves[0].pieces.front(), 1.0).point;
+  const Vec2 inside = evaluate(d.curves[0].pieces[found.first_piece], 1.0).point;
   EXPECT_NEAR(inside.y, c * inside.x * inside.x * inside.x, 2e-5);  // 1e-7 of the length
   EXPECT_TRUE(warns(stated(120.0), "does not turn so far between its radii"));
+}
+
+TEST(LandXmlWrite, ACubicParabolaThroughItsInflectionIsTwo) {
+  const Element start{{3.0, 4.0}, 0.3, -1.0 / 400.0};
+  const double kappa1 = 1.0 / 300.0, length = 100.0;
+  Contour contour;
+  contour.units = "m";
+  contour.carrier = Carrier::kImported;
+  for (const ClothoidPiece& piece :
+       clothoids_along(Transition::kCubic, start, kappa1, length, 1e-6)) {
+    contour.joints.push_back({{piece.start, piece.theta0, piece.kappa0}, {}, {}});
+    contour.pieces.emplace_back(piece);
+  }
+  const Element end = transition_at(Transition::kCubic, start, kappa1, length, length);
+  contour.joints.push_back({end, {}, {}});
+  LandXmlOptions options;
+  options.transitions = {
+      {0, contour.pieces.size(), Transition::kCubic, start.kappa, kappa1, length}};
+  const auto text = landxml_text(contour, options);
+  ASSERT_TRUE(text) << text.error().what;
+  EXPECT_EQ(text->find("clothoid"), std::string::npos);
+  const Drawing d = read_landxml_text(*text);
+  ASSERT_EQ(d.curves.size(), 1U);
+  ASSERT_EQ(d.curves[0].transitions.size(), 2U);
+  const PlacedTransition &in = d.curves[0].transitions[0], &out = d.curves[0].transitions[1];
+  EXPECT_NEAR(in.kappa0, start.kappa, 1e-15);
+  EXPECT_EQ(in.kappa1, 0.0);
+  EXPECT_EQ(out.kappa0, 0.0);
+  EXPECT_NEAR(out.kappa1, kappa1, 1e-15);
+  EXPECT_NEAR(in.length + out.length, length, 1e-9);
+  // both halves are of one y = c x^3: 6 c x = kappa where it bends little, so lengths are as
+  // curvatures are, nearly
+  EXPECT_NEAR(in.length / length, 3.0 / 7.0, 2e-3);
+  EXPECT_FALSE(warns(d, "from their stated ends"));
+  EXPECT_NEAR(norm(end_point(d.curves[0].pieces.back()) - end.point), 0.0, 1e-6);
 }
 
 TEST(LandXmlRead, ContradictionsAreNamed) {

@@ -18,6 +18,7 @@ struct AirfoilFigures {
   double camber = 0.0, camber_at = 0.0;  ///< of the largest amount, with its sign
   double nose_radius = 0.0;              ///< of the contour at its leading edge
   double trailing_thickness = 0.0;       ///< distance of both ends across the chord
+  double trailing_gap = 0.0;             ///< distance of both ends along the chord
   double trailing_angle = 0.0;           ///< rad, between the tangents of both sides at the ends
   /// Within 1 % of the chord of the leading edge: the largest corner, rad, and how often the
   /// curvature turns back, as samples tell; a fair nose has no corner and turns back once at most.

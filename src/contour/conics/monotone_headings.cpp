@@ -236,9 +236,9 @@ class HeadingSearch {
     const double d = kDifference * std::min(p, q);
     const Logs here = logs_of(s, p, q);
     const auto slopes = [&](const Logs& above, const Logs& below, int side) {
-      const double per = side / (2.0 * d);
-      return Logs{per * (above.curvature_ratio - below.curvature_ratio),
-                  per * (above.weighted - below.weighted), per * (above.middle - below.middle)};
+      return Logs{side * (above.curvature_ratio - below.curvature_ratio) / (2.0 * d),
+                  side * (above.weighted - below.weighted) / (2.0 * d),
+                  side * (above.middle - below.middle) / (2.0 * d)};
     };
     const Logs by_start = slopes(logs_of(s, p + d, q), logs_of(s, p - d, q), -s.turning);
     const Logs by_end = slopes(logs_of(s, p, q + d), logs_of(s, p, q - d), s.turning);

@@ -91,6 +91,12 @@ std::string fixed(double value, int decimals) {
 GcodePath::GcodePath(double scale, int decimals)
     : scale_(scale), unit_(std::pow(10.0, -decimals)), decimals_(decimals) {}
 
+GcodePath GcodePath::from_here() const {
+  GcodePath out(scale_, decimals_);
+  out.start_ = out.at_ = at_;
+  return out;
+}
+
 bool GcodePath::holds(double coordinate) const {
   constexpr double kMostLastDigits = 0x1p60;  // of a 64-bit number, with room for differences
   return std::abs(scale_ * coordinate) < kMostLastDigits * unit_;

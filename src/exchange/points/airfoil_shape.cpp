@@ -187,6 +187,7 @@ AirfoilFigures Airfoil::figures() const {
   out.nose_radius = 1.0 / std::abs(at(nose_).kappa) / c;
   const auto first = at(0.0), last = at(length());
   out.trailing_thickness = std::abs(local(first.point).y - local(last.point).y) / c;
+  out.trailing_gap = std::abs(local(first.point).x - local(last.point).x) / c;
   const Vec2 upper = -1.0 * first.tangent, lower = last.tangent;  // both towards the edge
   out.trailing_angle = std::atan2(cross(upper, lower), dot(upper, lower));
   look_at_nose(out);

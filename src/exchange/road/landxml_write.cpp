@@ -108,7 +108,7 @@ class LandXmlWriter {
       for (std::size_t k = 0; k < line.elements.size(); ++k, ++piece) {
         while (next != options_.transitions.end() && next->first_piece < piece) ++next;
         if (next != options_.transitions.end() && next->first_piece == piece &&
-            k + next->pieces <= line.elements.size() && next->kappa0 * next->kappa1 >= 0.0) {
+            k + next->pieces <= line.elements.size() && can_be_stated(*next)) {
           transition(*next, line.elements[k], line.elements[k + next->pieces - 1]);
           k += next->pieces - 1;
           piece += next->pieces - 1;
@@ -170,14 +170,38 @@ class LandXmlWriter {
     put("        </Spiral>\n");
   }
 
-  /// One Spiral from the start of the first element to the end of the last.
+  /// A Spiral has one sense of rotation. Halves of a transition through an inflection are
+  /// transitions of their kind only where that is a cubic parabola.
+  static bool can_be_stated(const PlacedTransition& t) {
+    return t.kappa0 * t.kappa1 >= 0.0 ||
+           TransitionLaw(t.kind, t.kappa0, t.kappa1, t.length).inflection().has_value();
+  }
+
+  /// One Spiral from the start of the first element to the end of the last, or two that meet in the
+  /// inflection.
   void transition(const PlacedTransition& t, const RoadElement& first, const RoadElement& last) {
     RoadElement whole = first;
     whole.end = last.end;
     whole.kappa0 = t.kappa0 / ratio_;
     whole.kappa1 = t.kappa1 / ratio_;
     whole.length = t.length * ratio_;
-    spiral(whole, t.kind);
+    const TransitionLaw law(t.kind, whole.kappa0, whole.kappa1, whole.length);
+    const auto inflection = t.kappa0 * t.kappa1 < 0.0 ? law.inflection() : std::nullopt;
+    if (!inflection) return spiral(whole, t.kind);
+    const double before = *inflection * whole.length;
+    const Element middle = transition_at(law, {whole.start, whole.theta, whole.kappa0},
+                                         whole.kappa1, whole.length, before);
+    RoadElement half = whole;
+    half.end = middle.point;
+    half.kappa1 = 0.0;
+    half.length = before;
+    spiral(half, t.kind);
+    half = whole;
+    half.start = middle.point;
+    half.theta = middle.theta;
+    half.kappa0 = 0.0;
+    half.length = whole.length - before;
+    spiral(half, t.kind);
   }
 
   /// A PVI at both ends, where grades meet one with its curve, and at corners one without.

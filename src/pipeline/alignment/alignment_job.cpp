@@ -129,8 +129,9 @@ void tell_transitions(const Alignment& alignment, Transition wanted, double near
   if (placed > 0) {
     remarks.push_back(fmt::format(
         "transitions of kind {} are clothoids within {} {} of them in pictures and files but "
-        "LandXML, and there where they pass an inflection",
-        name_of(wanted), significant(near, 3), units.text()));
+        "LandXML{}",
+        name_of(wanted), significant(near, 3), units.text(),
+        wanted == Transition::kCubic ? "" : ", and there where they pass an inflection"));
   }
 }
 

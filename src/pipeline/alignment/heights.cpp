@@ -97,6 +97,65 @@ Result<bool> repeats_first(const std::vector<Vec2>& heights, bool of_points, dou
       .value(last.y - first.y);
 }
 
+/// Heights of one lap that do not come back to where they began: across the seam they rise far more
+/// steeply than anywhere else. Ascending; `tolerance` of each.
+Result<void> close_around(const std::vector<Vec2>& heights, double lap, double tolerance,
+                          bool of_points) {
+  constexpr double kSteeper = 3.0, kMostOff = 4.0;  // of the steepest elsewhere; of a tolerance
+  const auto steepness = [&](Vec2 a, Vec2 b) {
+    return std::max(0.0, std::abs(b.y - a.y) - 2.0 * tolerance) / (b.x - a.x);
+  };
+  double steepest = 0.0;
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    steepest = std::max(steepest, steepness(heights[i - 1], heights[i]));
+  }
+  const Vec2 last = heights.back(), first = heights.front() + Vec2{lap, 0.0};
+  const double off = std::abs(first.y - last.y);
+  if (!(steepness(last, first) > kSteeper * steepest && off > kMostOff * tolerance)) return {};
+  return error(ErrorCode::kToleranceNotReached, "the heights of the loop do not close")
+      .where(of_points ? "z" : "--profile")
+      .hint(fmt::format("they differ by {} over {} at the seam, more steeply than anywhere else: "
+                        "adjust them, or leave the loop open (without --closed)",
+                        significant(off, 4), significant(first.x - last.x, 4)))
+      .value(off);
+}
+
+/// Tells what of an alignment no height speaks of; an error where heights lie beside it. Ascending.
+Result<void> cover(const std::vector<Vec2>& heights, double from, double length, bool closed,
+                   const Units& units, std::vector<std::string>& remarks) {
+  constexpr double kBeside = 1e-6, kLongGap = 0.05;  // of the length
+  constexpr double kFarApart = 10.0;                 // of the mean distance of heights
+  const double slack = kBeside * length, to = from + length;
+  const double low = heights.front().x, high = heights.back().x;
+  if (low > to + slack || high < from - slack ||
+      (closed && (low < from - slack || high > to + slack))) {
+    return error(ErrorCode::kBadOption, "stations of heights lie beside the alignment")
+        .where("--profile")
+        .hint(fmt::format("heights are at {} to {} {}, the alignment at {} to {}",
+                          significant(low, 8), significant(high, 8), units.text(),
+                          significant(from, 8), significant(to, 8)))
+        .value(low);
+  }
+  std::vector<std::pair<double, double>> gaps;
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    gaps.emplace_back(heights[i - 1].x, heights[i].x);
+  }
+  if (closed) {
+    gaps.emplace_back(high, low + length);
+  } else {
+    gaps.emplace_back(from, low);
+    gaps.emplace_back(high, to);
+  }
+  const double mean = (high - low) / static_cast<double>(heights.size() - 1);
+  for (const auto& [a, b] : gaps) {
+    if (!(b - a > std::max(kLongGap * length, kFarApart * mean))) continue;
+    remarks.push_back(fmt::format(
+        "no height between stations {} and {} {}: no measurement bears the profile there",
+        significant(a, 7), significant(b, 7), units.text()));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<double> estimated_noise(const std::vector<Vec2>& points, const Units& units,
@@ -158,6 +217,13 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   const auto tolerance = height_tolerance(ascending, rounding, series.units, job, remarks);
   OBVID_TRY(tolerance);
   out.tolerance = *tolerance;
+  if (ascending.size() > 1) {
+    OBVID_TRY(cover(ascending, job.first_station, alignment.length, alignment.closed, series.units,
+                    remarks));
+    if (alignment.closed) {
+      OBVID_TRY(close_around(ascending, alignment.length, *tolerance, out.of_points));
+    }
+  }
   auto profile =
       fit_profile(ascending, std::vector<double>(ascending.size(), *tolerance), options, run);
   OBVID_TRY(profile);

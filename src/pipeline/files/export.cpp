@@ -243,6 +243,18 @@ std::string nose_text(const AirfoilFigures& f) {
       f.nose_turns, kFairNose * f.chord);
 }
 
+/// What a trailing edge has whose sides do not end beside each other; empty for others.
+std::string trailing_text(const AirfoilFigures& f, const std::optional<double>& wanted) {
+  constexpr double kBeside = 5e-4;  // chords
+  if (!(f.trailing_gap > kBeside)) return "";
+  return fmt::format(
+      "one side ends {:.3f} % of the chord before the other one, as where a file lacks its last "
+      "point: {}; add that point",
+      100.0 * f.trailing_gap,
+      wanted ? "the trailing edge of the file is as far open along the chord"
+             : "the thickness of the trailing edge is across the chord alone");
+}
+
 /// The input's points from trailing edge to trailing edge: where a closed contour begins there, its
 /// first point ends the list, too.
 std::vector<Vec2> points_around(const Contour& contour, const AirfoilFigures& f) {
@@ -292,6 +304,9 @@ Result<Exported> airfoil_file(const ContourExport& e) {
                   100.0 * f.nose_radius, 100.0 * f.trailing_thickness,
                   f.trailing_angle * 180.0 / std::numbers::pi, f.chord, e.contour.units.text()));
   if (const std::string told = nose_text(f); !told.empty()) out.warnings.push_back(told);
+  if (auto told = trailing_text(f, write.trailing_thickness); !told.empty()) {
+    out.warnings.push_back(std::move(told));
+  }
   if (const auto input = airfoil_point_figures(points_around(e.contour, f), f)) {
     out.remarks.push_back(points_text(*input));
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <variant>
 
@@ -40,7 +41,8 @@ bool is_circle(const std::vector<Piece>& pieces) {
 }
 
 /// "4 lines and 4 arcs"; what is alone has no number.
-std::string kind_of(const std::vector<Piece>& pieces, bool closed) {
+std::string kind_of(const std::vector<Piece>& pieces, bool closed,
+                    const std::vector<PlacedTransition>& placed) {
   if (pieces.empty()) return "nothing";
   if (closed && is_circle(pieces)) return "circle";
   std::size_t lines = 0, arcs = 0, clothoids = 0;
@@ -50,6 +52,12 @@ std::string kind_of(const std::vector<Piece>& pieces, bool closed) {
     clothoids += std::holds_alternative<ClothoidPiece>(piece) ? 1 : 0;
   }
   const std::size_t splines = pieces.size() - lines - arcs - clothoids;
+  // clothoids that stand for other transitions are these
+  std::map<Transition, std::size_t> transitions;
+  for (const PlacedTransition& one : placed) {
+    clothoids -= one.pieces;
+    ++transitions[one.kind];
+  }
   if (splines == pieces.size()) return "spline";
   std::vector<std::string> parts;
   const auto add = [&](std::size_t count, const char* one, const char* many) {
@@ -59,6 +67,10 @@ std::string kind_of(const std::vector<Piece>& pieces, bool closed) {
   add(lines, "line", "lines");
   add(arcs, "arc", "arcs");
   add(clothoids, "clothoid", "clothoids");
+  for (const auto& [kind, count] : transitions) {
+    const std::string name = std::string(name_of(kind)) + " transition";
+    add(count, name.c_str(), (name + "s").c_str());
+  }
   add(splines, "span of a spline", "spans of splines");
   std::string out;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -118,7 +130,7 @@ DrawnFigures figures_of(const PointSeries& series) {
 DrawnFigures figures_of(const CurveAudit& audit) {
   const Contour& contour = audit.contour;
   DrawnFigures out;
-  out.kind = kind_of(contour.pieces, contour.closed);
+  out.kind = kind_of(contour.pieces, contour.closed, audit.transitions);
   out.points = contour.pieces.size() + (contour.closed ? 0 : 1);
   out.length = audit.length;
   out.closed = contour.closed;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "fit/slope_step.h"
 #include "obvid/certify/certify.h"
@@ -247,16 +248,29 @@ class Auditor {
     }
   }
 
+  /// Curvatures before and behind a joint; of clothoids in the place of another transition those
+  /// that it has.
+  [[nodiscard]] std::pair<double, double> curvatures_at(std::size_t j, double before,
+                                                        double after) const {
+    for (const PlacedTransition& one : out_.transitions) {
+      const std::size_t end = one.first_piece + one.pieces;
+      if (j > one.first_piece && j < end) return {before, before};
+      if (j == one.first_piece) after = one.kappa0;
+      if (j == end % out_.contour.pieces.size() || j == end) before = one.kappa1;
+    }
+    return {before, after};
+  }
+
   /// Notes what is not continuous at a joint; true at a corner and where the curvature jumps, or is
   /// not defined on a side.
   bool compare(std::size_t j, const Element& before, const Element& after) {
     const double gap = norm(after.point - before.point);
     const double turn =
         std::abs(std::remainder(after.theta - before.theta, 2.0 * std::numbers::pi));
-    const double jump = std::abs(after.kappa - before.kappa);
-    const double larger = std::max(std::abs(after.kappa), std::abs(before.kappa));
-    AuditPlace place{AuditPlace::Kind::kGap, path_->joint(j), before.point,
-                     before.kappa,           after.kappa,     gap};
+    const auto [from, to] = curvatures_at(j, before.kappa, after.kappa);
+    const double jump = std::abs(to - from);
+    const double larger = std::max(std::abs(to), std::abs(from));
+    AuditPlace place{AuditPlace::Kind::kGap, path_->joint(j), before.point, from, to, gap};
     if (gap > kLargestGap * size_) add(place, -1);
     place.kind = AuditPlace::Kind::kCorner;
     place.size = turn;

@@ -19,6 +19,8 @@ class TransitionLaw {
   [[nodiscard]] bool exists() const { return exists_; }
   /// Whether the curvature is linear: a clothoid, or none that changes.
   [[nodiscard]] bool is_linear() const { return kind_ == Transition::kClothoid; }
+  /// The share of its length at which a cubic parabola passes its inflection, if it does.
+  [[nodiscard]] std::optional<double> inflection() const;
   /// f(u), u in [0, 1]. Where the curvature stays as it is, u.
   [[nodiscard]] double share(double u) const;
   /// Its integral from 0 to u. To 1 it is 1/2 but for a cubic parabola.

@@ -32,6 +32,9 @@ class GcodePath {
   /// `scale`: machine units in a unit of the contour. Ends have `decimals` decimals.
   GcodePath(double scale, int decimals);
 
+  /// One without blocks that begins where this one ends.
+  [[nodiscard]] GcodePath from_here() const;
+
   void start_at(Vec2 point);  ///< the tool is brought there
   void line_to(Vec2 point);
   void follow_arc(const ArcPiece& arc);

@@ -41,7 +41,8 @@ struct LandXmlOptions {
       profile{};  ///< of heights, stations as from `first_station`, units of the
                   ///< contour: a ProfAlign of PVI, ParaCurve and CircCurve
   std::vector<PlacedTransition> transitions{};  ///< written as a Spiral of their kind each, but for
-                                                ///< those through an inflection
+                                                ///< those through an inflection: as clothoids,
+                                                ///< cubic parabolas as two of their kind
 };
 
 /// The unit of a LandXML file for lengths in `unit`: itself where the format knows it (mm, cm, m,
