@@ -110,8 +110,7 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                                 r.added_passes));
   facts.add("length", fmt::format("{} {} at feed, {} {} rapid", significant(r.cutting_length, 5),
                                   unit, significant(r.rapid_length, 5), unit));
-  facts.add("time", fmt::format("{} minutes at the stated feeds, without acceleration",
-                                significant(r.minutes, 3)));
+  facts.add("time", fmt::format("about {} minutes, with acceleration", significant(r.minutes, 3)));
   const auto bound = [](const char* words, double most) {
     return std::isfinite(most) ? fmt::format(fmt::runtime(words), significant(most, 3))
                                : std::string("no bound is known");

@@ -109,6 +109,10 @@ void add_program(CLI::App& app, RawToolpath& raw) {
                  "Of rapid moves, for the time [5000 mm/min; inches: 200 in/min]")
       ->type_name("F")
       ->group(group);
+  app.add_option("--acceleration", plan.acceleration,
+                 "Along the way, mm/s^2, for the estimate of time [500]")
+      ->type_name("A")
+      ->group(group);
   app.add_option("--spindle", plan.spindle, "Revolutions a minute: M3, M5 [none]")
       ->type_name("S")
       ->group(group);

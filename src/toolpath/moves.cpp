@@ -97,7 +97,6 @@ void lay_moves(const Family& family, const ToolpathOptions& options, double leve
     }
   }
   layer.leave();
-  list_minutes(out);
 }
 
 }  // namespace obvid::toolpath

@@ -83,6 +83,9 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
     if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
   }
+  if (o.acceleration && !positive(*o.acceleration)) {
+    return refuse("the acceleration must be greater than 0", *o.acceleration);
+  }
   if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {
     return refuse("the allowance must not be less than 0", o.allowance);
   }
@@ -216,6 +219,7 @@ Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nea
   auto program = toolpath_gcode(out, options.gcode);
   OBVID_TRY(program);
   out.program = std::move(*program);
+  out.report.minutes = out.program.minutes;
   const auto seen =
       check_program(part, cells, reach, out.program.text, machine_scale(out.units), options, run);
   OBVID_TRY(seen);
@@ -239,6 +243,7 @@ Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
   out.cutter = options.cutter;
   out.tolerance = options.tolerance;
   out.spindle = options.spindle;
+  out.acceleration = options.acceleration;
   out.print_within = print_within(options);
   const ToolpathFeeds usual = default_feeds(model.units.name);
   out.feeds = {options.feed.value_or(usual.pass), options.plunge_feed.value_or(usual.plunge),

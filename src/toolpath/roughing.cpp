@@ -70,7 +70,6 @@ class Roughing {
     }
     list_.leave();
     out_.report.levels = count;
-    list_minutes(out_);
     return {};
   }
 

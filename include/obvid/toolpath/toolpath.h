@@ -63,7 +63,8 @@ struct ToolpathOptions {
   std::optional<double> spindle{};   ///< revolutions a minute [no M3]
   double tolerance = 0.01;           ///< of the printed program: gouges
   std::optional<double> feed{}, plunge_feed{}, rapid_feed{};  ///< [default_feeds]
-  std::optional<double> safe_z{};  ///< [half a diameter above the highest point]
+  std::optional<double> acceleration{};  ///< along the way, for the estimate of time [500 mm/s^2]
+  std::optional<double> safe_z{};        ///< [half a diameter above the highest point]
   std::size_t most_points = 20'000'000;
   std::size_t threads = 0;  ///< [all of the machine]; the result does not depend on it
   ToolpathGcodeOptions gcode{};
@@ -91,7 +92,8 @@ struct ToolpathReport {
   double cutting_length = 0.0;  ///< passes and links, units
   double plunge_length = 0.0;
   double rapid_length = 0.0;
-  double minutes = 0.0;  ///< at the stated feeds, without acceleration
+  double minutes = 0.0;  ///< of the printed program from its first place on, with acceleration:
+                         ///< an estimate (docs/methods/toolpath.md)
   /// Of the printed program, read as a controller reads it and simulated against the surface
   /// itself. `found`: at a place that was looked at; `most`: nowhere more, by the bends of cutter
   /// and surface around those places.
@@ -135,7 +137,8 @@ struct Toolpath {
   double tolerance = 0.0;
   double print_within = 0.0;  ///< units: of printed blocks from the points of the moves
   ToolpathFeeds feeds;
-  std::optional<double> spindle{};  ///< revolutions a minute
+  std::optional<double> spindle{};       ///< revolutions a minute
+  std::optional<double> acceleration{};  ///< mm/s^2 [500]
   std::vector<ToolpathMove> moves;
   ToolpathGcode program;  ///< what the report is about
   ToolpathReport report;
