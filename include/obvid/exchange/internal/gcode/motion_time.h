@@ -15,7 +15,7 @@ struct MotionRules {
   double corner = 0.0;        ///< how far a controller may cut corners: sets the speed there
 };
 
-/// In units of the machine, length/s^2, of what is given in mm/s^2 [500].
+/// In units of the machine, length/s^2, of what is given in mm/s^2; nothing: 500 mm/s^2.
 [[nodiscard]] double machine_acceleration(std::optional<double> given, bool inches);
 
 /// Seconds that a program takes, block by block: along each with the least time that its feed, the
