@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "passes.h"
+
 namespace obvid::toolpath {
 namespace {
 
@@ -13,15 +15,13 @@ constexpr double kMostLegs = 40.0;                            // of a ramp up an
 constexpr double kMostTurns = 1000.0;                         // of a helix
 constexpr double kLeastCorners = 16.0, kMostCorners = 720.0;  // of a circle
 
-double level_length(Vec3 a, Vec3 b) { return std::hypot(b.x - a.x, b.y - a.y); }
-
 /// Ways one after the other with what is over them, which falls evenly from `height` to 0.
 class Way {
  public:
   Way(double height, double length) : height_(height), length_(length) {}
 
   void go(Vec3 p) {
-    if (!points_.empty()) gone_ += level_length(last_, p);
+    if (!points_.empty()) gone_ += level_distance(last_, p);
     last_ = p;
     const double over = height_ * std::max(0.0, 1.0 - gone_ / length_);
     points_.push_back({p.x, p.y, p.z + over});
@@ -48,7 +48,7 @@ std::optional<double> fall_of(const ToolpathOptions& options) {
 std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double height,
                                            double fall) {
   double length = 0.0;
-  for (std::size_t i = 1; i < pass.size(); ++i) length += level_length(pass[i - 1], pass[i]);
+  for (std::size_t i = 1; i < pass.size(); ++i) length += level_distance(pass[i - 1], pass[i]);
   const double total = height / fall;
   const double legs = 2.0 * std::max(1.0, std::ceil(total / (2.0 * length)));
   if (!(legs <= kMostLegs)) return std::nullopt;
@@ -56,7 +56,7 @@ std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double
   std::vector<Vec3> there{pass.front()};
   double at = 0.0;
   for (std::size_t i = 1; i < pass.size() && at < leg; ++i) {
-    const double step = level_length(pass[i - 1], pass[i]);
+    const double step = level_distance(pass[i - 1], pass[i]);
     const double part = step > 0.0 ? std::min(1.0, (leg - at) / step) : 1.0;
     there.push_back(part < 1.0 ? pass[i - 1] + part * (pass[i] - pass[i - 1]) : pass[i]);
     at += step;
@@ -73,7 +73,7 @@ std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double
 std::optional<std::vector<Vec3>> helix_over(const std::vector<Vec3>& ring, double height,
                                             double fall, double least_turns) {
   double length = 0.0;
-  for (std::size_t i = 1; i < ring.size(); ++i) length += level_length(ring[i - 1], ring[i]);
+  for (std::size_t i = 1; i < ring.size(); ++i) length += level_distance(ring[i - 1], ring[i]);
   const double turns = std::max(least_turns, std::ceil(height / (fall * length)));
   if (!(turns <= kMostTurns)) return std::nullopt;
   Way way(height, turns * length);

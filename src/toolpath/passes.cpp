@@ -22,11 +22,6 @@ constexpr std::size_t kIsoSteps = 64;   // to guess the length of a line of para
 constexpr double kJump = 10.0;
 constexpr double kLeansOtherwise = 0.05;
 
-double level_distance(Vec3 a, Vec3 b) {
-  const double dx = a.x - b.x, dy = a.y - b.y;
-  return std::sqrt(dx * dx + dy * dy);
-}
-
 /// Distance of a point from the line through a and b.
 double off_line(Vec3 a, Vec3 b, Vec3 p) {
   const Vec3 way = b - a;
@@ -41,6 +36,11 @@ bool changes_sides(const PassPoint& a, const PassPoint& b) {
 }
 
 }  // namespace
+
+double level_distance(Vec3 a, Vec3 b) {
+  const double dx = a.x - b.x, dy = a.y - b.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
 
 Vec2 Rail::axis_at(double t) const {
   const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(axis.size() - 1);

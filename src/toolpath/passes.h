@@ -11,6 +11,9 @@
 
 namespace obvid::toolpath {
 
+/// Distance seen from above.
+[[nodiscard]] double level_distance(Vec3 a, Vec3 b);
+
 /// What a pass follows, over t in [0, 1]: places of the axis seen from above, or a line of
 /// parameters that the cutter is to touch.
 struct Rail {
