@@ -98,6 +98,11 @@ void add_rough_facts(const ToolpathReport& r, const std::string& unit, Facts& fa
   }
 }
 
+std::string entries_text(const ToolpathEntries& e, bool rough) {
+  return fmt::format("{} helical, {} on ramps, {} straight down{}", e.helical, e.ramped, e.straight,
+                     rough ? " beside the stock" : "");
+}
+
 std::string toolpath_text(const Made& made, const std::vector<std::string>& files) {
   const ToolpathReport& r = made.job.path.report;
   const std::string& unit = made.job.path.units;
@@ -110,8 +115,8 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                                 r.added_passes));
   facts.add("length", fmt::format("{} {} at feed, {} {} rapid", significant(r.cutting_length, 5),
                                   unit, significant(r.rapid_length, 5), unit));
-  facts.add("time", fmt::format("{} minutes at the stated feeds, without acceleration",
-                                significant(r.minutes, 3)));
+  facts.add("entries", entries_text(r.entries, rough));
+  facts.add("time", fmt::format("about {} minutes, with acceleration", significant(r.minutes, 3)));
   const auto bound = [](const char* words, double most) {
     return std::isfinite(most) ? fmt::format(fmt::runtime(words), significant(most, 3))
                                : std::string("no bound is known");

@@ -90,8 +90,23 @@ void add_roughing(CLI::App& app, RawToolpath& raw) {
                  "Lowest and highest corner of the stock, units [box of part and allowance]")
       ->type_name("X0,Y0,Z0,X1,Y1,Z1")
       ->group(group);
-  app.add_option("--ramp", plan.ramp_deg, "Steepest way down into the stock, degrees [5]")
+}
+
+void add_entries(CLI::App& app, RawToolpath& raw) {
+  const char* group = "Entries";
+  ToolpathOptions& plan = raw.command.job.plan;
+  app.add_option("--entry", raw.values.entry,
+                 "How the tip goes down to a pass: ramp (back and forth over it) or helix (else on "
+                 "a ramp) [roughing: ramp; else straight down, a ramp with --ramp]")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--ramp", plan.ramp_deg,
+                 "How steeply ramps and helices go down over the pass at most, degrees [5]")
       ->type_name("DEG")
+      ->group(group);
+  app.add_option("--ramp-height", plan.ramp_height,
+                 "Not roughing: how far over the pass they begin, units [half a diameter]")
+      ->type_name("H")
       ->group(group);
 }
 
@@ -108,6 +123,10 @@ void add_program(CLI::App& app, RawToolpath& raw) {
   app.add_option("--rapid-feed", plan.rapid_feed,
                  "Of rapid moves, for the time [5000 mm/min; inches: 200 in/min]")
       ->type_name("F")
+      ->group(group);
+  app.add_option("--acceleration", plan.acceleration,
+                 "Along the way, mm/s^2, for the estimate of time [500]")
+      ->type_name("A")
       ->group(group);
   app.add_option("--spindle", plan.spindle, "Revolutions a minute: M3, M5 [none]")
       ->type_name("S")
@@ -152,6 +171,7 @@ Result<Command> parse_toolpath(int argc, const char* const* argv) {
   add_cutter(app, raw);
   add_passes(app, raw);
   add_roughing(app, raw);
+  add_entries(app, raw);
   add_program(app, raw);
   app.add_option("--view", raw.view, "Of the picture: iso, front, top, side, back or bottom [iso]")
       ->type_name("NAME");

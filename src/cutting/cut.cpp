@@ -35,8 +35,7 @@ struct Defaults {
   double plunge, rapid, safe_z, clear_z;
 };
 constexpr Defaults kMillimetres{300.0, 3000.0, 5.0, 1.0}, kInches{12.0, 120.0, 0.2, 0.04};
-constexpr double kAcceleration = 500.0;  // mm/s^2
-constexpr double kLeastFeed = 1e-3;      // a minute: what is printed is not 0
+constexpr double kLeastFeed = 1e-3;  // a minute: what is printed is not 0
 constexpr double kMostBlocks = 3e5;
 constexpr double kTooLittleToTell = 1e-9;            // of the tolerance: rounding
 constexpr double kOrderAt = 0.4, kReadBackAt = 0.7;  // of the work
@@ -154,11 +153,12 @@ class Cutting {
     CutProgram out;
     for (const Visit& visit : visits) out.steps.push_back(step_of(visit));
     add_moves(blocks, text, out);
-    const double acceleration =
-        options_.acceleration.value_or(kAcceleration) / (inches_ ? kMmPerInch : 1.0);
-    const TimeRules times{options_.rapid_feed.value_or(defaults_.rapid), acceleration,
-                          options_.tolerance * scale_, options_.pierce_seconds};
-    out.report.minutes = seconds_of(blocks.blocks, times) / kSecondsOfMinute;
+    const exchange::MotionRules times{
+        options_.rapid_feed.value_or(defaults_.rapid),
+        exchange::machine_acceleration(options_.acceleration, inches_),
+        options_.tolerance * scale_};
+    out.report.minutes =
+        seconds_of(blocks.blocks, times, options_.pierce_seconds) / kSecondsOfMinute;
     out.report.levels = blocks.levels;
     out.text = head(out) + text.start() + text.path().text() + text.end();
     watch_.tell("reading it back", kReadBackAt);

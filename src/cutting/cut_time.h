@@ -4,20 +4,13 @@
 #include <vector>
 
 #include "cut_blocks.h"
+#include "obvid/exchange/internal/gcode/motion_time.h"
 
 namespace obvid::cutting {
 
-struct TimeRules {
-  double rapid_feed = 0.0;    ///< a minute
-  double acceleration = 0.0;  ///< length/s^2
-  double corner = 0.0;        ///< how far a controller may cut corners: sets the speed there
-  double pierce_seconds = 0.0;
-};
-
-/// Seconds that the blocks take: along each with the least time that its feed, the acceleration and
-/// the speeds at its ends allow. At a corner the speed is that of a circle tangent to both sides
-/// that stays `corner` away from it (the rule of grbl and LinuxCNC's G64 P). An estimate:
-/// controllers look so many blocks ahead as they can.
-[[nodiscard]] double seconds_of(const std::vector<CutBlock>& blocks, const TimeRules& rules);
+/// Seconds that the blocks take from the origin (`MotionTime`); rapid moves and moves straight down
+/// or up begin and end at rest.
+[[nodiscard]] double seconds_of(const std::vector<CutBlock>& blocks,
+                                const exchange::MotionRules& rules, double pierce_seconds);
 
 }  // namespace obvid::cutting

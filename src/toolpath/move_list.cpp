@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "machine_units.h"
-
 namespace obvid::toolpath {
 
 double length_of(const std::vector<Vec3>& points) {
@@ -32,13 +30,6 @@ void MoveList::enter(Vec3 start) {
 
 void MoveList::leave() {
   if (begun_) add(ToolMove::kRapid, {at_, {at_.x, at_.y, out_.report.safe_z}});
-}
-
-void list_minutes(Toolpath& out) {
-  ToolpathReport& report = out.report;
-  report.minutes = machine_scale(out.units) * (report.cutting_length / out.feeds.pass +
-                                               report.plunge_length / out.feeds.plunge +
-                                               report.rapid_length / out.feeds.rapid);
 }
 
 }  // namespace obvid::toolpath

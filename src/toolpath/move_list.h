@@ -29,7 +29,4 @@ class MoveList {
   bool begun_ = false;
 };
 
-/// The report's time, of its lengths and the feeds.
-void list_minutes(Toolpath& out);
-
 }  // namespace obvid::toolpath

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "entry.h"
 #include "move_list.h"
 
 namespace obvid::toolpath {
@@ -11,18 +12,22 @@ namespace {
 
 constexpr double kLinkSteps = 3.0;   // level steps seen from above: farther, the cutter is lifted
 constexpr double kLinkDetour = 3.0;  // a link up and down is not longer than this times straight
+constexpr double kRampHeight = 0.5;  // diameters
 
 class Layer {
  public:
   Layer(const ToolpathOptions& options, double level_step, Walker& walker, Toolpath& out)
-      : options_(options), level_step_(level_step), walker_(walker), list_(out) {}
+      : options_(options),
+        level_step_(level_step),
+        fall_(fall_of(options)),
+        walker_(walker),
+        report_(out.report),
+        list_(out) {}
 
   void cut(std::vector<Vec3> points, PassPlane plane) {
-    if (!list_.begun()) {
-      list_.enter(points.front());
-    } else if (!linked(points.front())) {
+    if (!list_.begun() || !linked(points.front())) {
       list_.leave();
-      list_.enter(points.front());
+      enter(points);
     }
     list_.add(ToolMove::kPass, std::move(points), plane);
   }
@@ -42,9 +47,64 @@ class Layer {
     return true;
   }
 
+  /// Down to a pass, as it is asked for and there is room.
+  void enter(const std::vector<Vec3>& points) {
+    std::optional<std::vector<Vec3>> way;
+    const double height =
+        std::min(options_.ramp_height.value_or(kRampHeight * options_.cutter.diameter),
+                 report_.safe_z - points.front().z);
+    if (fall_ && height > 0.0) {
+      if (options_.entry == ToolpathEntry::kHelix) way = helix_to(points, height);
+      if (way) {
+        ++report_.entries.helical;
+      } else if ((way = ramp_over(points, height, *fall_))) {
+        ++report_.entries.ramped;
+      }
+    }
+    if (!way) {
+      ++report_.entries.straight;
+      return list_.enter(points.front());
+    }
+    list_.enter(way->front());
+    list_.add(ToolMove::kPlunge, std::move(*way));
+  }
+
+  /// Turns over a circle that touches the beginning of the pass, no lower than that: on the side
+  /// where the part rises less, and no more than by `height`.
+  [[nodiscard]] std::optional<std::vector<Vec3>> helix_to(const std::vector<Vec3>& points,
+                                                          double height) {
+    const Vec3 start = points.front();
+    Vec2 along{};
+    for (std::size_t i = 1; i < points.size() && along == Vec2{}; ++i) {
+      const Vec2 way{points[i].x - start.x, points[i].y - start.y};
+      if (norm(way) > 0.0) along = way / norm(way);
+    }
+    if (along == Vec2{}) return std::nullopt;
+    for (const double part : kHelixRadii) {
+      std::optional<std::vector<Vec3>> best;
+      double least = start.z + height;
+      for (const double side : {1.0, -1.0}) {
+        const double radius = 0.5 * part * options_.cutter.diameter;
+        auto ring = walker_.over(
+            circle_from({start.x, start.y}, along, side, radius, options_.tolerance), start.z);
+        if (!ring) continue;
+        double highest = start.z;
+        for (const Vec3 p : *ring) highest = std::max(highest, p.z);
+        if (!(highest < least)) continue;
+        least = highest;
+        ring->front() = ring->back() = start;
+        best = std::move(ring);
+      }
+      if (best) return helix_over(*best, std::min(height, report_.safe_z - least), *fall_, 1.0);
+    }
+    return std::nullopt;
+  }
+
   const ToolpathOptions& options_;
   double level_step_;
+  std::optional<double> fall_;
   Walker& walker_;
+  ToolpathReport& report_;
   MoveList list_;
 };
 
@@ -97,7 +157,6 @@ void lay_moves(const Family& family, const ToolpathOptions& options, double leve
     }
   }
   layer.leave();
-  list_minutes(out);
 }
 
 }  // namespace obvid::toolpath

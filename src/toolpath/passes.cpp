@@ -22,11 +22,6 @@ constexpr std::size_t kIsoSteps = 64;   // to guess the length of a line of para
 constexpr double kJump = 10.0;
 constexpr double kLeansOtherwise = 0.05;
 
-double level_distance(Vec3 a, Vec3 b) {
-  const double dx = a.x - b.x, dy = a.y - b.y;
-  return std::sqrt(dx * dx + dy * dy);
-}
-
 /// Distance of a point from the line through a and b.
 double off_line(Vec3 a, Vec3 b, Vec3 p) {
   const Vec3 way = b - a;
@@ -41,6 +36,11 @@ bool changes_sides(const PassPoint& a, const PassPoint& b) {
 }
 
 }  // namespace
+
+double level_distance(Vec3 a, Vec3 b) {
+  const double dx = a.x - b.x, dy = a.y - b.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
 
 Vec2 Rail::axis_at(double t) const {
   const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(axis.size() - 1);
@@ -130,7 +130,15 @@ Walker::Station Walker::touching(const Rail& rail, double t) const {
   return out;
 }
 
+Walker::Station Walker::no_lower(Vec2 axis, double t, double floor) const {
+  const auto rest = part_.drop(axis);
+  PassPoint out{t, rest.value_or(Place{}), false};
+  out.place.tip = {axis.x, axis.y, rest ? std::max(rest->tip.z, floor) : floor};
+  return out;
+}
+
 Walker::Station Walker::at(const Rail& rail, double t) const {
+  if (rail.floor) return no_lower(rail.axis_at(t), t, *rail.floor);
   return rail.of_parameters() ? touching(rail, t) : resting(rail.axis_at(t), t);
 }
 
@@ -275,18 +283,33 @@ Result<Pass> Walker::walk(const Rail& rail) {
   return pass;
 }
 
-std::optional<std::vector<Vec3>> Walker::link(Vec3 from, Vec3 to) {
-  Rail rail;
-  rail.axis = {{from.x, from.y}, {to.x, to.y}};
-  rail.across = true;
+std::optional<std::vector<Vec3>> Walker::tips_of(const Rail& rail) {
   const auto pass = walk(rail);
   if (!pass || pass->pieces.size() != 1) return std::nullopt;
   const auto& piece = pass->pieces.front();
   if (piece.front().t > 0.0 || piece.back().t < 1.0) return std::nullopt;
-  std::vector<Vec3> out{from};
+  std::vector<Vec3> out;
   for (const PassPoint& p : piece) out.push_back(p.place.tip);
-  out.push_back(to);
   return out;
+}
+
+std::optional<std::vector<Vec3>> Walker::link(Vec3 from, Vec3 to) {
+  Rail rail;
+  rail.axis = {{from.x, from.y}, {to.x, to.y}};
+  rail.across = true;
+  auto way = tips_of(rail);
+  if (!way) return std::nullopt;
+  way->insert(way->begin(), from);
+  way->push_back(to);
+  return way;
+}
+
+std::optional<std::vector<Vec3>> Walker::over(const std::vector<Vec2>& axis, double floor) {
+  Rail rail;
+  rail.axis = axis;
+  rail.across = true;
+  rail.floor = floor;
+  return tips_of(rail);
 }
 
 }  // namespace obvid::toolpath

@@ -11,6 +11,9 @@
 
 namespace obvid::toolpath {
 
+/// Distance seen from above.
+[[nodiscard]] double level_distance(Vec3 a, Vec3 b);
+
 /// What a pass follows, over t in [0, 1]: places of the axis seen from above, or a line of
 /// parameters that the cutter is to touch.
 struct Rail {
@@ -20,7 +23,8 @@ struct Rail {
   bool along_v = false;
   double fixed = 0.0;  ///< the other parameter
   double from = 0.0, to = 1.0;
-  bool across = false;  ///< a link: not in the direction of the passes
+  bool across = false;            ///< a link: not in the direction of the passes
+  std::optional<double> floor{};  ///< the tip goes no lower, and goes on where it rests on nothing
 
   [[nodiscard]] bool of_parameters() const { return axis.empty(); }
   [[nodiscard]] Vec2 axis_at(double t) const;
@@ -62,6 +66,9 @@ class Walker {
   [[nodiscard]] Result<Pass> walk(const Rail& rail);
   /// A straight way on the surface; nothing: it leads where there is nothing to go on.
   [[nodiscard]] std::optional<std::vector<Vec3>> link(Vec3 from, Vec3 to);
+  /// Places of the tip over these of the axis, no lower than a floor, and between them as near to
+  /// each other as those of passes; nothing: too many of them.
+  [[nodiscard]] std::optional<std::vector<Vec3>> over(const std::vector<Vec2>& axis, double floor);
   [[nodiscard]] std::size_t threads() const { return threads_; }
 
  private:
@@ -74,6 +81,7 @@ class Walker {
   [[nodiscard]] Station at(const Rail& rail, double t) const;
   [[nodiscard]] Station touching(const Rail& rail, double t) const;
   [[nodiscard]] Station resting(Vec2 axis, double t) const;
+  [[nodiscard]] Station no_lower(Vec2 axis, double t, double floor) const;
   [[nodiscard]] bool round_enough(Vec3 a, Vec3 b) const;
   [[nodiscard]] bool flat_enough(const Rail& rail, Vec3 a, Vec3 b) const;
   [[nodiscard]] bool measured_enough(const std::array<Vec3, 5>& quarters) const;
@@ -82,6 +90,8 @@ class Walker {
             Stretch& out) const;
   void fill_both(const Rail& rail, const Station& a, double ta, const Station& b, double tb,
                  int depth, Stretch& out) const;
+  /// Of a rail that leads over the part from end to end.
+  [[nodiscard]] std::optional<std::vector<Vec3>> tips_of(const Rail& rail);
 
   const Part& part_;
   BulgeMap bulges_;

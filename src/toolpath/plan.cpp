@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "entry.h"
 #include "machine_units.h"
 #include "moves.h"
 #include "obvid/toolpath/toolpath.h"
@@ -37,15 +38,12 @@ bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 Result<void> check_roughing(const ToolpathOptions& o) {
   if (o.strategy != ToolpathStrategy::kRough) {
-    if (!o.stock && !o.ramp_deg && (!o.step_down || flat_from(o))) return {};
-    return refuse("step down, stock and ramp are for roughing", 0.0,
+    if (!o.stock && (!o.step_down || flat_from(o))) return {};
+    return refuse("step down and stock are for roughing", 0.0,
                   "add --strategy rough; levels take a step down");
   }
   if (o.scallop) {
     return refuse("roughing keeps no scallop", *o.scallop, "give the step over and the allowance");
-  }
-  if (o.ramp_deg && !(*o.ramp_deg > 0.0 && *o.ramp_deg < kSteepestRamp)) {
-    return refuse("the ramp must lie between 0 and 90 degrees", *o.ramp_deg);
   }
   if (o.stock) {
     const Vec3 size = (*o.stock)[1] - (*o.stock)[0];
@@ -53,6 +51,24 @@ Result<void> check_roughing(const ToolpathOptions& o) {
       return refuse("the stock's second corner must lie above its first in x, y and z",
                     std::min({size.x, size.y, size.z}));
     }
+  }
+  return {};
+}
+
+Result<void> check_entry(const ToolpathOptions& o) {
+  if (o.ramp_deg && !(*o.ramp_deg > 0.0 && *o.ramp_deg < kSteepestRamp)) {
+    return refuse("the ramp must lie between 0 and 90 degrees", *o.ramp_deg);
+  }
+  if (!o.ramp_height) return {};
+  if (o.strategy == ToolpathStrategy::kRough) {
+    return refuse("roughing knows the stock: its ramps begin there", *o.ramp_height,
+                  "leave the ramp's height out");
+  }
+  if (!fall_of(o)) {
+    return refuse("nothing goes down on a ramp", *o.ramp_height, "give the entry or its angle");
+  }
+  if (!positive(*o.ramp_height)) {
+    return refuse("the ramp's height must be greater than 0", *o.ramp_height);
   }
   return {};
 }
@@ -83,6 +99,9 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
     if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
   }
+  if (o.acceleration && !positive(*o.acceleration)) {
+    return refuse("the acceleration must be greater than 0", *o.acceleration);
+  }
   if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {
     return refuse("the allowance must not be less than 0", o.allowance);
   }
@@ -95,6 +114,7 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   }
   OBVID_TRY(check_roughing(o));
   OBVID_TRY(check_levels(o));
+  OBVID_TRY(check_entry(o));
   const bool by_steps = o.strategy == ToolpathStrategy::kZLevel && o.step_down;
   if (!o.scallop && !o.step_over && !by_steps) {
     return refuse("neither scallop nor step over is given", 0.0, "give one of them or both");
@@ -186,6 +206,11 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
     out.warnings.push_back(fmt::format("{} stretches are too short for the ramp and are left out",
                                        r.narrow_stretches));
   }
+  if (options.strategy != ToolpathStrategy::kRough && fall_of(options) && r.entries.straight > 0) {
+    out.warnings.push_back(fmt::format("no room for a ramp: {} of {} entries go straight down",
+                                       r.entries.straight,
+                                       r.entries.helical + r.entries.ramped + r.entries.straight));
+  }
   if (r.unreached_area > 0.0) {
     add(fmt::format(
             "about {:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
@@ -216,6 +241,7 @@ Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nea
   auto program = toolpath_gcode(out, options.gcode);
   OBVID_TRY(program);
   out.program = std::move(*program);
+  out.report.minutes = out.program.minutes;
   const auto seen =
       check_program(part, cells, reach, out.program.text, machine_scale(out.units), options, run);
   OBVID_TRY(seen);
@@ -239,6 +265,7 @@ Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
   out.cutter = options.cutter;
   out.tolerance = options.tolerance;
   out.spindle = options.spindle;
+  out.acceleration = options.acceleration;
   out.print_within = print_within(options);
   const ToolpathFeeds usual = default_feeds(model.units.name);
   out.feeds = {options.feed.value_or(usual.pass), options.plunge_feed.value_or(usual.plunge),

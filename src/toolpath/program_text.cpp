@@ -73,10 +73,19 @@ struct ProgramText::Flat {
   [[nodiscard]] Vec3 place(Vec2 p) const {
     return plane == PassPlane::kXz ? Vec3{p.x, other, p.y} : Vec3{other, p.x, p.y};
   }
+  /// Of length 1, in space.
+  [[nodiscard]] Vec3 direction(Vec2 a) const {
+    return unit(plane == PassPlane::kXz ? Vec3{a.x, 0.0, a.y} : Vec3{0.0, a.x, a.y});
+  }
 };
 
-ProgramText::ProgramText(int decimals, double within, bool arcs)
-    : decimals_(decimals), unit_(std::pow(10.0, -decimals)), within_(within), with_arcs_(arcs) {}
+ProgramText::ProgramText(int decimals, double within, bool arcs,
+                         const exchange::MotionRules& machine)
+    : decimals_(decimals),
+      unit_(std::pow(10.0, -decimals)),
+      within_(within),
+      with_arcs_(arcs),
+      time_(machine) {}
 
 Vec3 ProgramText::printed(Vec3 p) const {
   return {round_to(p.x, decimals_), round_to(p.y, decimals_), round_to(p.z, decimals_)};
@@ -90,11 +99,17 @@ std::string ProgramText::words(Vec3 to) const {
   return out;
 }
 
-void ProgramText::line(const char* code, Vec3 to) {
+void ProgramText::line(bool rapid, Vec3 to) {
   const Vec3 end = printed(to);
   const std::string axes = words(end);
   if (axes.empty()) return;
-  text_ += code + axes + "\n";
+  text_ += (rapid ? "G0" : "G1") + axes + "\n";
+  const Vec3 way = end - at_, heading = unit(way);
+  if (rapid) {
+    time_.rapid(norm(way));
+  } else {
+    time_.goes_on(norm(way), feed_, heading, heading);
+  }
   ++blocks_;
   at_ = end;
 }
@@ -123,12 +138,17 @@ void ProgramText::rapid(const std::vector<Vec3>& points) {
     at_ = first;
     placed_ = true;
   }
-  for (const Vec3 p : points) line("G0", p);
+  for (const Vec3 p : points) line(true, p);
 }
 
 void ProgramText::straight(const std::vector<Vec3>& points, double at_feed) {
   feed(at_feed);
-  for (const Vec3 p : thinned(points, within_)) line("G1", p);
+  for (const Vec3 p : thinned(points, within_)) line(false, p);
+}
+
+double ProgramText::Block::turn() const {
+  const Vec2 a = -to_centre, b = to - from - to_centre;
+  return std::atan2((left ? 1.0 : -1.0) * cross(a, b), dot(a, b));
 }
 
 double ProgramText::Block::distance(Vec2 p) const {
@@ -192,7 +212,7 @@ std::optional<std::array<ProgramText::Block, 2>> ProgramText::biarc(const Flat& 
 }
 
 void ProgramText::print(const Flat& flat, const Block& block) {
-  if (!block.arc) return line("G1", flat.place(block.to));
+  if (!block.arc) return line(false, flat.place(block.to));
   const Vec3 end = printed(flat.place(block.to));
   // G18 is the plane ZX seen from +Y: x and z have the other hand there
   const bool counter_clockwise = block.left != (flat.plane == PassPlane::kXz);
@@ -203,6 +223,11 @@ void ProgramText::print(const Flat& flat, const Block& block) {
                        fixed(block.to_centre.y, kCentreDecimals));
   ++blocks_;
   ++arc_blocks_;
+  const double turn = block.turn();
+  const Vec2 from = -block.to_centre, to = block.to - block.from - block.to_centre;
+  const double side = block.left ? 1.0 : -1.0;
+  time_.goes_on(norm(from) * turn, feed_, flat.direction(side * left_normal(from)),
+                flat.direction(side * left_normal(to)));
   at_ = end;
 }
 
@@ -214,7 +239,7 @@ void ProgramText::pass(const std::vector<Vec3>& points, PassPlane in, double at_
   const Flat flat(points, in);
   std::vector<Vec3> places;
   for (const Vec2 p : flat.points) places.push_back(flat.place(p));
-  line("G1", places.front());
+  line(false, places.front());
   const std::size_t end = flat.points.size() - 1;
   for (std::size_t k = 0; k < end;) {
     const std::size_t by_arcs =
@@ -227,7 +252,7 @@ void ProgramText::pass(const std::vector<Vec3>& points, PassPlane in, double at_
     if (arcs) {
       for (const Block& block : *arcs) print(flat, block);
     } else {
-      line("G1", places[by_line]);
+      line(false, places[by_line]);
     }
     k = arcs ? by_arcs : by_line;
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/exchange/internal/gcode/motion_time.h"
 #include "obvid/toolpath/toolpath.h"
 
 namespace obvid::toolpath {
@@ -16,7 +17,7 @@ namespace obvid::toolpath {
 class ProgramText {
  public:
   /// `within`: machine units, how far blocks may lie from the points they stand for.
-  ProgramText(int decimals, double within, bool arcs);
+  ProgramText(int decimals, double within, bool arcs, const exchange::MotionRules& machine);
 
   void rapid(const std::vector<Vec3>& points);
   void straight(const std::vector<Vec3>& points, double feed);
@@ -26,6 +27,8 @@ class ProgramText {
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] std::size_t blocks() const { return blocks_; }
   [[nodiscard]] std::size_t arcs() const { return arc_blocks_; }
+  /// Of all blocks from the first place on, as they are printed.
+  [[nodiscard]] double seconds() { return time_.seconds(); }
 
  private:
   struct Flat;
@@ -34,11 +37,12 @@ class ProgramText {
     Vec2 from, to, to_centre;
     bool arc = false, left = false;
     [[nodiscard]] double distance(Vec2 p) const;
+    [[nodiscard]] double turn() const;  ///< of an arc, rad
   };
   [[nodiscard]] Vec3 printed(Vec3 p) const;
   /// Words of the axes that change; empty: the tool stands there.
   [[nodiscard]] std::string words(Vec3 to) const;
-  void line(const char* code, Vec3 to);
+  void line(bool rapid, Vec3 to);
   void feed(double value);
   void plane(PassPlane plane);
   [[nodiscard]] Block block(Vec2 from, Vec2 middle, Vec2 to) const;
@@ -55,6 +59,7 @@ class ProgramText {
   PassPlane plane_ = PassPlane::kNone;
   std::string text_;
   std::size_t blocks_ = 0, arc_blocks_ = 0;
+  exchange::MotionTime time_;
 };
 
 }  // namespace obvid::toolpath

@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "cleared.h"
+#include "entry.h"
 #include "move_list.h"
 #include "obvid/core/internal/parallel.h"
 #include "pass_families.h"
@@ -18,12 +19,12 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr double kOutside = 1.05;  // radii that lines begin beside the stock
-constexpr double kRampDeg = 5.0;
-constexpr double kMostLegs = 40.0;       // of a ramp up and down one stretch
-constexpr double kStepDown = 0.5;        // diameters
-constexpr double kLevelRounding = 1e-9;  // of a level: no further one for that
-constexpr int kHalvings = 12;            // of the spacing of places, to the end of a stretch
+constexpr double kOutside = 1.05;                     // radii that lines begin beside the stock
+constexpr std::array kHelixPlaces = {1.0, 2.0, 4.0};  // radii of the helix from the stretch's end
+constexpr double kLeastTurns = 2.0;                   // of a helix: each takes half a level at most
+constexpr double kStepDown = 0.5;                     // diameters
+constexpr double kLevelRounding = 1e-9;               // of a level: no further one for that
+constexpr int kHalvings = 12;  // of the spacing of places, to the end of a stretch
 
 /// A line over the stock: height of the resting tip at places side by side.
 struct Line {
@@ -36,6 +37,7 @@ struct Line {
 struct Stretch {
   double from = 0.0, to = 0.0;
   bool done = false;
+  bool cut = false;
 };
 using Stretches = std::vector<std::vector<Stretch>>;  ///< by lines
 
@@ -47,6 +49,7 @@ class Roughing {
         stock_(stock_of(part, options)),
         frame_(pass_frame(part, options.angle_deg)),
         spacing_(level_spacing(part)),
+        fall_(*fall_of(options)),
         out_(out),
         list_(out) {}
 
@@ -70,7 +73,6 @@ class Roughing {
     }
     list_.leave();
     out_.report.levels = count;
-    list_minutes(out_);
     return {};
   }
 
@@ -179,6 +181,14 @@ class Roughing {
         follow(level, first, over, z);
       }
     }
+    above_.emplace(part_.cutter());
+    for (std::size_t k = 0; k < level.size(); ++k) {
+      std::vector<Cleared::Cut> cuts;
+      for (const Stretch& s : level[k]) {
+        if (s.cut) cuts.push_back({s.from, s.to});
+      }
+      above_->add_line(lines_[k].b, std::move(cuts));
+    }
     return {};
   }
 
@@ -194,7 +204,7 @@ class Roughing {
   }
 
   [[nodiscard]] bool can_begin(const Stretch& s, std::size_t line, double over, double z) const {
-    return legs_of_ramp(s.to - s.from, over - z) <= kMostLegs ||
+    return ramp_over({place(s.from, line, z), place(s.to, line, z)}, over - z, fall_) ||
            beside_stock(place(s.from, line, z)) || beside_stock(place(s.to, line, z));
   }
 
@@ -208,38 +218,77 @@ class Roughing {
     if (beside_stock(start)) {
       list_.leave();
       list_.enter(start);
-    } else if (!ramp_down(start, end, over, z)) {
+      ++out_.report.entries.straight;
+    } else if (!go_down(start, end, over, z)) {
       ++out_.report.narrow_stretches;
       return false;
     }
+    s.cut = true;
     list_.add(ToolMove::kPass, {start, end});
     return true;
   }
 
-  [[nodiscard]] double ramp_length(double down) const {
-    return down / std::tan(options_.ramp_deg.value_or(kRampDeg) * std::numbers::pi / 180.0);
-  }
-  /// An even number, so that a ramp ends where it begins.
-  [[nodiscard]] double legs_of_ramp(double length, double down) const {
-    return 2.0 * std::max(1.0, std::ceil(ramp_length(down) / (2.0 * length)));
-  }
-
-  /// Up and down a stretch that is free down to `over`, to the start on the level.
-  bool ramp_down(Vec3 start, Vec3 end, double over, double z) {
-    const double length = norm(end - start);
-    const double legs = legs_of_ramp(length, over - z);
-    if (!(legs <= kMostLegs)) return false;
-    const double leg = std::min(length, ramp_length(over - z) / legs);
-    std::vector<Vec3> way;
-    for (double k = 0.0; k <= legs; ++k) {
-      const double along = std::fmod(k, 2.0) == 1.0 ? leg / length : 0.0;
-      Vec3 p = start + along * (end - start);
-      p.z = over + (z - over) * k / legs;
-      way.push_back(p);
-    }
+  /// Into the stock, from where the level before has left a stretch free, to its start.
+  bool go_down(Vec3 start, Vec3 end, double over, double z) {
+    auto ramp = ramp_over({start, end}, over - z, fall_);
+    if (!ramp) return false;
+    auto helix =
+        options_.entry == ToolpathEntry::kHelix ? helix_beside(start, end, over, z) : std::nullopt;
+    ++(helix ? out_.report.entries.helical : out_.report.entries.ramped);
+    auto& way = helix ? *helix : *ramp;
+    const Vec3 last = way.back();
     list_.leave();
     list_.enter(way.front());
     list_.add(ToolMove::kPlunge, std::move(way));
+    if (!(last == start)) list_.add(ToolMove::kLink, {last, start});
+    return true;
+  }
+
+  /// Around a circle that touches the stretch, where the cutter is clear of the part on the level,
+  /// and no more than what one turn takes less than a level stands over the one before.
+  [[nodiscard]] std::optional<std::vector<Vec3>> helix_beside(Vec3 start, Vec3 end, double over,
+                                                              double z) const {
+    const Vec2 from{start.x, start.y};
+    const double length = norm(end - start);
+    const Vec2 along = Vec2{end.x - start.x, end.y - start.y} / length;
+    for (const double part : kHelixRadii) {
+      const double radius = part * part_.cutter().radius;
+      for (const double places : kHelixPlaces) {
+        if (!(places * radius < length)) break;
+        const Vec2 touch = from + places * radius * along;
+        for (const double side : {1.0, -1.0}) {
+          std::vector<Vec3> ring;
+          for (const Vec2 p : circle_from(touch, along, side, radius, options_.tolerance)) {
+            ring.push_back({p.x, p.y, z});
+          }
+          const auto way = helix_over(ring, over - z, fall_, kLeastTurns);
+          if (!way) continue;
+          const double turns =
+              static_cast<double>(way->size() - 1) / static_cast<double>(ring.size() - 1);
+          const Vec2 centre = touch + side * radius * left_normal(along);
+          const double most = (over - z) * (1.0 - 1.0 / turns);
+          if (is_low(centre, radius + part_.cutter().radius, most) && is_clear(ring)) return way;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool is_low(Vec2 centre, double radius, double most) const {
+    const auto outside = [&](Vec2 p, double around) {
+      const Vec2 q = frame_.at(p.x, p.y);
+      return q.x < stock_[0].x - around || q.x > stock_[1].x + around ||
+             q.y < stock_[0].y - around || q.y > stock_[1].y + around;
+    };
+    const Vec2 in_frame{dot(centre, frame_.along), dot(centre, frame_.across())};
+    return !above_ || above_->holds(in_frame, radius, most, outside);
+  }
+
+  [[nodiscard]] bool is_clear(const std::vector<Vec3>& ring) const {
+    for (std::size_t i = 1; i < ring.size(); ++i) {
+      const auto rest = part_.drop({ring[i].x, ring[i].y});
+      if ((rest && rest->tip.z > ring[i].z) || !clear_way(ring[i - 1], ring[i])) return false;
+    }
     return true;
   }
 
@@ -263,7 +312,7 @@ class Roughing {
       }
       if (next == nullptr) return;
       ++line;
-      next->done = true;
+      next->done = next->cut = true;
       const Vec3 start = place(backwards ? next->to : next->from, line, z);
       list_.add(ToolMove::kLink, {list_.at(), start});
       list_.add(ToolMove::kPass, {start, place(backwards ? next->from : next->to, line, z)});
@@ -284,10 +333,11 @@ class Roughing {
   const ToolpathOptions& options_;
   std::array<Vec3, 2> stock_;
   PassFrame frame_;
-  double spacing_;
+  double spacing_, fall_;
   Toolpath& out_;
   MoveList list_;
   std::vector<Line> lines_;
+  std::optional<Cleared> above_;  ///< the level that was cut before
 };
 
 }  // namespace

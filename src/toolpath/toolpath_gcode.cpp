@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kDigitsOfPrint = 1.0 / 3.0;  // of what printing may, the last digit's worth
 constexpr double kDigitRounding = 1e-9;       // 0.003 asks for 3 decimals, not for 3.0000000001
+constexpr double kSecondsOfMinute = 60.0;
 
 std::string cutter_text(const Toolpath& path, double scale) {
   const double d = path.cutter.diameter * scale;
@@ -31,13 +32,14 @@ std::string cutter_text(const Toolpath& path, double scale) {
   return fmt::format("bull nose mill D{:.4g} R{:.4g}", d, path.cutter.corner_radius * scale);
 }
 
-std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, double scale) {
+std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, double scale,
+                 double minutes) {
   const bool inches = path.units == "in";
   std::vector<std::string> remarks{
       fmt::format("Obvid {}: {}", kVersion, gcode_comment(options.name)),
       cutter_text(path, scale) + ", places are those of the tip",
-      fmt::format("{} passes, {:.1f} min, within {:.3g} {}", path.report.passes,
-                  path.report.minutes, path.tolerance * scale, inches ? "in" : "mm")};
+      fmt::format("{} passes, about {:.1f} min, within {:.3g} {}", path.report.passes, minutes,
+                  path.tolerance * scale, inches ? "in" : "mm")};
   if (!inches && scale != 1.0) remarks.push_back("converted from " + gcode_comment(path.units));
   return exchange::gcode_head(options.controller, inches, remarks);
 }
@@ -85,14 +87,18 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
         .hint("print more decimals, or allow a larger tolerance")
         .value(path.tolerance);
   }
-  toolpath::ProgramText program(decimals, within, options.arcs);
+  const exchange::MotionRules machine{
+      path.feeds.rapid, exchange::machine_acceleration(path.acceleration, path.units == "in"),
+      path.tolerance * scale};
+  toolpath::ProgramText program(decimals, within, options.arcs, machine);
   write_moves(path, scale, program);
   ToolpathGcode out;
+  out.minutes = program.seconds() / kSecondsOfMinute;
   out.blocks = program.blocks();
   out.arc_blocks = program.arcs();
   const std::string on = path.spindle ? fmt::format("M3 S{:.0f}\n", *path.spindle) : "";
-  out.text = head(path, options, scale) + on + program.text() + (path.spindle ? "M5\n" : "") +
-             exchange::gcode_end(options.controller);
+  out.text = head(path, options, scale, out.minutes) + on + program.text() +
+             (path.spindle ? "M5\n" : "") + exchange::gcode_end(options.controller);
   return out;
 }
 

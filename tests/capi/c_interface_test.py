@@ -909,9 +909,11 @@ class Surfaces(unittest.TestCase):
             nc = os.path.join(folder, "s.nc")
             for plan in ({"diameter": 6, "scallop": 0.1, "tolerance": 0.02},
                          {"diameter": 6, "scallop": 0.2, "tolerance": 0.05, "steep-angle": 20},
+                         {"diameter": 6, "scallop": 0.2, "tolerance": 0.05, "one-way": True, "entry": "helix", "ramp": 8,
+                          "ramp-height": 2},
                          {"strategy": "rough", "cutter": "flat", "allowance": 0.2, "step-down": 2, "ramp": 8,
-                          "spindle": 9000, "rapid-feed": 4000, "stock": "-1,-1,-5,70,60,9"}):
-                typed = [f"--{name}={value}" for name, value in plan.items()]
+                          "spindle": 9000, "rapid-feed": 4000, "acceleration": 300, "stock": "-1,-1,-5,70,60,9"}):
+                typed = [f"--{name}" if value is True else f"--{name}={value}" for name, value in plan.items()]
                 told, _ = program("toolpath", stored, "-o", nc, "--json", *typed)
                 files, report, size = C.c_void_p(), C.c_void_p(), C.c_size_t()
                 milled = call(lib.obvid_surface_toolpath, handle, json.dumps(plan).encode(), None, C.byref(files),

@@ -217,7 +217,7 @@ def main():
                   f"{report['minutes']:.1f} min, cuts {gouge:.4f} into the allowance, "
                   f"leaves {report['scallop']['found']:.3f} over it")
         check_zigzag(binary, folder)
-        refused(binary, folder, "--ramp", "5")
+        refused(binary, folder, "--ramp-height", "5")
         refused(binary, folder, "--strategy", "rough", "--stock", "0,0,0,1,1")
         refused(binary, folder, "--strategy", "rough", "--stock", "0,0,9,1,1,2")
         refused(binary, folder, "--strategy", "rough", "--scallop", "0.1")

@@ -177,7 +177,7 @@ def main():
         refused(binary, folder, "--strategy", "z-level", "--step-over", "1")
         refused(binary, folder, "--strategy", "scallop", "--steep-angle", "40")
         refused(binary, folder, "--steep-angle", "90")
-        refused(binary, folder, "--strategy", "z-level", "--ramp", "5")
+        refused(binary, folder, "--strategy", "z-level", "--stock", "0,0,0,1,1,1")
         refused(binary, folder, "--step-down", "1")
         refused(binary, folder, "--strategy", "z-level", "--step-down", "1e-9")
 

@@ -19,6 +19,7 @@ namespace obvid::toolpath {
 namespace {
 
 constexpr double kWithin = 1e-3;
+constexpr exchange::MotionRules kMachine{3000.0, 500.0, 0.01};
 
 exchange::NcProgram read_or_fail(const std::string& text) {
   auto program = exchange::read_program(text, kWithin);
@@ -109,7 +110,7 @@ TEST(NcReader, ReadsHelicesWithEvenHeights) {
 }
 
 TEST(ProgramText, RoundsPlacesOnceSoThatNothingDrifts) {
-  ProgramText text(2, kWithin, false);
+  ProgramText text(2, kWithin, false, kMachine);
   text.rapid({{0.0, 0.0, 5.0}});
   std::vector<Vec3> steps;
   for (int i = 0; i <= 1000; ++i) {
@@ -123,7 +124,7 @@ TEST(ProgramText, RoundsPlacesOnceSoThatNothingDrifts) {
 }
 
 TEST(ProgramText, PutsPointsOfALineIntoOneBlock) {
-  ProgramText text(3, kWithin, true);
+  ProgramText text(3, kWithin, true, kMachine);
   text.rapid({{0.0, 0.0, 5.0}});
   const std::size_t before = text.blocks();
   std::vector<Vec3> line;
@@ -137,7 +138,7 @@ TEST(ProgramText, PrintsArcsThatLeadAlongThePoints) {
   constexpr double kRadius = 20.0;
   for (const PassPlane plane : {PassPlane::kXz, PassPlane::kYz}) {
     for (const bool up : {true, false}) {
-      ProgramText text(4, kWithin, true);
+      ProgramText text(4, kWithin, true, kMachine);
       text.rapid({{0.0, 0.0, 30.0}});
       std::vector<Vec3> points;
       for (int i = 0; i <= 200; ++i) {

@@ -132,7 +132,7 @@ def ways_of_errors(root, files):
     return faults
 
 
-NEEDS_NUMPY = re.compile(r"^\s*((import|from) (numpy|scipy)\b|from acceptance_sets import cuts\b)", re.M)
+NEEDS_NUMPY = re.compile(r"^\s*((import|from) (numpy|scipy)\b|from acceptance_sets import (cuts|milling)\b)", re.M)
 
 
 def without_numpy(text, folder):

@@ -31,6 +31,12 @@ enum class ToolpathStrategy {
   kRough,  ///< a box of stock is taken off level by level, down to the part and its allowance
 };
 
+/// How the tip goes down into what stands over the passes.
+enum class ToolpathEntry {
+  kRamp,   ///< back and forth over the beginning of the pass
+  kHelix,  ///< around a circle beside it; where there is no room for one, on a ramp
+};
+
 /// Feeds, unless others are given: mm/min, and in/min for models in inches.
 struct ToolpathFeeds {
   double pass = 0.0, plunge = 0.0;
@@ -59,11 +65,20 @@ struct ToolpathOptions {
   /// Roughing: low and high corner of the stock [the box of the part, wider by the allowance on its
   /// sides and on top].
   std::optional<std::array<Vec3, 2>> stock{};
-  std::optional<double> ramp_deg{};  ///< roughing: steepest way down into the stock [5]
-  std::optional<double> spindle{};   ///< revolutions a minute [no M3]
-  double tolerance = 0.01;           ///< of the printed program: gouges
+  /// Roughing: where a pass does not begin beside the stock [ramp]; other strategies [straight
+  /// down, a ramp where its angle is given].
+  std::optional<ToolpathEntry> entry{};
+  /// Of ramps and helices, how steeply they go down at most over the pass, and where they go beside
+  /// it over level ground and the part [5].
+  std::optional<double> ramp_deg{};
+  /// Not roughing: what is thought to stand over the passes. Ramps and helices begin that much
+  /// higher, or at the safe height [half a diameter].
+  std::optional<double> ramp_height{};
+  std::optional<double> spindle{};                            ///< revolutions a minute [no M3]
+  double tolerance = 0.01;                                    ///< of the printed program: gouges
   std::optional<double> feed{}, plunge_feed{}, rapid_feed{};  ///< [default_feeds]
-  std::optional<double> safe_z{};  ///< [half a diameter above the highest point]
+  std::optional<double> acceleration{};  ///< along the way, for the estimate of time [500 mm/s^2]
+  std::optional<double> safe_z{};        ///< [half a diameter above the highest point]
   std::size_t most_points = 20'000'000;
   std::size_t threads = 0;  ///< [all of the machine]; the result does not depend on it
   ToolpathGcodeOptions gcode{};
@@ -86,12 +101,19 @@ struct ToolpathMove {
   std::vector<Vec3> points;
 };
 
+/// Ways down from rapid moves to passes.
+struct ToolpathEntries {
+  std::size_t helical = 0, ramped = 0;
+  std::size_t straight = 0;  ///< roughing: beside the stock
+};
+
 struct ToolpathReport {
   std::size_t passes = 0;       ///< stretches that cut
   double cutting_length = 0.0;  ///< passes and links, units
   double plunge_length = 0.0;
   double rapid_length = 0.0;
-  double minutes = 0.0;  ///< at the stated feeds, without acceleration
+  double minutes = 0.0;  ///< of the printed program from its first place on, with acceleration:
+                         ///< an estimate (docs/methods/toolpath.md)
   /// Of the printed program, read as a controller reads it and simulated against the surface
   /// itself. `found`: at a place that was looked at; `most`: nowhere more, by the bends of cutter
   /// and surface around those places.
@@ -123,6 +145,7 @@ struct ToolpathReport {
   /// scallop (the tolerance, where none is given). The scallop is that of the walls then.
   double flat_left = 0.0, flat_area = 0.0;
   Vec3 flat_place;
+  ToolpathEntries entries;
   double safe_z = 0.0;
   std::size_t levels = 0;            ///< of roughing and of walls
   std::size_t narrow_stretches = 0;  ///< too short for the ramp: left out
@@ -135,7 +158,8 @@ struct Toolpath {
   double tolerance = 0.0;
   double print_within = 0.0;  ///< units: of printed blocks from the points of the moves
   ToolpathFeeds feeds;
-  std::optional<double> spindle{};  ///< revolutions a minute
+  std::optional<double> spindle{};       ///< revolutions a minute
+  std::optional<double> acceleration{};  ///< mm/s^2; as in the options
   std::vector<ToolpathMove> moves;
   ToolpathGcode program;  ///< what the report is about
   ToolpathReport report;

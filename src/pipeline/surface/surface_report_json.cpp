@@ -267,6 +267,8 @@ std::string toolpath_report_json(const MadeToolpath& made, const Written& writte
   json.pair("hidden_area", r.hidden_area).pair("unreached_area", r.unreached_area);
   json.pair("unreached_depth", r.unreached_depth);
   json.pair("flat_area", r.flat_area).pair("flat_left", r.flat_left).pair("safe_z", r.safe_z);
+  json.key("entries").begin_object().pair("helical", r.entries.helical);
+  json.pair("ramped", r.entries.ramped).pair("straight", r.entries.straight).end_object();
   json.pair("levels", r.levels).pair("narrow_stretches", r.narrow_stretches);
   json.pair("blocks", made.path.program.blocks).pair("arc_blocks", made.path.program.arc_blocks);
   json.key("not_kept").begin_array();

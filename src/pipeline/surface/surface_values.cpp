@@ -224,8 +224,8 @@ Result<void> set_kind(const SurfaceValues& raw, TrimKind& kind) {
   }
   if (!raw.along) return {};
   if (!raw.contour) {
-    return fail(bad_option("planes are not projected", "--along",
-                           "leave it out, or give --contour FILE"));
+    return fail(
+        bad_option("planes are not projected", "--along", "leave it out, or give --contour FILE"));
   }
   const auto along = axis_number(*raw.along);
   if (!along)
@@ -376,6 +376,13 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
       .and_then([&] {
         return pick<bool>({{"arcs", true}, {"lines", false}}, typed.motion, "--motion",
                           plan.gcode.arcs);
+      })
+      .and_then([&]() -> Result<void> {
+        if (!typed.entry) return {};
+        plan.entry = ToolpathEntry::kRamp;
+        return pick<ToolpathEntry>(
+            {{"ramp", ToolpathEntry::kRamp}, {"helix", ToolpathEntry::kHelix}}, *typed.entry,
+            "--entry", *plan.entry);
       })
       .and_then([&] { return set_stock(typed.stock, plan); });
 }

@@ -61,7 +61,8 @@ struct SurfaceFormatValues {
 
 struct ToolpathValues {
   std::string cutter = "ball", strategy = "zigzag", controller = "grbl", motion = "arcs";
-  std::string stock;  ///< "X0,Y0,Z0,X1,Y1,Z1"
+  std::string stock;                 ///< "X0,Y0,Z0,X1,Y1,Z1"
+  std::optional<std::string> entry;  ///< ramp, helix
 };
 
 /// The names; numbers go into the job as they are.

@@ -26,6 +26,7 @@ struct ToolpathGcode {
   std::string text;
   std::size_t blocks = 0;      ///< that move
   std::size_t arc_blocks = 0;  ///< of them G2 and G3
+  double minutes = 0.0;        ///< from the first place on, with acceleration
 };
 
 /// A program with absolute ends; it holds no tool change; M3 and M5 where the path has a speed of

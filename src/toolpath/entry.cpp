@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "entry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "passes.h"
+
+namespace obvid::toolpath {
+namespace {
+
+constexpr double kRampDeg = 5.0;
+constexpr double kMostLegs = 40.0;                            // of a ramp up and down one stretch
+constexpr double kMostTurns = 1000.0;                         // of a helix
+constexpr double kLeastCorners = 16.0, kMostCorners = 720.0;  // of a circle
+
+/// Ways one after the other with what is over them, which falls evenly from `height` to 0.
+class Way {
+ public:
+  Way(double height, double length) : height_(height), length_(length) {}
+
+  void go(Vec3 p) {
+    if (!points_.empty()) gone_ += level_distance(last_, p);
+    last_ = p;
+    const double over = height_ * std::max(0.0, 1.0 - gone_ / length_);
+    points_.push_back({p.x, p.y, p.z + over});
+  }
+  [[nodiscard]] std::vector<Vec3> down_to(Vec3 end) {
+    points_.back() = end;  // but for rounding it is that
+    return std::move(points_);
+  }
+
+ private:
+  double height_, length_, gone_ = 0.0;
+  Vec3 last_;
+  std::vector<Vec3> points_;
+};
+
+}  // namespace
+
+std::optional<double> fall_of(const ToolpathOptions& options) {
+  const bool rough = options.strategy == ToolpathStrategy::kRough;
+  if (!rough && !options.entry && !options.ramp_deg) return std::nullopt;
+  return std::tan(options.ramp_deg.value_or(kRampDeg) * std::numbers::pi / 180.0);
+}
+
+std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double height,
+                                           double fall) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < pass.size(); ++i) length += level_distance(pass[i - 1], pass[i]);
+  const double total = height / fall;
+  const double legs = 2.0 * std::max(1.0, std::ceil(total / (2.0 * length)));
+  if (!(legs <= kMostLegs)) return std::nullopt;
+  const double leg = std::min(length, total / legs);
+  std::vector<Vec3> there{pass.front()};
+  double at = 0.0;
+  for (std::size_t i = 1; i < pass.size() && at < leg; ++i) {
+    const double step = level_distance(pass[i - 1], pass[i]);
+    const double part = step > 0.0 ? std::min(1.0, (leg - at) / step) : 1.0;
+    there.push_back(part < 1.0 ? pass[i - 1] + part * (pass[i] - pass[i - 1]) : pass[i]);
+    at += step;
+  }
+  Way way(height, total);
+  for (double k = 0.0; k < legs; k += 2.0) {
+    for (const Vec3 p : there) way.go(p);
+    for (std::size_t i = there.size() - 1; i-- > 1;) way.go(there[i]);
+  }
+  way.go(pass.front());
+  return way.down_to(pass.front());
+}
+
+std::optional<std::vector<Vec3>> helix_over(const std::vector<Vec3>& ring, double height,
+                                            double fall, double least_turns) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < ring.size(); ++i) length += level_distance(ring[i - 1], ring[i]);
+  const double turns = std::max(least_turns, std::ceil(height / (fall * length)));
+  if (!(turns <= kMostTurns)) return std::nullopt;
+  Way way(height, turns * length);
+  for (double k = 0.0; k < turns; ++k) {
+    for (std::size_t i = 0; i + 1 < ring.size(); ++i) way.go(ring[i]);
+  }
+  way.go(ring.front());
+  return way.down_to(ring.front());
+}
+
+std::vector<Vec2> circle_from(Vec2 start, Vec2 along, double side, double radius, double within) {
+  const double half = std::acos(std::max(0.0, 1.0 - within / radius));  // of a chord
+  const double corners =
+      std::clamp(std::ceil(std::numbers::pi / half), kLeastCorners, kMostCorners);
+  const Vec2 out = -side * left_normal(along);  // from the centre to the start
+  const Vec2 centre = start - radius * out;
+  std::vector<Vec2> ring{start};
+  for (double k = 1.0; k < corners; ++k) {
+    const double turn = 2.0 * std::numbers::pi * k / corners;
+    ring.push_back(centre + radius * (std::cos(turn) * out + std::sin(turn) * along));
+  }
+  ring.push_back(start);
+  return ring;
+}
+
+}  // namespace obvid::toolpath

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "obvid/toolpath/toolpath.h"
+
+namespace obvid::toolpath {
+
+/// Of a cutter's radius, in this order: of helices, less than 1, so that they leave no core.
+inline constexpr std::array kHelixRadii = {0.9, 0.45};
+
+/// Height that ramps and helices go down for each length seen from above; nothing: the tip goes
+/// straight down. Roughing always has ramps.
+[[nodiscard]] std::optional<double> fall_of(const ToolpathOptions& options);
+
+/// Back and forth over the beginning of a pass, an even number of ways, from `height` over its
+/// first point down to it; what is over the pass falls evenly, so no body on the way lies deeper
+/// than those of the pass. Nothing: the pass is so short that it takes more than 40 ways.
+[[nodiscard]] std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass,
+                                                         double height, double fall);
+
+/// Likewise around a closed ring (its last point is its first one), in whole turns, at least so
+/// many. Nothing: it takes more than 1,000.
+[[nodiscard]] std::optional<std::vector<Vec3>> helix_over(const std::vector<Vec3>& ring,
+                                                          double height, double fall,
+                                                          double least_turns);
+
+/// Corners of a circle through `start` that leaves it in the direction `along` (length 1) and comes
+/// back to it, `side` 1: the centre lies to the left, -1: to the right. Chords lie within `within`
+/// of the circle.
+[[nodiscard]] std::vector<Vec2> circle_from(Vec2 start, Vec2 along, double side, double radius,
+                                            double within);
+
+}  // namespace obvid::toolpath

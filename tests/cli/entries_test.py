@@ -1,0 +1,249 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""How `toolpath` goes down to its passes: helices and ramps, by a reader and a stock of the test's own.
+
+usage: entries_test.py PROGRAM
+
+The part is a bowl z = f(x, y), a polynomial that a bicubic grid holds exactly. Roughing has to go down into the stock
+there: no way straight down meets any, no way is steeper than the angle or cuts deeper than a level, helices are
+circles, and the counts are those of the program. Finishing: entries are nowhere deeper than the tolerance in the part,
+begin as far over the tip's resting height as is said and fall over it no faster than the angle. Where there is no room
+for a ramp the program says how many entries go straight down.
+"""
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from roughing_test import Stock, along, depth_in, rise  # noqa: E402
+
+WIDE, DEEP, TOLERANCE, LEVEL = 40.0, 30.0, 0.02, 2.0
+SCALE = 40.0
+
+
+def height(x, y):
+    return ((x - 20.0) ** 2 + (y - 15.0) ** 2) / SCALE
+
+
+def normal(x, y):
+    dx, dy = -2.0 * (x - 20.0) / SCALE, -2.0 * (y - 15.0) / SCALE
+    size = np.sqrt(1.0 + dx * dx + dy * dy)
+    return np.stack([dx / size, dy / size, 1.0 / size], axis=-1)
+
+
+def grid_text():
+    return "\n".join("".join(f"{x:.17g} {y:.17g} {height(x, y):.17g}\n" for x in np.linspace(0.0, WIDE, 9))
+                     for y in np.linspace(0.0, DEEP, 7))
+
+
+def moves_of(text):
+    """(code, feed, from, to) of every motion."""
+    at, code, feed, moves = [None] * 3, None, None, []
+    for line in text.splitlines():
+        ends = list(at)
+        for letter, value in re.findall(r"([A-Z])(-?[0-9.]+)", re.sub(r"\(.*?\)|;.*", "", line)):
+            if letter == "G" and value in ("0", "1"):
+                code = int(value)
+            assert not (letter == "G" and value in ("2", "3", "91")), line
+            if letter == "F":
+                feed = float(value)
+            if letter in "XYZ":
+                ends["XYZ".index(letter)] = float(value)
+        if ends != at:
+            if None not in at:
+                moves.append((code, feed, np.array(at), np.array(ends)))
+            at = ends
+    return moves
+
+
+def entries_of(moves, plunge):
+    """Of each way down: what follows the straight part at the plunge feed."""
+    found, now = [], None
+    for code, feed, a, b in moves:
+        if code == 0:
+            now = None
+        elif feed == plunge and now is None:
+            assert a[0] == b[0] and a[1] == b[1], "the first way down is straight"
+            now = []
+            found.append((b, now))
+        elif feed == plunge:
+            now.append((a, b))
+        else:
+            now = now if now is not None else []
+    return found
+
+
+def kind(ways):
+    """Helices never turn back."""
+    if not ways:
+        return "straight"
+    level = [(b - a)[:2] for a, b in ways if np.hypot(*(b - a)[:2]) > 1e-6]
+    turns = [abs(math.atan2(p[0] * q[1] - p[1] * q[0], p @ q)) for p, q in zip(level, level[1:])]
+    return "ramped" if max(turns, default=math.pi) > 2.0 else "helical"
+
+
+def program(binary, folder, *options, code=0):
+    out = subprocess.run([binary, "toolpath", "part.json", "--tolerance", str(TOLERANCE), "--motion", "lines", "-o",
+                          "part.nc", "--json", "--plunge-feed", "321", *map(str, options)], cwd=folder,
+                         capture_output=True, text=True)
+    assert out.returncode == code, (options, out.returncode, out.stderr)
+    return json.loads(out.stdout), (folder / "part.nc").read_text(), out.stderr
+
+
+def counted(report, entries):
+    kinds = [kind(ways) for _, ways in entries]
+    found = {name: kinds.count(name) for name in ("helical", "ramped", "straight")}
+    assert found == report["entries"], (found, report["entries"])
+    return found
+
+
+def check_rough(binary, folder, cutter, diameter, corner, angle, entry, ramp):
+    name = f"rough, {cutter} D{diameter:g} at {angle}, {entry}"
+    more = ["--corner-radius", corner] if cutter == "bull" else []
+    report, text, _ = program(binary, folder, "--strategy", "rough", "--cutter", cutter, "--diameter", diameter, *more,
+                              "--angle", angle, "--step-down", LEVEL, "--allowance", 0.3, "--entry", entry, "--ramp", ramp)
+    radius, moves = 0.5 * diameter, moves_of(text)
+    low, high = np.array([-0.3, -0.3, 0.0]), np.array([WIDE + 0.3, DEEP + 0.3, height(0.0, 0.0) + 0.3])
+    stock = Stock(low, high, 0.2, radius, corner)
+    deepest, on_helix, tips, steepest = 0.0, 0.0, [], 0.0
+    ways = {(tuple(a), tuple(b)) for _, w in entries_of(moves, 321.0) if kind(w) == "helical" for a, b in w}
+    for code, _, a, b in moves:
+        if code == 0:
+            continue
+        flat = math.hypot(b[0] - a[0], b[1] - a[1])
+        steep = b[2] < a[2] - 1e-9 and a[2] - b[2] > math.tan(math.radians(ramp + 0.01)) * flat + 2e-3
+        way = along(a, b, 0.2)
+        over = max(stock.cut(tip) for tip in way)
+        assert not steep or over <= 0.01, f"{name}: {over} mm of stock under a way down from {a} to {b}"
+        deepest = max(deepest, over)
+        if (tuple(a), tuple(b)) in ways:
+            on_helix = max(on_helix, over)
+        tips.append(way)
+        if not steep and b[2] < a[2]:
+            steepest = max(steepest, math.degrees(math.atan2(a[2] - b[2], flat)))
+    assert deepest <= LEVEL + 0.02, f"{name}: a way cuts {deepest}"
+    xs, ys = np.meshgrid(np.arange(0.0, WIDE + 1e-9, 0.5), np.arange(0.0, DEEP + 1e-9, 0.5))
+    x, y = xs.ravel(), ys.ravel()
+    points = np.stack([x, y, height(x, y)], axis=-1) + 0.3 * normal(x, y)
+    gouge = depth_in(radius, corner, np.concatenate(tips), points).max()
+    assert gouge <= TOLERANCE, f"{name}: {gouge} into the allowance"
+    entries = entries_of(moves, 321.0)
+    found = counted(report, entries)
+    for _, ways_down in entries:
+        if kind(ways_down) != "helical":
+            continue
+        places = np.array([a for a, _ in ways_down])
+        ring = places[:, :2]
+        middle = 0.5 * (ring.min(axis=0) + ring.max(axis=0))
+        radii = np.hypot(*(ring - middle).T)
+        assert radii.max() - radii.min() < 0.03 * radius and radii.max() < radius, (name, radii.min(), radii.max())
+    print(f"{name}: {found}, {report['narrow_stretches']} stretches left out, at most {steepest:.2f} degrees, cuts "
+          f"{deepest:.2f} deep, {on_helix:.2f} on helices, {gouge:.4f} into the allowance")
+    return found
+
+
+def rests(radius, corner, places):
+    """Height of the resting tip, by places of the part 0.1 apart; the part has borders."""
+    steps = np.arange(-radius, radius + 1e-9, 0.1)
+    dx, dy = np.meshgrid(steps, steps)
+    near = np.hypot(dx, dy) <= radius
+    x = np.clip(places[:, :1] + dx[near], 0.0, WIDE)
+    y = np.clip(places[:, 1:2] + dy[near], 0.0, DEEP)
+    level = np.hypot(x - places[:, :1], y - places[:, 1:2])
+    lift = np.where(level <= radius, rise(radius, corner, np.minimum(radius, level)), np.inf)
+    tops = height(x, y) - lift
+    best = tops.argmax(axis=1)
+    rows = np.arange(len(places))
+    return tops[rows, best], level[rows, best] < 0.9 * radius  # beyond it hangs at the border like at a wall
+
+
+def check_finish(binary, folder, cutter, diameter, corner, strategy, entry, over, ramp):
+    name = f"{strategy}, {cutter} D{diameter:g}, {entry}"
+    more = ["--corner-radius", corner] if cutter == "bull" else []
+    options = [*more, "--cutter", cutter, "--diameter", diameter, "--strategy", strategy, "--scallop", 0.2,
+               *(["--one-way"] if strategy == "zigzag" else [])]
+    asked = ["--ramp", ramp, "--ramp-height", over, *(["--entry", entry] if entry == "helix" else [])]
+    code = 5 if strategy == "z-level" or cutter == "bull" else 0  # told: too flat, or narrower than the cutter
+    report, text, _ = program(binary, folder, *options, *asked, code=code)
+    radius, moves = 0.5 * diameter, moves_of(text)
+    entries = entries_of(moves, 321.0)
+    found = counted(report, entries)
+    plain, _, _ = program(binary, folder, *options, code=code)
+    assert plain["entries"] == {"helical": 0, "ramped": 0, "straight": len(entries)}, plain["entries"]
+    tips = np.concatenate([along(a, b, 0.1) for _, ways in entries for a, b in ways])
+    xs, ys = np.meshgrid(np.arange(0.0, WIDE + 1e-9, 0.4), np.arange(0.0, DEEP + 1e-9, 0.4))
+    points = np.stack([xs.ravel(), ys.ravel(), height(xs.ravel(), ys.ravel())], axis=-1)
+    gouge = depth_in(radius, corner, tips, points).max()
+    assert gouge <= TOLERANCE, f"{name}: {gouge} into the part"
+    steepest, judged = 0.0, 0
+    for _, ways in entries:
+        if not ways:
+            continue
+        places = np.array([a for a, _ in ways] + [ways[-1][1]])
+        end = places[-1]
+        rest, sure = rests(radius, corner, places)
+        if entry == "helix" or strategy == "z-level":
+            rest = np.maximum(rest, end[2])
+        lift = places[:, 2] - rest
+        begins = places[0, 2] - end[2]
+        assert np.allclose(places[0, :2], end[:2]) and begins <= over + 2e-3, name
+        # the highest place of a helix ends at the safe height
+        assert begins > over - 2e-3 or begins + rest.max() > report["safe_z"] - 0.1, f"{name}: begins {begins} over it"
+        for k, told in ((0, begins), (-1, 0.0)):
+            assert not sure[k] or abs(lift[k] - told) < 0.03, f"{name}: {lift[k]} over the rest at {places[k]}"
+        gone = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places[:, :2], axis=0).T))])
+        judged += int(sure.sum())
+        # blocks lie off the exact way by a share of the tolerance, the reference by its raster
+        fast = (begins - lift - 0.03)[sure & (gone > 1.0)] / gone[sure & (gone > 1.0)]
+        steepest = max(steepest, math.degrees(math.atan(fast.max(initial=0.0))))
+    assert steepest <= ramp, f"{name}: {steepest} degrees"
+    print(f"{name}: {found}, falls by {steepest:.2f} degrees over the resting tip, {gouge:.4f} into the part")
+    return found, judged
+
+
+def refused(binary, folder, *options):
+    out = subprocess.run([binary, "toolpath", "part.json", "-o", "no.nc", *options], cwd=folder, capture_output=True,
+                         text=True)
+    assert out.returncode == 2 and "E203" in out.stderr, (options, out.stderr)
+
+
+def main():
+    binary = str(pathlib.Path(sys.argv[1]).resolve())
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "part.txt").write_text(grid_text())
+        subprocess.run([binary, "surface", "grid", "part.txt", "--spread", "uniform", "--units", "mm", "-o",
+                        "part.json", "-q"], cwd=folder, check=True)
+        for cutter, diameter, corner, angle, ramp in (("flat", 4.0, 0.0, 0.0, 6.0), ("bull", 6.0, 1.5, 90.0, 3.0),
+                                                      ("ball", 4.0, 2.0, 30.0, 10.0)):
+            helix = check_rough(binary, folder, cutter, diameter, corner, angle, "helix", ramp)
+            assert helix["helical"] > 0, helix
+            if cutter == "flat":
+                ramped = check_rough(binary, folder, cutter, diameter, corner, angle, "ramp", ramp)
+                assert ramped["helical"] == 0 and sum(ramped.values()) == sum(helix.values()), (ramped, helix)
+        judged = 0
+        for cutter, diameter, corner, strategy, entry, over in (("ball", 6.0, 3.0, "zigzag", "helix", 4.0),
+                                                                ("bull", 6.0, 1.5, "zigzag", "ramp", 1.5),
+                                                                ("ball", 6.0, 3.0, "scallop", "helix", 1.5),
+                                                                ("ball", 4.0, 2.0, "z-level", "helix", 1.5)):
+            found, places = check_finish(binary, folder, cutter, diameter, corner, strategy, entry, over, 10.0)
+            judged += places
+            assert found["straight"] == 0 and (found["helical"] > 0) == (entry == "helix"), found
+        assert judged > 300, judged
+        # a ramp so flat that there is no room: it is said
+        report, _, said = program(binary, folder, "--scallop", 0.1, "--one-way", "--ramp", 0.05, "--ramp-height", 3)
+        straight, all_of = report["entries"]["straight"], sum(report["entries"].values())
+        assert straight > 0 and f"{straight} of {all_of} entries go straight down" in said, said
+        for wrong in (["--ramp", "0"], ["--ramp", "90"], ["--entry", "spiral"], ["--ramp-height", "2"],
+                      ["--ramp", "5", "--ramp-height", "0"], ["--strategy", "rough", "--ramp-height", "2"]):
+            refused(binary, folder, *wrong)
+
+
+if __name__ == "__main__":
+    main()
