@@ -16,8 +16,6 @@ namespace obvid {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::array<std::string_view, 6> kNames = {"clothoid", "bloss",   "sine",
-                                                    "cosine",   "helmert", "cubic"};
 /// Rad that a part of Gauss's rule turns, and parts of the length that it covers, at the most.
 constexpr double kPartTurn = 0.5;
 constexpr double kPartShare = 0.125;  // the middle, where Helmert's law has a corner, is a joint
@@ -151,12 +149,10 @@ double plain_turn(Transition kind, double u) {
 
 }  // namespace
 
-std::string_view name_of(Transition kind) { return kNames[static_cast<std::size_t>(kind)]; }
-
 std::optional<Transition> transition_named(std::string_view name) {
-  const auto at = std::find(kNames.begin(), kNames.end(), name);
-  if (at == kNames.end()) return std::nullopt;
-  return static_cast<Transition>(at - kNames.begin());
+  const auto at = std::find(kTransitionNames.begin(), kTransitionNames.end(), name);
+  if (at == kTransitionNames.end()) return std::nullopt;
+  return static_cast<Transition>(at - kTransitionNames.begin());
 }
 
 TransitionLaw::TransitionLaw(Transition kind, double kappa0, double kappa1, double length)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -30,8 +31,13 @@ struct PlacedTransition {
   double length = 0.0;                ///< units
 };
 
+inline constexpr std::array<std::string_view, 6> kTransitionNames = {
+    "clothoid", "bloss", "sine", "cosine", "helmert", "cubic"};
+
 /// "clothoid", "bloss", "sine", "cosine", "helmert", "cubic".
-[[nodiscard]] std::string_view name_of(Transition kind);
+[[nodiscard]] inline std::string_view name_of(Transition kind) {
+  return kTransitionNames[static_cast<std::size_t>(kind)];
+}
 [[nodiscard]] std::optional<Transition> transition_named(std::string_view name);
 
 /// The element at `s` behind `start` on a transition of this length from the curvature of `start`

@@ -124,7 +124,7 @@ Result<void> close_around(const std::vector<Vec2>& heights, double lap, double t
 Result<void> cover(const std::vector<Vec2>& heights, double from, double length, bool closed,
                    const Units& units, std::vector<std::string>& remarks) {
   constexpr double kBeside = 1e-6, kLongGap = 0.05;  // of the length
-  constexpr double kFarApart = 10.0;                 // of the mean distance of heights
+  constexpr double kFarApart = 5.0;                  // of the mean distance of heights
   const double slack = kBeside * length, to = from + length;
   const double low = heights.front().x, high = heights.back().x;
   if (low > to + slack || high < from - slack ||
