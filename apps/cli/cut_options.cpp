@@ -133,10 +133,10 @@ Result<Command> parse_cut(int argc, const char* const* argv) {
   add_ways(app, raw);
   add_cut_program(app, raw);
   Numbers(app, kReadingGroup)
-      .add("--curve", raw.reading.curve, "N|NAME|all",
-           "Which curve is cut: its number from 1, its name, or a word of the name that no other "
-           "has; "
-           "the others still say what lies in what [all]")
+      .add(
+          "--curve", raw.reading.curve, "LIST|all",
+          "Which curves are cut, separated by commas: numbers from 1, names, layers, or words of a "
+          "name that no other has; the others still say what lies in what [all]")
       .add("--drawing", raw.reading.drawing, "NAME",
            "auto, or exact: edges of polylines are curves too [auto]");
   add_planes(app, raw.reading, kReadingGroup);

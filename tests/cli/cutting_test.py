@@ -5,6 +5,7 @@ known in closed form. Shares nothing with the program.
 
 usage: cutting_test.py PROGRAM
 """
+import io
 import json
 import math
 import pathlib
@@ -135,6 +136,42 @@ class Cutting(unittest.TestCase):
             self.assertIn("linuxcnc", said)
         self.assertIn("0.1 mm", said)
         self.run_cut(one, "--depth", 1, "--motion", "lines", "--controller", "linuxcnc", code=2)
+
+    def test_some_curves_are_cut(self):
+        import ezdxf
+        plan = ezdxf.new()
+        plan.header["$INSUNITS"] = 4
+        places = {"A": (0, 0), "B": (30, 0), "C": (60, 0), "D": (90, 0)}
+        for layer, where in (("HOLES", "A"), ("HOLES", "B"), ("FRAME", "C"), ("NOTES", "D")):
+            plan.modelspace().add_circle(places[where], 5, dxfattribs={"layer": layer})
+        with io.StringIO() as out:
+            plan.write(out)
+            text = out.getvalue()
+
+        def cut_at(*options):
+            program = Controller(self.run_cut(text, "--diameter", 2, "--depth", 1, "--side", "on", *options))
+            return {where for where, (x, y) in places.items()
+                    if any(math.hypot(m.b[0] - x, m.b[1] - y) < 6 for m in self.cuts(program))}
+
+        self.assertEqual(cut_at(), set(places))
+        self.assertEqual(cut_at("--curve", "HOLES"), {"A", "B"})
+        self.assertEqual(len(cut_at("--curve", "HOLES,FRAME")), 3)
+        self.assertEqual(len(cut_at("--curve", "1,3")), 2)
+        self.assertEqual(len(cut_at("--curve", 2)), 1)
+        self.assertIn("E203", self.run_cut(text, "--depth", 1, "--diameter", 2, "--curve", "1,9", code=2))
+        self.assertIn("E203", self.run_cut(text, "--depth", 1, "--diameter", 2, "--curve", "1,0", code=2))
+
+    def test_tabs_lie_on_sides_and_what_passes_above_is_whole(self):
+        program = Controller(self.run_cut(drawing([Round(0, 0, 50, 50, 0)]), "--diameter", 3, "--depth", 6, "--pass-depth", 2,
+                                          "--side", "outside", "--tabs", 4, "--tab-width", 4, "--tab-height", 1.5))
+        lifted = [m for m in self.cuts(program) if m.a[2] == m.b[2] == -4.5]
+        self.assertEqual(len(lifted), 4)
+        for m in lifted:  # around the outline of 50 by 50 with the radius of the tool: away from corners
+            for p in (m.a, m.b):
+                self.assertGreater(min(math.hypot(p[0] - x, p[1] - y) for x in (0, 50) for y in (0, 50)), 5)
+        for level in (-2.0, -4.0):  # four sides, four arcs around corners
+            whole = [m for m in self.cuts(program) if m.a[2] == m.b[2] == level]
+            self.assertLessEqual(len(whole), 10)
 
     def test_tabs_hold_what_they_hold(self):
         shapes = [Round(0, 0, 80, 50, 6)]

@@ -38,10 +38,19 @@ struct CurveChoice {
   std::optional<std::size_t> number;  ///< from 0, curves before series
   std::string name;  ///< in place of the number: the label, or a word of one label alone
   bool all = false;  ///< each of them by itself
+  std::vector<std::string> several{};  ///< numbers from 1 and names, where several are asked for
 
-  /// Whether one of them is asked for.
-  [[nodiscard]] bool asked() const { return number.has_value() || !name.empty(); }
+  /// Whether one of them, or several, are asked for.
+  [[nodiscard]] bool asked() const {
+    return number.has_value() || !name.empty() || !several.empty();
+  }
 };
+
+/// Numbers of the curves that are asked for, ascending: one for a number, all of a name or of a
+/// layer, else the one with a word of its name alone. Errors: E203 where there is none.
+[[nodiscard]] Result<std::vector<std::size_t>> chosen_curves(const Drawing& drawing,
+                                                             const CurveChoice& asked,
+                                                             const std::string& path);
 
 /// Number of the curve that is taken: the asked one, else the longest of curves, tracks and
 /// polylines, else of routes, else of points drawn one by one; curves come before series. Waypoints

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <set>
 #include <utility>
 
 #include "obvid/core/internal/figures.h"
@@ -30,14 +30,14 @@ class Taken {
   Result<void> add(const Drawing& drawing) {
     const std::size_t curves = drawing.curves.size();
     const bool edges = options_.use == DrawnUse::kExact;
-    std::optional<std::size_t> chosen;
+    std::set<std::size_t> chosen;
     if (options_.curve.asked()) {
-      const auto number = chosen_curve(drawing, options_.curve, drawing.name);
-      OBVID_TRY(number);
-      chosen = *number;
+      const auto numbers = chosen_curves(drawing, options_.curve, drawing.name);
+      OBVID_TRY(numbers);
+      chosen.insert(numbers->begin(), numbers->end());
     }
     made_.warnings.insert(made_.warnings.end(), drawing.warnings.begin(), drawing.warnings.end());
-    if (!chosen && !edges && !drawing.series.empty()) {
+    if (chosen.empty() && !edges && !drawing.series.empty()) {
       made_.warnings.push_back(
           fmt::format("{}: {} of points {} not cut; --drawing exact cuts along edges, `obvid fit` "
                       "forms a curve",
@@ -46,16 +46,18 @@ class Taken {
     }
     const std::size_t all = curves + (edges ? drawing.series.size() : 0);
     for (std::size_t number = 0; number < all; ++number) {
-      OBVID_TRY(add(drawing, number, !chosen || number == *chosen));
+      OBVID_TRY(add(drawing, number, chosen.empty() || chosen.contains(number)));
     }
-    if (chosen && *chosen >= all) OBVID_TRY(add(drawing, *chosen, true));
+    for (const std::size_t number : chosen) {
+      if (number >= all) OBVID_TRY(add(drawing, number, true));
+    }
     return {};
   }
 
  private:
   Result<void> add(const Drawing& drawing, std::size_t number, bool is_cut) {
     ImportOptions one = options_;
-    one.curve = {number, {}, false};
+    one.curve = {number, {}, false, {}};
     auto drawn = drawn_contour(drawing, one, drawing.name, run_);
     OBVID_TRY(drawn);
     std::string name = drawn->name.empty() ? fmt::format("curve {}", number + 1) : drawn->name;

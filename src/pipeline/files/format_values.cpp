@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,12 +29,20 @@ Result<void> check_length(const std::optional<double>& value, const char* option
 Result<void> set_curve(const FormatValues& typed, CurveChoice& curve) {
   if (!typed.curve) return {};
   const auto number = typed_numbers<long>(*typed.curve);
-  if (typed.curve->empty() || (number && (number->size() != 1 || number->front() < 1))) {
+  const bool several = typed.curve->find(',') != std::string::npos;
+  const bool from_one =
+      !number || std::all_of(number->begin(), number->end(), [](long one) { return one >= 1; });
+  if (typed.curve->empty() || !from_one) {
     return fail(
         bad_option("curves are counted from 1", "--curve", "`obvid analyse FILE` lists them"));
   }
   if (*typed.curve == "all") {
     curve.all = true;
+  } else if (several) {
+    std::istringstream items(*typed.curve);
+    for (std::string item; std::getline(items, item, ',');) {
+      if (!item.empty()) curve.several.push_back(std::move(item));
+    }
   } else if (number) {
     curve.number = static_cast<std::size_t>(number->front() - 1);
   } else {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <numeric>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -32,6 +33,7 @@
 #include "obvid/io/internal/mesh_kind.h"
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_points.h"
+#include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/mesh_sections.h"
 #include "obvid/series/internal/order.h"
 #include "obvid/series/internal/outliers.h"
@@ -152,6 +154,11 @@ std::string lower(std::string text) {
 const std::string& label_of(const Drawing& drawing, std::size_t i) {
   const std::size_t curves = drawing.curves.size();
   return i < curves ? drawing.curves[i].label : drawing.series[i - curves].name;
+}
+
+const std::string& layer_of(const Drawing& drawing, std::size_t i) {
+  const std::size_t curves = drawing.curves.size();
+  return i < curves ? drawing.curves[i].layer : drawing.series[i - curves].layer;
 }
 
 /// Whether `word` stands in `text` between blanks, commas or the ends; upper and lower case are
@@ -350,6 +357,37 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
 
 }  // namespace
 
+Result<std::vector<std::size_t>> chosen_curves(const Drawing& drawing, const CurveChoice& asked,
+                                               const std::string& path) {
+  std::vector<std::string> items = asked.several;
+  if (!asked.name.empty()) items.push_back(asked.name);
+  std::set<std::size_t> out;
+  const auto take = [&](const CurveChoice& one) -> Result<void> {
+    const auto found = chosen_curve(drawing, one, path);
+    OBVID_TRY(found);
+    out.insert(*found);
+    return {};
+  };
+  if (asked.number) OBVID_TRY(take({asked.number, {}, false, {}}));
+  const std::size_t count = drawing.curves.size() + drawing.series.size();
+  for (const std::string& item : items) {
+    bool any = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (label_of(drawing, i) != item && layer_of(drawing, i) != item) continue;
+      out.insert(i);
+      any = true;
+    }
+    if (any) continue;
+    const auto number = typed_numbers<long>(item);
+    if (number && number->size() == 1 && number->front() >= 1) {
+      OBVID_TRY(take({static_cast<std::size_t>(number->front() - 1), {}, false, {}}));
+    } else {
+      OBVID_TRY(take({{}, item, false, {}}));
+    }
+  }
+  return std::vector<std::size_t>(out.begin(), out.end());
+}
+
 Result<std::size_t> chosen_curve(const Drawing& drawing, const CurveChoice& asked,
                                  const std::string& path) {
   const std::size_t count = drawing.curves.size() + drawing.series.size();
@@ -360,6 +398,11 @@ Result<std::size_t> chosen_curve(const Drawing& drawing, const CurveChoice& aske
     return error(ErrorCode::kBadOption, "all curves at once are for analyse, fit and convert")
         .where("--curve")
         .hint("give the number of one");
+  }
+  if (!asked.several.empty()) {
+    return error(ErrorCode::kBadOption, "several curves at once are for cut")
+        .where("--curve")
+        .hint("give the number of one, or all");
   }
   Result<std::size_t> found = asked.number.value_or(0);
   if (!asked.name.empty()) {
