@@ -297,6 +297,52 @@ std::string outliers_text(const PointSeries& series, const Outliers& found) {
   return text + fmt::format("; the others deviate by {} {}", significant(found.deviation, 3), unit);
 }
 
+/// Points that go once around, the first one not again, as far as they tell: the ends are not much
+/// farther apart than neighbours, and the curve does not turn back there.
+std::optional<std::size_t> points_around(const std::vector<Vec2>& points) {
+  constexpr std::size_t kFewest = 20;
+  constexpr double kFarther = 3.0, kLeastCosine = 0.5;
+  const std::size_t n =
+      points.size() > 1 && points.front() == points.back() ? points.size() - 1 : points.size();
+  if (n < kFewest) return std::nullopt;
+  std::vector<double> chords;
+  for (std::size_t i = 1; i < n; ++i) chords.push_back(norm(points[i] - points[i - 1]));
+  const auto middle = chords.begin() + static_cast<std::ptrdiff_t>(chords.size() / 2);
+  std::nth_element(chords.begin(), middle, chords.end());
+  if (norm(points[0] - points[n - 1]) > kFarther * *middle) return std::nullopt;
+  // an end may be what is wrong: the chords beside it tell
+  const Vec2 before = points[n - 2] - points[n - 4], behind = points[3] - points[1];
+  if (dot(before, behind) < kLeastCosine * norm(before) * norm(behind)) return std::nullopt;
+  return n;
+}
+
+/// `outliers_of` with neighbours over the seam where the points go around.
+Result<Outliers> outliers_around(const std::vector<Vec2>& points, const std::vector<bool>& given) {
+  const auto around = points_around(points);
+  if (!around) return outliers_of(points, given);
+  constexpr std::size_t kBeyond = 8;  // points beyond the seam
+  const std::size_t n = *around;
+  std::vector<Vec2> unrolled;
+  std::vector<bool> kept;
+  for (std::size_t k = 0; k < n + 2 * kBeyond; ++k) {
+    const std::size_t i = (k + n - kBeyond) % n;
+    unrolled.push_back(points[i]);
+    kept.push_back(i < given.size() && given[i]);
+  }
+  auto found = outliers_of(unrolled, kept);
+  OBVID_TRY(found);
+  Outliers out{{}, found->deviation, found->limit};
+  for (Outlier one : found->points) {
+    if (one.index < kBeyond || one.index >= n + kBeyond) continue;
+    one.index -= kBeyond;
+    out.points.push_back(one);
+    if (one.index == 0 && n < points.size()) out.points.push_back({n, one.off});
+  }
+  std::sort(out.points.begin(), out.points.end(),
+            [](const Outlier& a, const Outlier& b) { return a.index < b.index; });
+  return out;
+}
+
 Result<PointSeries> without_outliers(Result<PointSeries> series, const ImportOptions& options) {
   if (!series || !options.drop_outliers) return series;
   if (!series->kept.empty()) {
@@ -309,7 +355,7 @@ Result<PointSeries> without_outliers(Result<PointSeries> series, const ImportOpt
   for (const FixedData& data : out.fixed) {
     given.push_back(data.theta || data.kappa || data.thetas || data.kappas || data.corner);
   }
-  const auto found = outliers_of(out.points, given);
+  const auto found = outliers_around(out.points, given);
   OBVID_TRY(found);
   out.warnings.push_back(outliers_text(out, *found));
   std::vector<bool> off(out.points.size(), false);
