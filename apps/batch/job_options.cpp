@@ -95,8 +95,8 @@ JobOptions known_options(const std::string& job) {
   if (job == "alignment") {
     out.job = drawn;
     for (const char* name :
-         {"noise", "min-length", "min-radius", "station", "lateral-acceleration", "transitions",
-          "profile-noise", "profile-curves", "min-vertical-length"}) {
+         {"noise", "min-length", "min-radius", "station", "lateral-acceleration", "joints",
+          "transitions", "profile-noise", "profile-curves", "min-vertical-length"}) {
       out.job.push_back({name});
     }
     out.job.push_back({"closed", true});

@@ -76,6 +76,10 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   for (const NumberOption& option : kNumberOptions) {
     app.add_option(option.name, raw.*option.text, option.help)->type_name(option.value);
   }
+  app.add_option("--joints", raw.typed.joints,
+                 "G2: no steps of the curvature, with as many elements more as that takes; G1: "
+                 "steps where they save elements [G1]")
+      ->type_name("G1|G2");
   app.add_option("--transitions", raw.typed.transitions,
                  "Kind of the transitions between lines and arcs: clothoid, bloss, sine, cosine, "
                  "helmert or cubic (parabola) [clothoid]")

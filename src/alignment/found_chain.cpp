@@ -43,6 +43,7 @@ class Simplifier {
       : points_(std::move(points)),
         tolerance_(std::move(tolerance)),
         transitions_(options.transitions),
+        without_steps_(options.without_steps && !sought.constant),
         constant_(sought.constant),
         lap_(sought.lap),
         first_given_(first_given),
@@ -70,7 +71,7 @@ class Simplifier {
     if (others && largest() > 1.0) return {};
     OBVID_TRY(simplify(run));
     straighten();
-    return {};
+    return without_steps_ ? take_steps_away(run) : Result<void>();
   }
 
   /// The same around a loop: the ends of what was found are joined, and everything is tried once
@@ -91,10 +92,15 @@ class Simplifier {
       turn_to(chain_.size() / 2);
     }
     OBVID_TRY(merge_all(run));
-    const std::size_t first = (points_.size() - first_given_) % points_.size();
-    turn_to((feet_[first].element + 1) % chain_.size());
+    turn_to_first_given();
     if (largest() > 1.0) OBVID_TRY(polish(run));
     straighten();
+    if (!without_steps_) return {};
+    // once more with the joint between end and start inside
+    OBVID_TRY(take_steps_away(run));
+    turn_to(chain_.size() / 2);
+    OBVID_TRY(take_steps_away(run));
+    turn_to_first_given();
     return {};
   }
 
@@ -114,6 +120,72 @@ class Simplifier {
   }
 
  private:
+  /// Begins the chain at the joint behind the first point.
+  void turn_to_first_given() {
+    const std::size_t first = (points_.size() - first_given_) % points_.size();
+    turn_to((feet_[first].element + 1) % chain_.size());
+  }
+
+  /// Puts a transition into each joint with a step of the curvature.
+  Result<void> take_steps_away(const RunContext& run) {
+    for (std::size_t k = 1; k < chain_.size(); ++k) {
+      OBVID_TRY(may_go_on(run));
+      if (chain_.ends[k - 1][1] == chain_.ends[k][0]) continue;
+      if (take_step_away(k)) continue;
+      return fail(error(ErrorCode::kToleranceNotReached,
+                        "a step of the curvature remains: no transition has room there")
+                      .where("--joints")
+                      .hint("allow a larger tolerance, or a smaller --min-length")
+                      .value(std::abs(chain_.curvature(k, 0) - chain_.curvature(k - 1, 1))));
+    }
+    return {};
+  }
+
+  /// Between elements k - 1 and k: the longest one that is found.
+  bool take_step_away(std::size_t k) {
+    const bool between_constants = !bends(k - 1) && !bends(k);
+    const double most = 0.5 * std::min(chain_.length[k - 1], chain_.length[k]);
+    for (double length = std::max(most, least_length_); length >= least_length_; length *= 0.5) {
+      if (between_constants && transitions_ != Transition::kClothoid &&
+          put_between(k, length, transitions_)) {
+        return true;
+      }
+      if (put_between(k, length, Transition::kClothoid)) return true;
+    }
+    return put_between(k, least_length_, Transition::kClothoid);
+  }
+
+  bool put_between(std::size_t k, double length, Transition law) {
+    const std::vector<Element> joints = chain_.joints();
+    Chain next = chain_;
+    std::vector<Foot> feet = feet_;
+    const double half = 0.5 * length;
+    if (!(next.length[k - 1] > half && next.length[k] > half)) return false;
+    next.length[k - 1] -= half;
+    next.length[k] -= half;
+    const auto at = static_cast<std::ptrdiff_t>(k);
+    next.length.insert(next.length.begin() + at, length);
+    next.ends.insert(next.ends.begin() + at, {chain_.ends[k - 1][1], chain_.ends[k][0]});
+    next.law.insert(next.law.begin() + at, law);
+    for (Foot& foot : feet) {
+      if (foot.element == k - 1 && foot.s > next.length[k - 1]) {
+        foot.s -= next.length[k - 1];
+        foot.element = k;
+      } else if (foot.element == k && foot.s < half) {
+        foot.s += half;
+      } else if (foot.element == k) {
+        foot.s -= half;
+        foot.element = k + 1;
+      } else if (foot.element > k) {
+        ++foot.element;
+      }
+    }
+    const std::size_t first = k - std::min(k, kBeside);
+    const std::size_t last = std::min(k + 1 + kBeside, next.size());
+    Window window = cut(next, feet, first, last, joints, last - 1);
+    return accept(std::move(next), std::move(feet), std::move(window));
+  }
+
   /// Curvatures that are rounding become those of lines: as they are they have signs, and radii,
   /// that no point shows.
   void straighten() {
@@ -716,6 +788,7 @@ class Simplifier {
   std::vector<Vec2> points_;
   std::vector<double> tolerance_;
   Transition transitions_ = Transition::kClothoid;
+  bool without_steps_ = false;
   bool constant_ = false;        ///< curvature of each element
   bool closed_ = false;          ///< the pose at the end is that at the start, and stays
   Vec2 lap_;                     ///< from the start to the end

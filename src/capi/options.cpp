@@ -115,6 +115,7 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"min-radius", number(job.least_radius)},
                 {"station", number(job.first_station)},
                 {"lateral-acceleration", number(job.acceleration)},
+                {"joints", text(w.alignment.joints)},
                 {"transitions", text(w.alignment.transitions)},
                 {"profile-noise", text(w.alignment.profile_noise)},
                 {"profile-curves", text(w.alignment.profile_curves)},

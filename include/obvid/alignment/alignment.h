@@ -57,6 +57,9 @@ struct AlignmentOptions {
   /// What takes the place of clothoids between lines and arcs, and at the ends, wherever the
   /// tolerance allows it; others stay clothoids.
   Transition transitions = Transition::kClothoid;
+  /// Curvature goes on without steps (G2): clothoids, or transitions of the wanted kind, are put
+  /// between elements of different curvatures. There are more elements then.
+  bool without_steps = false;
 };
 
 /// Few lines, arcs and clothoids, each beginning with the tangent of the one before (G1), within
@@ -77,7 +80,8 @@ struct AlignmentOptions {
 /// Errors: E203 a least length or radius that is negative or no number, E304 fewer than two points
 /// (closed: three), E402 coinciding neighbours, E401 none
 /// found (`index`: the first point that was not reached), E502 not within the tolerance with such
-/// lengths and radii, E103 cancelled.
+/// lengths and radii, or with a step of the curvature that no transition of such a length takes
+/// the place of, E103 cancelled.
 [[nodiscard]] Result<Alignment> fit_alignment(const std::vector<Vec2>& points,
                                               const std::vector<double>& tolerance,
                                               const AlignmentOptions& options = {},

@@ -38,9 +38,10 @@ struct AlignmentJob {
   bool noise_from_scatter = false;  ///< estimated from the points, in place of `noise`
   double least_length = 0.0;   ///< of each element, units; 0: a quarter of the points' distance
   double least_radius = 0.0;   ///< of each place, units; 0: any
-  bool closed = false;         ///< around a loop; without a profile
+  bool closed = false;         ///< around a loop
   double first_station = 0.0;  ///< of the first point, units
   Transition transitions = Transition::kClothoid;  ///< wanted between lines and arcs
+  bool without_steps = false;                      ///< of the curvature: G2 joints
   std::optional<double> acceleration{};            ///< to the side, m/s^2: what limits the speed
   std::optional<StationHeights> heights{};         ///< in place of those of the points
   std::optional<double>

@@ -160,6 +160,7 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   limits.least_length = job.least_length;
   limits.least_radius = job.least_radius;
   limits.transitions = job.transitions;
+  limits.without_steps = job.without_steps;
   limits.closed = job.closed;
   auto alignment = fit_alignment(series.points, *tolerance, limits, run);
   OBVID_TRY(alignment);

@@ -42,6 +42,11 @@ Result<void> set_alignment(const AlignmentValues& typed, AlignmentJob& job) {
     }
     job.transitions = *kind;
   }
+  if (!typed.joints.empty() && typed.joints != "G1" && typed.joints != "G2") {
+    return fail(bad_option("joints are G1 or G2, not " + typed.joints, "--joints",
+                           "G2 has no steps of the curvature"));
+  }
+  job.without_steps = typed.joints == "G2";
   if (typed.profile_curves.empty() || typed.profile_curves == "parabolas") return {};
   if (typed.profile_curves != "arcs") {
     return fail(bad_option("vertical curves are parabolas or arcs", "--profile-curves",

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>

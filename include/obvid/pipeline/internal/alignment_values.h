@@ -13,6 +13,7 @@ struct AlignmentValues {
   std::string noise;           ///< a length, rounding or auto
   std::string profile_noise;   ///< likewise
   std::string profile_curves;  ///< parabolas or arcs
+  std::string joints;          ///< G1 or G2
   std::string transitions;     ///< clothoid, bloss, sine, cosine, helmert or cubic
 };
 
