@@ -35,6 +35,7 @@
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/internal/job_values.h"
+#include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/mesh_sections.h"
 #include "obvid/series/internal/order.h"
 #include "obvid/series/internal/outliers.h"
