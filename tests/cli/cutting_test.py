@@ -16,6 +16,8 @@ import sys
 import tempfile
 import unittest
 
+import ezdxf
+
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 sys.path.insert(0, str(TOOLS))
 
@@ -137,8 +139,30 @@ class Cutting(unittest.TestCase):
         self.assertIn("0.1 mm", said)
         self.run_cut(one, "--depth", 1, "--motion", "lines", "--controller", "linuxcnc", code=2)
 
+    def test_splines_whose_control_points_repeat_are_polygons(self):
+        corners = [(-122.79772, 41.66468), (-127.14778, 41.66468), (-128.87016, 46.21777), (-136.86927, 46.21777),
+                   (-135.05403, 61.66474)]
+        plan = ezdxf.new()
+        plan.header["$INSUNITS"] = 4
+        points = [corners[0]] * 2 + [c for c in corners[1:] for _ in range(4)] + [corners[0]] * 2
+        inner = len(points) - 4
+        knots = [0.0] * 4 + [(k + 1) / (inner + 1) for k in range(inner)] + [1.0] * 4
+        plan.modelspace().add_spline(degree=3).control_points = points
+        plan.modelspace()[0].knots = knots
+        with io.StringIO() as out:
+            plan.write(out)
+            text = out.getvalue()
+        program = Controller(self.run_cut(text, "--laser", 100))
+        cut = self.cuts_of_laser(program)
+        sides = [math.dist(a, b) for a, b in zip(corners, corners[1:] + corners[:1])]
+        self.assertAlmostEqual(sum(m.length() for m in cut), sum(sides), delta=0.05)
+        for c in corners:
+            self.assertLess(min(math.dist(m.b[:2], c) for m in cut), 0.002)
+
+    def cuts_of_laser(self, program):
+        return [m for m in program.moves if m.code in (1, 2, 3)]
+
     def test_some_curves_are_cut(self):
-        import ezdxf
         plan = ezdxf.new()
         plan.header["$INSUNITS"] = 4
         places = {"A": (0, 0), "B": (30, 0), "C": (60, 0), "D": (90, 0)}

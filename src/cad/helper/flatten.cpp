@@ -18,6 +18,7 @@
 #include <numbers>
 #include <optional>
 
+#include "obvid/curve/internal/drawn_spans.h"
 #include "obvid/curve/nurbs.h"
 
 namespace obvid::cad {
@@ -211,7 +212,7 @@ void add_pieces(const EdgeCurve& curve, const Plane& plane, std::vector<Piece>& 
     flat.knots.insert(flat.knots.end(), static_cast<std::size_t>(spline->Multiplicity(i)),
                       spline->Knot(i));
   }
-  for (const BezierSpan& span : bezier_spans(flat)) pieces.emplace_back(span.piece);
+  for (const Piece& piece : drawn_spans(flat)) pieces.push_back(piece);
 }
 
 std::string plane_text(const Plane& plane) {

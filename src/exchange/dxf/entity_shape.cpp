@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "dxf/arcs.h"
+#include "obvid/curve/internal/drawn_spans.h"
 #include "obvid/curve/nurbs.h"
 #include "obvid/geom/internal/angle.h"
 
@@ -202,18 +203,8 @@ class Shaper {
     curve.weights = e_.weights;
     if (curve.weights.empty()) curve.weights.assign(e_.points.size(), 1.0);
     for (const Point3& p : e_.points) curve.points.push_back(place(space_, p));
-    for (const BezierSpan& span : bezier_spans(curve)) add_span(span.piece);
+    shape_.pieces = drawn_spans(curve);
     if (shape_.pieces.empty()) refuse(kNothing);
-  }
-
-  void add_span(const RationalBezier& piece) {
-    const auto first = piece.offset.begin(), last = first + piece.degree + 1;
-    if (std::all_of(first, last, [&](Vec2 p) { return p == *first; })) return;
-    if (piece.degree == 1) {
-      shape_.pieces.emplace_back(LinePiece{piece.offset[0], piece.offset[1]});
-    } else {
-      shape_.pieces.emplace_back(piece);
-    }
   }
 
   bool spline_is_sound() {
