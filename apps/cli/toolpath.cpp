@@ -94,7 +94,7 @@ void add_rough_facts(const ToolpathReport& r, const std::string& unit, Facts& fa
             fmt::format("up to {} {} over part and allowance, measured along normals, at {}",
                         significant(r.scallop.found, 3), unit, toolpath_place(r.scallop.place)));
   if (r.narrow_stretches > 0) {
-    facts.add("left out", fmt::format("{} stretches too short for the ramp", r.narrow_stretches));
+    facts.add("left out", fmt::format("{} stretches too short to go down", r.narrow_stretches));
   }
 }
 

@@ -31,7 +31,9 @@ constexpr double kSlowRate = 0.1;  ///< of the fastest change of curvature: what
 constexpr std::size_t kLongestRun = 9;   ///< elements that one transition takes the place of
 constexpr int kPolishes = 3;             ///< over the whole alignment, where an offset is too large
 constexpr std::size_t kLeastAround = 4;  ///< elements that a loop begins with
-constexpr int kMoreAtSeam = 2;           ///< elements that may be added to close a loop
+/// Of the tolerances, before transitions are put between elements with a step of the curvature.
+constexpr double kBeforeTransitions = 0.9;
+constexpr int kMoreAtSeam = 2;  ///< elements that may be added to close a loop
 
 class Simplifier {
  public:
@@ -57,6 +59,9 @@ class Simplifier {
     least_length_ = std::max(kLeastLength * length / static_cast<double>(points_.size() - 1),
                              options.least_length);
     if (options.least_radius > 0.0) largest_curvature_ = 1.0 / options.least_radius;
+    if (without_steps_) {
+      for (double& one : tolerance_) one *= kBeforeTransitions;
+    }
   }
 
   /// `others`: there are other searches, so that one that leaves the tolerance after it was fitted
@@ -126,8 +131,16 @@ class Simplifier {
     turn_to((feet_[first].element + 1) % chain_.size());
   }
 
+  /// Gives points the part of their tolerance that transitions in joints need.
+  void give_room() {
+    if (has_room_) return;
+    has_room_ = true;
+    for (double& one : tolerance_) one /= kBeforeTransitions;
+  }
+
   /// Puts a transition into each joint with a step of the curvature.
   Result<void> take_steps_away(const RunContext& run) {
+    give_room();
     for (std::size_t k = 1; k < chain_.size(); ++k) {
       OBVID_TRY(may_go_on(run));
       if (chain_.ends[k - 1][1] == chain_.ends[k][0]) continue;
@@ -788,7 +801,7 @@ class Simplifier {
   std::vector<Vec2> points_;
   std::vector<double> tolerance_;
   Transition transitions_ = Transition::kClothoid;
-  bool without_steps_ = false;
+  bool without_steps_ = false, has_room_ = false;
   bool constant_ = false;        ///< curvature of each element
   bool closed_ = false;          ///< the pose at the end is that at the start, and stays
   Vec2 lap_;                     ///< from the start to the end
@@ -881,7 +894,8 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
     turn(tolerance);
   }
   std::vector<double> within = tolerance;
-  for (double& one : within) one *= attempt.part;
+  const double part = attempt.part * (options.without_steps ? kBeforeTransitions : 1.0);
+  for (double& one : within) one *= part;
   const auto nodes = fewest_pieces(points, within, options, sought, run);
   OBVID_TRY(nodes);
   Chain chain;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRampDeg = 5.0;
 constexpr double kMostLegs = 40.0;                            // of a ramp up and down one stretch
-constexpr double kMostTurns = 1000.0;                         // of a helix
+constexpr double kMostTurns = 100.0;                          // of a helix
 constexpr double kLeastCorners = 16.0, kMostCorners = 720.0;  // of a circle
 
 /// Ways one after the other with what is over them, which falls evenly from `height` to 0.

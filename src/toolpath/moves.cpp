@@ -95,7 +95,9 @@ class Layer {
         ring->front() = ring->back() = start;
         best = std::move(ring);
       }
-      if (best) return helix_over(*best, std::min(height, report_.safe_z - least), *fall_, 1.0);
+      if (best) {
+        if (auto way = helix_over(*best, height, *fall_, 1.0)) return way;
+      }
     }
     return std::nullopt;
   }

@@ -203,8 +203,9 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
         "leaves less");
   }
   if (r.narrow_stretches > 0) {
-    out.warnings.push_back(fmt::format("{} stretches are too short for the ramp and are left out",
-                                       r.narrow_stretches));
+    const bool helix = options.entry == ToolpathEntry::kHelix;
+    out.warnings.push_back(fmt::format("{} stretches are too short for the ramp{} and are left out",
+                                       r.narrow_stretches, helix ? " and the helix" : ""));
   }
   if (options.strategy != ToolpathStrategy::kRough && fall_of(options) && r.entries.straight > 0) {
     out.warnings.push_back(fmt::format("no room for a ramp: {} of {} entries go straight down",

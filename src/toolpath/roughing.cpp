@@ -204,11 +204,12 @@ class Roughing {
   }
 
   [[nodiscard]] bool can_begin(const Stretch& s, std::size_t line, double over, double z) const {
-    return ramp_over({place(s.from, line, z), place(s.to, line, z)}, over - z, fall_) ||
-           beside_stock(place(s.from, line, z)) || beside_stock(place(s.to, line, z));
+    const Vec3 from = place(s.from, line, z), to = place(s.to, line, z);
+    return beside_stock(from) || beside_stock(to) || ramp_over({from, to}, over - z, fall_) ||
+           (options_.entry == ToolpathEntry::kHelix && helix_beside(from, to, over, z));
   }
 
-  /// Comes down at one end of a stretch and takes it; false: it is too short for a ramp.
+  /// Comes down at one end of a stretch and takes it; false: it is too short to go down.
   bool begin(std::size_t line, Stretch& s, double over, double z) {
     s.done = true;
     const bool from_end = !options_.one_way && !beside_stock(place(s.from, line, z)) &&
@@ -230,16 +231,16 @@ class Roughing {
 
   /// Into the stock, from where the level before has left a stretch free, to its start.
   bool go_down(Vec3 start, Vec3 end, double over, double z) {
-    auto ramp = ramp_over({start, end}, over - z, fall_);
-    if (!ramp) return false;
-    auto helix =
+    auto way =
         options_.entry == ToolpathEntry::kHelix ? helix_beside(start, end, over, z) : std::nullopt;
-    ++(helix ? out_.report.entries.helical : out_.report.entries.ramped);
-    auto& way = helix ? *helix : *ramp;
-    const Vec3 last = way.back();
+    const bool helical = way.has_value();
+    if (!helical) way = ramp_over({start, end}, over - z, fall_);
+    if (!way) return false;
+    ++(helical ? out_.report.entries.helical : out_.report.entries.ramped);
+    const Vec3 last = way->back();
     list_.leave();
-    list_.enter(way.front());
-    list_.add(ToolMove::kPlunge, std::move(way));
+    list_.enter(way->front());
+    list_.add(ToolMove::kPlunge, std::move(*way));
     if (!(last == start)) list_.add(ToolMove::kLink, {last, start});
     return true;
   }

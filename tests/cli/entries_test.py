@@ -193,8 +193,7 @@ def check_finish(binary, folder, cutter, diameter, corner, strategy, entry, over
         lift = places[:, 2] - rest
         begins = places[0, 2] - end[2]
         assert np.allclose(places[0, :2], end[:2]) and begins <= over + 2e-3, name
-        # the highest place of a helix ends at the safe height
-        assert begins > over - 2e-3 or begins + rest.max() > report["safe_z"] - 0.1, f"{name}: begins {begins} over it"
+        assert begins > over - 2e-3 or places[0, 2] > report["safe_z"] - 2e-3, f"{name}: begins {begins} over it"
         for k, told in ((0, begins), (-1, 0.0)):
             assert not sure[k] or abs(lift[k] - told) < 0.03, f"{name}: {lift[k]} over the rest at {places[k]}"
         gone = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places[:, :2], axis=0).T))])
