@@ -154,8 +154,26 @@ class Simplifier {
     return {};
   }
 
-  /// Between elements k - 1 and k: the longest one that is found.
+  /// Between elements k - 1 and k: clothoids that begin or end otherwise, else the longest
+  /// transition that is found, else arcs that become clothoids.
   bool take_step_away(std::size_t k) {
+    if (bends(k) && share_curvature(k, k, 0)) return true;
+    if (bends(k - 1) && share_curvature(k, k - 1, 1)) return true;
+    if (put_longest_between(k)) return true;
+    return share_curvature(k, k, 0) || share_curvature(k, k - 1, 1);
+  }
+
+  /// Gives one of the elements at joint k the curvature that the other one has there.
+  bool share_curvature(std::size_t k, std::size_t element, std::size_t end) {
+    Chain next = chain_;
+    next.ends[element][end] = end == 0 ? chain_.ends[k - 1][1] : chain_.ends[k][0];
+    const std::size_t first = k - std::min(k, kBeside);
+    const std::size_t last = std::min(k + kBeside, next.size());
+    Window window = cut(next, first, last);
+    return accept(std::move(next), feet_, std::move(window));
+  }
+
+  bool put_longest_between(std::size_t k) {
     const bool between_constants = !bends(k - 1) && !bends(k);
     const double most = 0.5 * std::min(chain_.length[k - 1], chain_.length[k]);
     for (double length = std::max(most, least_length_); length >= least_length_; length *= 0.5) {
@@ -173,9 +191,9 @@ class Simplifier {
     Chain next = chain_;
     std::vector<Foot> feet = feet_;
     const double half = 0.5 * length;
-    if (!(next.length[k - 1] > half && next.length[k] > half)) return false;
     next.length[k - 1] -= half;
     next.length[k] -= half;
+    if (std::min(next.length[k - 1], next.length[k]) < least_length_) return false;
     const auto at = static_cast<std::ptrdiff_t>(k);
     next.length.insert(next.length.begin() + at, length);
     next.ends.insert(next.ends.begin() + at, {chain_.ends[k - 1][1], chain_.ends[k][0]});

@@ -152,15 +152,11 @@ class Cutting(unittest.TestCase):
         with io.StringIO() as out:
             plan.write(out)
             text = out.getvalue()
-        program = Controller(self.run_cut(text, "--laser", 100))
-        cut = self.cuts_of_laser(program)
+        cut = self.cuts(Controller(self.run_cut(text, "--side", "on", "--diameter", 2, "--depth", 1)))
         sides = [math.dist(a, b) for a, b in zip(corners, corners[1:] + corners[:1])]
         self.assertAlmostEqual(sum(m.length() for m in cut), sum(sides), delta=0.05)
         for c in corners:
             self.assertLess(min(math.dist(m.b[:2], c) for m in cut), 0.002)
-
-    def cuts_of_laser(self, program):
-        return [m for m in program.moves if m.code in (1, 2, 3)]
 
     def test_some_curves_are_cut(self):
         plan = ezdxf.new()

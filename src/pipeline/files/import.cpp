@@ -300,7 +300,7 @@ std::string outliers_text(const PointSeries& series, const Outliers& found) {
 
 /// Points that go once around, the first one not again, as far as they tell: the ends are not much
 /// farther apart than neighbours, and the curve does not turn back there.
-std::optional<std::size_t> points_around(const std::vector<Vec2>& points) {
+std::optional<std::size_t> points_of_loop(const std::vector<Vec2>& points) {
   constexpr std::size_t kFewest = 20;
   constexpr double kFarther = 3.0, kLeastCosine = 0.5;
   const std::size_t n =
@@ -319,7 +319,7 @@ std::optional<std::size_t> points_around(const std::vector<Vec2>& points) {
 
 /// `outliers_of` with neighbours over the seam where the points go around.
 Result<Outliers> outliers_around(const std::vector<Vec2>& points, const std::vector<bool>& given) {
-  const auto around = points_around(points);
+  const auto around = points_of_loop(points);
   if (!around) return outliers_of(points, given);
   constexpr std::size_t kBeyond = 8;  // points beyond the seam
   const std::size_t n = *around;
