@@ -64,18 +64,9 @@ struct OwnDerivatives {
 /// turning.
 class DerivativesAlong {
  public:
-  DerivativesAlong(Plane plane, Transition kind, const TransitionLaw& law, double theta, double k0,
-                   double k1, double length)
-      : plane_(plane),
-        linear_(kind == Transition::kClothoid),
-        parts_(linear_                      ? 0.0
-               : kind == Transition::kCubic ? kPartsOfCubic
-                                            : kPartsOfLaw),
-        law_(law),
-        theta_(theta),
-        k0_(k0),
-        k1_(k1),
-        length_(length) {}
+  DerivativesAlong(Plane plane, const TransitionLaw& law, double theta, double k0, double k1,
+                   double length)
+      : plane_(plane), law_(law), theta_(theta), k0_(k0), k1_(k1), length_(length) {}
 
   /// `s` in [0, length]; cheap where it lies behind the last one.
   OwnDerivatives at(double s) {
@@ -107,12 +98,18 @@ class DerivativesAlong {
   /// Parts of an element whose law waves, or has a corner in its middle; of a cubic parabola.
   static constexpr double kPartsOfLaw = 16.0, kPartsOfCubic = 2.0;
 
+  /// Parts that the law asks for, of a whole element.
+  [[nodiscard]] double parts_of_law() const {
+    if (law_.is_linear()) return 0.0;
+    return law_.kind() == Transition::kCubic ? kPartsOfCubic : kPartsOfLaw;
+  }
+
   /// What the heading changes by with the end's curvature, and what that does as the element grows.
   struct OfLaw {
     double square, stretched;
   };
   [[nodiscard]] OfLaw of_law(double u) const {
-    if (linear_) {
+    if (law_.is_linear()) {
       const double square = u * u / (2.0 * length_);
       return {square, square / length_};
     }
@@ -124,7 +121,7 @@ class DerivativesAlong {
     const double way = s - s_;
     if (!(way > 0.0)) return;
     const double turn = (std::abs(k0_) + std::abs(k1_)) * way;
-    const int parts = 1 + static_cast<int>(turn / kTurnOfPart + parts_ * way / length_);
+    const int parts = 1 + static_cast<int>(turn / kTurnOfPart + parts_of_law() * way / length_);
     const double h = way / parts;
     for (int part = 0; part < parts; ++part) {
       const double middle = s_ + (part + 0.5) * h;
@@ -143,8 +140,6 @@ class DerivativesAlong {
   }
 
   Plane plane_;
-  bool linear_;
-  double parts_;  ///< that the law asks for, of a whole element
   TransitionLaw law_;
   double theta_, k0_, k1_, length_;
   double s_ = 0.0;
@@ -291,9 +286,8 @@ class Fitter {
     whole_.clear();
     along_.clear();
     for (std::size_t k = 0; k < chain_.size(); ++k) {
-      const DerivativesAlong along(chain_.plane, chain_.law[k], laws_[k], joints_[k].theta,
-                                   chain_.curvature(k, 0), chain_.curvature(k, 1),
-                                   chain_.length[k]);
+      const DerivativesAlong along(chain_.plane, laws_[k], joints_[k].theta, chain_.curvature(k, 0),
+                                   chain_.curvature(k, 1), chain_.length[k]);
       along_.push_back(along);
       whole_.push_back(DerivativesAlong(along).at_end());
     }

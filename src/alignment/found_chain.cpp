@@ -76,7 +76,9 @@ class Simplifier {
     if (others && largest() > 1.0) return {};
     OBVID_TRY(simplify(run));
     straighten();
-    return without_steps_ ? take_steps_away(run) : Result<void>();
+    if (!without_steps_) return {};
+    give_room();
+    return take_steps_away(run);
   }
 
   /// The same around a loop: the ends of what was found are joined, and everything is tried once
@@ -101,6 +103,7 @@ class Simplifier {
     if (largest() > 1.0) OBVID_TRY(polish(run));
     straighten();
     if (!without_steps_) return {};
+    give_room();
     // once more with the joint between end and start inside
     OBVID_TRY(take_steps_away(run));
     turn_to(chain_.size() / 2);
@@ -133,14 +136,11 @@ class Simplifier {
 
   /// Gives points the part of their tolerance that transitions in joints need.
   void give_room() {
-    if (has_room_) return;
-    has_room_ = true;
     for (double& one : tolerance_) one /= kBeforeTransitions;
   }
 
   /// Puts a transition into each joint with a step of the curvature.
   Result<void> take_steps_away(const RunContext& run) {
-    give_room();
     for (std::size_t k = 1; k < chain_.size(); ++k) {
       OBVID_TRY(may_go_on(run));
       if (chain_.ends[k - 1][1] == chain_.ends[k][0]) continue;
@@ -175,15 +175,16 @@ class Simplifier {
 
   bool put_longest_between(std::size_t k) {
     const bool between_constants = !bends(k - 1) && !bends(k);
-    const double most = 0.5 * std::min(chain_.length[k - 1], chain_.length[k]);
-    for (double length = std::max(most, least_length_); length >= least_length_; length *= 0.5) {
+    const double half = 0.5 * std::min(chain_.length[k - 1], chain_.length[k]);
+    for (double length = std::max(half, least_length_);;
+         length = std::max(0.5 * length, least_length_)) {
       if (between_constants && transitions_ != Transition::kClothoid &&
           put_between(k, length, transitions_)) {
         return true;
       }
       if (put_between(k, length, Transition::kClothoid)) return true;
+      if (length <= least_length_) return false;
     }
-    return put_between(k, least_length_, Transition::kClothoid);
   }
 
   bool put_between(std::size_t k, double length, Transition law) {
@@ -819,7 +820,7 @@ class Simplifier {
   std::vector<Vec2> points_;
   std::vector<double> tolerance_;
   Transition transitions_ = Transition::kClothoid;
-  bool without_steps_ = false, has_room_ = false;
+  bool without_steps_ = false;
   bool constant_ = false;        ///< curvature of each element
   bool closed_ = false;          ///< the pose at the end is that at the start, and stays
   Vec2 lap_;                     ///< from the start to the end

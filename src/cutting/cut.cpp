@@ -27,8 +27,7 @@ namespace {
 
 using namespace cutting;
 
-constexpr double kHalfTurn = 180.0;        // degrees
-constexpr double kSecondsOfMinute = 60.0;  // s
+constexpr double kHalfTurn = 180.0;  // degrees
 
 /// In mm and minutes; in inches.
 struct Defaults {
@@ -158,7 +157,7 @@ class Cutting {
         exchange::machine_acceleration(options_.acceleration, inches_),
         options_.tolerance * scale_};
     out.report.minutes =
-        seconds_of(blocks.blocks, times, options_.pierce_seconds) / kSecondsOfMinute;
+        seconds_of(blocks.blocks, times, options_.pierce_seconds) / exchange::kSecondsOfMinute;
     out.report.levels = blocks.levels;
     out.text = head(out) + text.start() + text.path().text() + text.end();
     watch_.tell("reading it back", kReadBackAt);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "obvid/exchange/internal/gcode/motion_time.h"
 #include "obvid/exchange/internal/gcode/path.h"
 
 namespace obvid::cutting {
@@ -319,8 +320,8 @@ class Blocks {
 
 double feed_for(double kappa, const BlockRules& rules) {
   if (!(rules.across > 0.0) || kappa == 0.0) return rules.feed;
-  constexpr double kSeconds = 60.0;  // feeds are a minute
-  return std::min(rules.feed, kSeconds * std::sqrt(rules.across / std::abs(kappa)));
+  return std::min(rules.feed,
+                  exchange::kSecondsOfMinute * std::sqrt(rules.across / std::abs(kappa)));
 }
 
 double levels_of(const BlockRules& rules) {

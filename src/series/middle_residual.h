@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "obvid/geom/vec2.h"
+#include "obvid/numeric/internal/median.h"
 
 namespace obvid {
 
@@ -57,9 +59,7 @@ inline std::optional<MiddleResidual> middle_residual(const std::array<Vec2, 5>& 
 /// Standard deviation of normal errors from their sizes, by the median; `sizes` is not empty.
 inline double deviation_of(std::vector<double> sizes) {
   constexpr double kNormalPerMedian = 1.4826022185056018;  // 1 / inverse normal of 3/4
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return kNormalPerMedian * *middle;
+  return kNormalPerMedian * median_of(std::move(sizes));
 }
 
 /// Deviations that none of so many normal errors exceeds, 95 times of 100:

@@ -42,8 +42,9 @@ class Cleared {
 
 template <class Outside>
 bool Cleared::holds(Vec2 centre, double radius, double most, const Outside& outside) const {
-  constexpr int kRings = 12;  // of the squares that cover the disc, from the middle out
-  const double step = radius / kRings, around = 0.71 * step;  // half a diagonal
+  constexpr double kHalfDiagonal = 0.71;  // of a square of side 1, rounded up
+  constexpr int kRings = 12;              // of the squares that cover the disc, from the middle out
+  const double step = radius / kRings, around = kHalfDiagonal * step;
   for (int i = -kRings; i <= kRings; ++i) {
     for (int j = -kRings; j <= kRings; ++j) {
       const Vec2 by{i * step, j * step};

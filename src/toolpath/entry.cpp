@@ -45,14 +45,19 @@ std::optional<double> fall_of(const ToolpathOptions& options) {
   return std::tan(options.ramp_deg.value_or(kRampDeg) * std::numbers::pi / 180.0);
 }
 
+std::optional<double> legs_of_ramp(double length, double height, double fall) {
+  const double legs = 2.0 * std::max(1.0, std::ceil(height / fall / (2.0 * length)));
+  return legs <= kMostLegs ? std::optional(legs) : std::nullopt;
+}
+
 std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double height,
                                            double fall) {
   double length = 0.0;
   for (std::size_t i = 1; i < pass.size(); ++i) length += level_distance(pass[i - 1], pass[i]);
   const double total = height / fall;
-  const double legs = 2.0 * std::max(1.0, std::ceil(total / (2.0 * length)));
-  if (!(legs <= kMostLegs)) return std::nullopt;
-  const double leg = std::min(length, total / legs);
+  const auto legs = legs_of_ramp(length, height, fall);
+  if (!legs) return std::nullopt;
+  const double leg = std::min(length, total / *legs);
   std::vector<Vec3> there{pass.front()};
   double at = 0.0;
   for (std::size_t i = 1; i < pass.size() && at < leg; ++i) {
@@ -62,7 +67,7 @@ std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double
     at += step;
   }
   Way way(height, total);
-  for (double k = 0.0; k < legs; k += 2.0) {
+  for (double k = 0.0; k < *legs; k += 2.0) {
     for (const Vec3 p : there) way.go(p);
     for (std::size_t i = there.size() - 1; i-- > 1;) way.go(there[i]);
   }
@@ -70,8 +75,8 @@ std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double
   return way.down_to(pass.front());
 }
 
-std::optional<std::vector<Vec3>> helix_over(const std::vector<Vec3>& ring, double height,
-                                            double fall, double least_turns) {
+std::optional<Helix> helix_over(const std::vector<Vec3>& ring, double height, double fall,
+                                double least_turns) {
   double length = 0.0;
   for (std::size_t i = 1; i < ring.size(); ++i) length += level_distance(ring[i - 1], ring[i]);
   const double turns = std::max(least_turns, std::ceil(height / (fall * length)));
@@ -81,7 +86,7 @@ std::optional<std::vector<Vec3>> helix_over(const std::vector<Vec3>& ring, doubl
     for (std::size_t i = 0; i + 1 < ring.size(); ++i) way.go(ring[i]);
   }
   way.go(ring.front());
-  return way.down_to(ring.front());
+  return Helix{way.down_to(ring.front()), turns};
 }
 
 std::vector<Vec2> circle_from(Vec2 start, Vec2 along, double side, double radius, double within) {

@@ -16,17 +16,24 @@ inline constexpr std::array kHelixRadii = {0.9, 0.45};
 /// straight down. Roughing always has ramps.
 [[nodiscard]] std::optional<double> fall_of(const ToolpathOptions& options);
 
+/// Even number of ways back and forth over the beginning of a pass of this length; nothing: more
+/// than 40.
+[[nodiscard]] std::optional<double> legs_of_ramp(double length, double height, double fall);
+
 /// Back and forth over the beginning of a pass, an even number of ways, from `height` over its
 /// first point down to it; what is over the pass falls evenly, so no body on the way lies deeper
-/// than those of the pass. Nothing: the pass is so short that it takes more than 40 ways.
+/// than those of the pass. Nothing: the pass is too short (`legs_of_ramp`).
 [[nodiscard]] std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass,
                                                          double height, double fall);
 
-/// Likewise around a closed ring (its last point is its first one), in whole turns, at least so
-/// many. Nothing: it takes more than 1,000.
-[[nodiscard]] std::optional<std::vector<Vec3>> helix_over(const std::vector<Vec3>& ring,
-                                                          double height, double fall,
-                                                          double least_turns);
+/// Likewise around a closed ring (its last point is its first one).
+struct Helix {
+  std::vector<Vec3> points;
+  double turns = 0.0;  ///< whole ones
+};
+/// In at least so many turns. Nothing: it takes more than 100.
+[[nodiscard]] std::optional<Helix> helix_over(const std::vector<Vec3>& ring, double height,
+                                              double fall, double least_turns);
 
 /// Corners of a circle through `start` that leaves it in the direction `along` (length 1) and comes
 /// back to it, `side` 1: the centre lies to the left, -1: to the right. Chords lie within `within`

@@ -96,7 +96,7 @@ class Layer {
         best = std::move(ring);
       }
       if (best) {
-        if (auto way = helix_over(*best, height, *fall_, 1.0)) return way;
+        if (auto way = helix_over(*best, height, *fall_, 1.0)) return std::move(way->points);
       }
     }
     return std::nullopt;

@@ -205,7 +205,8 @@ class Roughing {
 
   [[nodiscard]] bool can_begin(const Stretch& s, std::size_t line, double over, double z) const {
     const Vec3 from = place(s.from, line, z), to = place(s.to, line, z);
-    return beside_stock(from) || beside_stock(to) || ramp_over({from, to}, over - z, fall_) ||
+    return beside_stock(from) || beside_stock(to) ||
+           legs_of_ramp(norm(to - from), over - z, fall_) ||
            (options_.entry == ToolpathEntry::kHelix && helix_beside(from, to, over, z));
   }
 
@@ -262,13 +263,13 @@ class Roughing {
           for (const Vec2 p : circle_from(touch, along, side, radius, options_.tolerance)) {
             ring.push_back({p.x, p.y, z});
           }
-          const auto way = helix_over(ring, over - z, fall_, kLeastTurns);
-          if (!way) continue;
-          const double turns =
-              static_cast<double>(way->size() - 1) / static_cast<double>(ring.size() - 1);
+          auto helix = helix_over(ring, over - z, fall_, kLeastTurns);
+          if (!helix) continue;
           const Vec2 centre = touch + side * radius * left_normal(along);
-          const double most = (over - z) * (1.0 - 1.0 / turns);
-          if (is_low(centre, radius + part_.cutter().radius, most) && is_clear(ring)) return way;
+          const double most = (over - z) * (1.0 - 1.0 / helix->turns);
+          if (is_low(centre, radius + part_.cutter().radius, most) && is_clear(ring)) {
+            return std::move(helix->points);
+          }
         }
       }
     }

@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kDigitsOfPrint = 1.0 / 3.0;  // of what printing may, the last digit's worth
 constexpr double kDigitRounding = 1e-9;       // 0.003 asks for 3 decimals, not for 3.0000000001
-constexpr double kSecondsOfMinute = 60.0;
 
 std::string cutter_text(const Toolpath& path, double scale) {
   const double d = path.cutter.diameter * scale;
@@ -93,7 +92,7 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
   toolpath::ProgramText program(decimals, within, options.arcs, machine);
   write_moves(path, scale, program);
   ToolpathGcode out;
-  out.minutes = program.seconds() / kSecondsOfMinute;
+  out.minutes = program.seconds() / exchange::kSecondsOfMinute;
   out.blocks = program.blocks();
   out.arc_blocks = program.arcs();
   const std::string on = path.spindle ? fmt::format("M3 S{:.0f}\n", *path.spindle) : "";

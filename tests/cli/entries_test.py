@@ -21,7 +21,7 @@ import tempfile
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from roughing_test import Stock, along, depth_in, rise  # noqa: E402
+from roughing_test import Stock, along, depth_in, refused, rise  # noqa: E402
 
 WIDE, DEEP, TOLERANCE, LEVEL = 40.0, 30.0, 0.02, 2.0
 SCALE = 40.0
@@ -204,12 +204,6 @@ def check_finish(binary, folder, cutter, diameter, corner, strategy, entry, over
     assert steepest <= ramp, f"{name}: {steepest} degrees"
     print(f"{name}: {found}, falls by {steepest:.2f} degrees over the resting tip, {gouge:.4f} into the part")
     return found, judged
-
-
-def refused(binary, folder, *options):
-    out = subprocess.run([binary, "toolpath", "part.json", "-o", "no.nc", *options], cwd=folder, capture_output=True,
-                         text=True)
-    assert out.returncode == 2 and "E203" in out.stderr, (options, out.stderr)
 
 
 def main():

@@ -9,7 +9,6 @@
 namespace obvid::exchange {
 namespace {
 
-constexpr double kMinute = 60.0;              // s
 constexpr double kUsualAcceleration = 500.0;  // mm/s^2
 
 /// From speed `a` to speed `b`, at most `most` between them.
@@ -36,7 +35,7 @@ double MotionTime::corner_speed(Vec3 arriving, Vec3 leaving, double most) const 
 
 void MotionTime::goes_on(double length, double feed, Vec3 begin, Vec3 end) {
   if (!(length > 0.0)) return;
-  const double most = feed / kMinute;
+  const double most = feed / kSecondsOfMinute;
   const double corner =
       row_.empty() ? 0.0 : corner_speed(heading_, begin, std::min(most, row_.back().most));
   row_.push_back({length, most, corner});
@@ -46,7 +45,7 @@ void MotionTime::goes_on(double length, double feed, Vec3 begin, Vec3 end) {
 void MotionTime::alone(double length, double feed) {
   stop();
   if (length > 0.0)
-    seconds_ += seconds_along(length, 0.0, 0.0, feed / kMinute, rules_.acceleration);
+    seconds_ += seconds_along(length, 0.0, 0.0, feed / kSecondsOfMinute, rules_.acceleration);
 }
 
 void MotionTime::waits(double seconds) {

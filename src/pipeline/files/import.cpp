@@ -35,6 +35,7 @@
 #include "obvid/io/internal/mesh_kind.h"
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_points.h"
+#include "obvid/numeric/internal/median.h"
 #include "obvid/pipeline/internal/mesh_sections.h"
 #include "obvid/series/internal/order.h"
 #include "obvid/series/internal/outliers.h"
@@ -301,16 +302,17 @@ std::string outliers_text(const PointSeries& series, const Outliers& found) {
 /// Points that go once around, the first one not again, as far as they tell: the ends are not much
 /// farther apart than neighbours, and the curve does not turn back there.
 std::optional<std::size_t> points_of_loop(const std::vector<Vec2>& points) {
-  constexpr std::size_t kFewest = 20;
-  constexpr double kFarther = 3.0, kLeastCosine = 0.5;
+  constexpr std::size_t kFewest = 20;                   // that outliers are told among
+  constexpr double kFarther = 3.0, kLeastCosine = 0.5;  // middle chords: an end may be the outlier;
+                                                        // of the turn over the seam: 60 degrees
   const std::size_t n =
       points.size() > 1 && points.front() == points.back() ? points.size() - 1 : points.size();
   if (n < kFewest) return std::nullopt;
   std::vector<double> chords;
   for (std::size_t i = 1; i < n; ++i) chords.push_back(norm(points[i] - points[i - 1]));
-  const auto middle = chords.begin() + static_cast<std::ptrdiff_t>(chords.size() / 2);
-  std::nth_element(chords.begin(), middle, chords.end());
-  if (norm(points[0] - points[n - 1]) > kFarther * *middle) return std::nullopt;
+  if (norm(points[0] - points[n - 1]) > kFarther * median_of(std::move(chords))) {
+    return std::nullopt;
+  }
   // an end may be what is wrong: the chords beside it tell
   const Vec2 before = points[n - 2] - points[n - 4], behind = points[3] - points[1];
   if (dot(before, behind) < kLeastCosine * norm(before) * norm(behind)) return std::nullopt;
@@ -321,7 +323,7 @@ std::optional<std::size_t> points_of_loop(const std::vector<Vec2>& points) {
 Result<Outliers> outliers_around(const std::vector<Vec2>& points, const std::vector<bool>& given) {
   const auto around = points_of_loop(points);
   if (!around) return outliers_of(points, given);
-  constexpr std::size_t kBeyond = 8;  // points beyond the seam
+  constexpr std::size_t kBeyond = 8;  // points beyond the seam: two neighbours, of three in a row
   const std::size_t n = *around;
   std::vector<Vec2> unrolled;
   std::vector<bool> kept;

@@ -11,6 +11,7 @@
 
 #include "fit/fixed_once.h"
 #include "obvid/core/internal/figures.h"
+#include "obvid/numeric/internal/median.h"
 #include "obvid/series/internal/coarse_polygon.h"
 #include "obvid/series/internal/scatter.h"
 
@@ -283,7 +284,7 @@ class Preparation {
     const Vec2 last = out_.points.back() - out_.points[out_.points.size() - 2];
     const std::vector<double> lengths = chords();
     const double apart = norm(gap);
-    if (apart > kMayClose * middle_of(lengths) ||
+    if (apart > kMayClose * median_of(lengths) ||
         std::accumulate(lengths.begin(), lengths.end(), 0.0) < kLeastLength * apart ||
         std::abs(turning(last, gap)) > kGoesOn || std::abs(turning(gap, first)) > kGoesOn) {
       return;
@@ -342,17 +343,11 @@ class Preparation {
     return out;
   }
 
-  static double middle_of(std::vector<double> lengths) {
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    return *middle;
-  }
-
   /// The printed rounding where it is one: few digits beside the chords belong to nominal sizes.
   [[nodiscard]] double printed_blur() const {
     constexpr double kLargestPart = 0.05;  // of the middle one of all chords
     const double rounding = std::max(series_.rounding.x, series_.rounding.y);
-    return rounding <= kLargestPart * middle_of(chords()) ? rounding : 0.0;
+    return rounding <= kLargestPart * median_of(chords()) ? rounding : 0.0;
   }
 
   void cut() {

@@ -8,6 +8,7 @@
 
 #include "fit/prepare.h"
 #include "obvid/io/internal/json_text.h"
+#include "obvid/numeric/internal/median.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/space_fit.h"
@@ -48,10 +49,9 @@ double blur_of(const SpaceSeries& series, const FitJob& job) {
   for (std::size_t i = 1; i < series.points.size(); ++i) {
     chords.push_back(norm(series.points[i] - series.points[i - 1]));
   }
-  const auto middle = chords.begin() + static_cast<std::ptrdiff_t>(chords.size() / 2);
-  std::nth_element(chords.begin(), middle, chords.end());
+  const double middle = median_of(std::move(chords));
   const double print = std::max({series.rounding.x, series.rounding.y, series.rounding.z});
-  const double printed = print <= kLargestPrintedPart * *middle ? print : 0.0;
+  const double printed = print <= kLargestPrintedPart * middle ? print : 0.0;
   return std::max({job.noise.value_or(0.0), job.noise_from_rounding ? print : 0.0, printed,
                    chain_rounding(series.points)});
 }

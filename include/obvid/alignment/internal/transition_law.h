@@ -17,6 +17,8 @@ class TransitionLaw {
   /// atan(1/sqrt 5) = 24.1 deg from its inflection: beyond, none leads to it. `share` and `turn`
   /// are those of the nearest one then.
   [[nodiscard]] bool exists() const { return exists_; }
+  /// As given; where the curvature stays as it is, that of a clothoid.
+  [[nodiscard]] Transition kind() const { return kind_; }
   /// Whether the curvature is linear: a clothoid, or none that changes.
   [[nodiscard]] bool is_linear() const { return kind_ == Transition::kClothoid; }
   /// The share of its length at which a cubic parabola passes its inflection, if it does.

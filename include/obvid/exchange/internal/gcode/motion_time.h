@@ -8,6 +8,8 @@
 
 namespace obvid::exchange {
 
+inline constexpr double kSecondsOfMinute = 60.0;  ///< feeds are lengths a minute
+
 /// What a machine is thought to do. Lengths in its units, mm or inches.
 struct MotionRules {
   double rapid_feed = 0.0;    ///< a minute
