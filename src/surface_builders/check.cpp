@@ -259,11 +259,13 @@ CurvatureExtents curvature_extents(const NurbsSurface& surface, std::size_t samp
   return measured(surface, nullptr, samples, {})->curvature;  // nobody stops it
 }
 
-CurvatureExtents curvature_extents(const SurfacePatch& patch) {
-  if (patch.trims.empty()) return curvature_extents(patch.surface);
+Result<CurvatureExtents> curvature_extents(const SurfacePatch& patch, const RunContext& run) {
   constexpr std::size_t kSamples = 65;
   const TrimRegion region(patch);
-  return measured(patch.surface, &region, kSamples, {})->curvature;
+  const auto found =
+      measured(patch.surface, patch.trims.empty() ? nullptr : &region, kSamples, run);
+  OBVID_TRY(found);
+  return found->curvature;
 }
 
 Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions& options,

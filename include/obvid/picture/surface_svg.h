@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/surface/surface.h"
 
 namespace obvid {
@@ -39,6 +40,8 @@ struct CurvatureExtremes {
 };
 
 [[nodiscard]] std::string_view name_of(SurfaceColouring colouring);
+/// Whether it is one of the four of curvature: these tell extremes beside their colours.
+[[nodiscard]] bool is_curvature(SurfaceColouring colouring);
 [[nodiscard]] std::string_view name_of(SurfaceView view);
 [[nodiscard]] std::optional<SurfaceColouring> colouring_named(std::string_view name);
 [[nodiscard]] std::optional<SurfaceView> surface_view_named(std::string_view name);
@@ -88,9 +91,10 @@ struct SurfacePictureOptions {
 /// curvature or deviation in colours with a legend, zebra, isophotes or reflection lines; outlines,
 /// borders and isolines without their hidden parts, axes and a scale bar. The patches are divided
 /// where they bend, not by a mesh. Same input, same bytes. Of many points of a deviation 4,000 are
-/// drawn: the farthest and others evenly. Errors: E203 options out of range, E303 a line or a
+/// drawn: the farthest and others evenly. Errors: E103, E203 options out of range, E303 a line or a
 /// surface that is not finite, E311 no patches, those of `check` for each patch.
 [[nodiscard]] Result<std::string> surface_svg(const SurfaceModel& model,
-                                              const SurfacePictureOptions& options = {});
+                                              const SurfacePictureOptions& options = {},
+                                              const RunContext& run = {});
 
 }  // namespace obvid

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <type_traits>
 
-#include "obvid/core/internal/parallel.h"
 #include "obvid/geom/internal/box.h"
 
 namespace obvid::picture {
@@ -104,21 +102,13 @@ std::vector<PrincipalCurvatures> put_patch(Bytes& out, const NurbsSurface& surfa
   return curvatures;
 }
 
-/// Deviation at each vertex, on all processors; empty where it is of points alone.
+/// Deviation at each vertex; empty where it is of points alone.
 Result<std::vector<double>> offs_of(const Mesh& mesh,
                                     const std::optional<ShownDeviation>& deviation,
                                     const RunContext& run) {
-  std::vector<double> out;
-  if (!deviation || !deviation->of_place) return out;
-  constexpr std::size_t kBlock = 64;  // searches between two questions whether to go on: some ms
-  out.resize(mesh.vertices.size());
-  OBVID_TRY(in_parallel((out.size() + kBlock - 1) / kBlock, 0, run, [&](std::size_t block) {
-    const std::size_t end = std::min(out.size(), (block + 1) * kBlock);
-    for (std::size_t i = block * kBlock; i < end; ++i) {
-      out[i] = deviation->of_place(mesh.vertices[i].point);
-    }
-  }));
-  return out;
+  if (!deviation || !deviation->of_place) return std::vector<double>{};
+  return offs_at(
+      *deviation, mesh.vertices.size(), [&](std::size_t i) { return mesh.vertices[i].point; }, run);
 }
 
 /// Third of the area of the triangles around each vertex.

@@ -48,6 +48,18 @@ std::size_t character(std::string_view text) {
 
 }  // namespace
 
+bool is_curvature(SurfaceColouring colouring) {
+  switch (colouring) {
+    case SurfaceColouring::kGaussian:
+    case SurfaceColouring::kMean:
+    case SurfaceColouring::kK1:
+    case SurfaceColouring::kK2:
+      return true;
+    default:
+      return false;
+  }
+}
+
 const Range& CurvatureExtremes::of(SurfaceColouring colouring) const {
   switch (colouring) {
     case SurfaceColouring::kMean:

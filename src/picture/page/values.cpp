@@ -8,6 +8,8 @@
 #include <numeric>
 #include <span>
 
+#include "obvid/core/internal/parallel.h"
+
 namespace obvid::picture {
 namespace {
 
@@ -94,8 +96,6 @@ double quantity(SurfaceColouring colouring, PrincipalCurvatures k) {
   }
 }
 
-bool is_curvature(SurfaceColouring colouring) { return !title_of(colouring).empty(); }
-
 bool has_scale(SurfaceColouring colouring) {
   return is_curvature(colouring) || colouring == SurfaceColouring::kDeviation;
 }
@@ -172,6 +172,18 @@ Result<void> check_deviation(SurfaceColouring colouring,
     }
   }
   return {};
+}
+
+Result<std::vector<double>> offs_at(const ShownDeviation& deviation, std::size_t count,
+                                    const std::function<Vec3(std::size_t)>& place,
+                                    const RunContext& run) {
+  constexpr std::size_t kBlock = 64;  // searches between two questions whether to go on: some ms
+  std::vector<double> out(count);
+  OBVID_TRY(in_parallel((count + kBlock - 1) / kBlock, 0, run, [&](std::size_t block) {
+    const std::size_t end = std::min(count, (block + 1) * kBlock);
+    for (std::size_t i = block * kBlock; i < end; ++i) out[i] = deviation.of_place(place(i));
+  }));
+  return out;
 }
 
 ValueScale scale_of_dots(const std::vector<SceneDot>& dots, double size) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,7 +28,6 @@ struct PrincipalCurvatures {
 
 /// Of the four curvature colourings; 0 for the others.
 [[nodiscard]] double quantity(SurfaceColouring colouring, PrincipalCurvatures k);
-[[nodiscard]] bool is_curvature(SurfaceColouring colouring);
 /// Curvature or deviation: colours of a scale with a legend.
 [[nodiscard]] bool has_scale(SurfaceColouring colouring);
 /// "Gaussian curvature", ...
@@ -59,6 +59,11 @@ struct ValueScale {
 /// Errors: E203 wanted, but nothing was measured; E303 a point that is not finite.
 [[nodiscard]] Result<void> check_deviation(SurfaceColouring colouring,
                                            const std::optional<ShownDeviation>& deviation);
+/// Deviation at so many places, on all processors. Error: E103.
+[[nodiscard]] Result<std::vector<double>> offs_at(const ShownDeviation& deviation,
+                                                  std::size_t count,
+                                                  const std::function<Vec3(std::size_t)>& place,
+                                                  const RunContext& run);
 /// Of measured points; `size` of what is shown.
 [[nodiscard]] ValueScale scale_of_dots(const std::vector<SceneDot>& dots, double size);
 /// So many of them that a picture stays light: the farthest off, and others evenly.

@@ -24,6 +24,7 @@ constexpr double kSeam = 0.9;
 /// Parts of cells that are mended, px; and how many there may be along a side.
 constexpr double kPart = 1.0;
 constexpr int kMostFacetParts = 64;
+constexpr std::size_t kCellsUnasked = 256;  // before whoever waits is asked whether to go on
 
 /// A corner of a piece on the sheet with its value in bands.
 struct Corner {
@@ -267,13 +268,16 @@ std::vector<Quad> projected(const std::vector<DrawnPatch>& patches, const Pictur
 }
 
 std::string facet_paths(const std::vector<DrawnPatch>& patches, const std::vector<Quad>& quads,
-                        DepthBuffer& depth, const PictureCamera& camera, const Colours& colours) {
+                        DepthBuffer& depth, const PictureCamera& camera, const Colours& colours,
+                        Watch* watch) {
   const std::vector<Seen> seen = depth.judge(quads);
   std::vector<DrawnCell> partly;
   Painter painter(camera, colours);
   std::size_t n = 0;
   each_cell(patches, [&](const DrawnPatch& patch, const std::array<std::size_t, 4>& corners) {
+    if (n % kCellsUnasked == 0) (void)is_to_end(watch);
     const DrawnCell cell{patch, corners, quads[n], n};
+    if (has_ended(watch)) return;
     if (seen[n] == Seen::kWhole) painter.add(cell, true);
     if (seen[n] == Seen::kPartly) partly.push_back(cell);
     ++n;
@@ -285,11 +289,16 @@ std::string facet_paths(const std::vector<DrawnPatch>& patches, const std::vecto
   });
   std::vector<std::size_t> numbers;
   for (const std::size_t k : order) {
+    if (numbers.size() % kCellsUnasked == 0 && is_to_end(watch)) return {};
     painter.add(partly[k], false);
     numbers.push_back(partly[k].number);
   }
   depth.draw(quads, numbers);
-  for (const std::size_t k : order) painter.mend(partly[k], depth);
+  std::size_t mended = 0;
+  for (const std::size_t k : order) {
+    if (mended++ % kCellsUnasked == 0 && is_to_end(watch)) return {};
+    painter.mend(partly[k], depth);
+  }
   return "<g transform=\"" + std::string(kPathTransform) + "\" stroke-width=\"" +
          std::to_string(static_cast<int>(10.0 * kSeam)) + "\" stroke-linejoin=\"round\">\n" +
          painter.take() + "</g>\n";

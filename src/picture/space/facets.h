@@ -28,10 +28,10 @@ struct Colours {
 
 /// The cells that can be seen as SVG paths: those with something before them from back to front,
 /// then all others by colour, and what no order gets right, where patches cross; cut along the
-/// borders between shades or bands.
+/// borders between shades or bands. Where the watch says stop, not all of them.
 [[nodiscard]] std::string facet_paths(const std::vector<DrawnPatch>& patches,
                                       const std::vector<DepthBuffer::Quad>& quads,
                                       DepthBuffer& depth, const PictureCamera& camera,
-                                      const Colours& colours);
+                                      const Colours& colours, Watch* watch);
 
 }  // namespace obvid::picture

@@ -46,8 +46,8 @@ struct Effort {
 
 double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
-Effort effort_along(const NurbsSurface& surface, bool along_u, double patch_size,
-                    double model_size) {
+Effort effort_along(const NurbsSurface& surface, bool along_u, double patch_size, double model_size,
+                    Watch* watch) {
   const Range range = along_u ? domain_u(surface) : domain_v(surface);
   const Range across = along_u ? domain_v(surface) : domain_u(surface);
   const std::size_t count = along_u ? surface.count_u() : surface.count_v();
@@ -57,7 +57,7 @@ Effort effort_along(const NurbsSurface& surface, bool along_u, double patch_size
   for (std::size_t i = 0; i <= places; ++i) {
     effort.parameters.push_back(range.at(static_cast<double>(i) / static_cast<double>(places)));
   }
-  for (std::size_t row = 0; row < kRows; ++row) {
+  for (std::size_t row = 0; row < kRows && !is_to_end(watch); ++row) {
     const double w = across.at(static_cast<double>(row) / (kRows - 1));
     Vec3 last_point, last_normal;
     for (std::size_t i = 0; i <= places; ++i) {
@@ -105,7 +105,7 @@ void add_vertex(const NurbsSurface& surface, double size, double u, double v,
 /// The bands of a trimmed patch, n x m cells over the whole domain; rows are nearer to each other
 /// towards the ends of a band, where trims may turn.
 void add_bands(const SurfacePatch& patch, std::size_t number, std::size_t n, std::size_t m,
-               SurfaceColouring colouring, std::vector<DrawnPatch>& out) {
+               SurfaceColouring colouring, Watch* watch, std::vector<DrawnPatch>& out) {
   constexpr double kLeastCells = 8.0;
   const NurbsSurface& surface = patch.surface;
   const double size = size_of(surface);
@@ -124,6 +124,7 @@ void add_bands(const SurfacePatch& patch, std::size_t number, std::size_t n, std
       drawn.vs.push_back(0.5 - 0.5 * std::cos(std::numbers::pi * k / rows));
     }
     for (const double part : drawn.vs) {
+      if (is_to_end(watch)) return;
       const double v = band.v.at(part);
       const Range across = region.across(band, v);
       for (const double s : drawn.us) {
@@ -135,9 +136,10 @@ void add_bands(const SurfacePatch& patch, std::size_t number, std::size_t n, std
 }
 
 DrawnPatch evaluated(const NurbsSurface& surface, double size, std::vector<double> us,
-                     std::vector<double> vs, SurfaceColouring colouring) {
+                     std::vector<double> vs, SurfaceColouring colouring, Watch* watch) {
   DrawnPatch patch;
   for (const double v : vs) {
+    if (is_to_end(watch)) break;
     for (const double u : us) add_vertex(surface, size, u, v, colouring, patch);
   }
   patch.us = std::move(us);
@@ -148,14 +150,15 @@ DrawnPatch evaluated(const NurbsSurface& surface, double size, std::vector<doubl
 }  // namespace
 
 std::vector<DrawnPatch> drawn_patches(const SurfaceModel& model, SurfaceColouring colouring,
-                                      std::size_t most_facets) {
+                                      std::size_t most_facets, Watch* watch) {
   const double size = std::max(size_of(model), std::numeric_limits<double>::min());
   std::vector<Plan> plans;
   double shares = 0.0;
   for (const SurfacePatch& patch : model.patches) {
     const double own = size_of(patch.surface);
-    plans.push_back({effort_along(patch.surface, true, own, size),
-                     effort_along(patch.surface, false, own, size)});
+    plans.push_back({effort_along(patch.surface, true, own, size, watch),
+                     effort_along(patch.surface, false, own, size, watch)});
+    if (has_ended(watch)) return {};
     shares += plans.back().share();
   }
   std::vector<DrawnPatch> patches;
@@ -167,12 +170,12 @@ std::vector<DrawnPatch> drawn_patches(const SurfaceModel& model, SurfaceColourin
     const std::size_t n = cells(std::sqrt(facets * ratio));
     const std::size_t m = cells(facets / static_cast<double>(n));
     if (!model.patches[i].trims.empty()) {
-      add_bands(model.patches[i], i, n, m, colouring, patches);
+      add_bands(model.patches[i], i, n, m, colouring, watch, patches);
       continue;
     }
     const NurbsSurface& surface = model.patches[i].surface;
-    patches.push_back(
-        evaluated(surface, size_of(surface), plan.u.divided(n), plan.v.divided(m), colouring));
+    patches.push_back(evaluated(surface, size_of(surface), plan.u.divided(n), plan.v.divided(m),
+                                colouring, watch));
     patches.back().patch = i;
   }
   return patches;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/picture/surface_svg.h"
 #include "page/values.h"
 
@@ -21,10 +22,10 @@ struct DrawnPatch {
 };
 
 /// About `most_facets` cells in all, at least one of each patch, in the order of the patches; of
-/// trimmed patches more.
+/// trimmed patches more. Where the watch says stop, not all of them.
 [[nodiscard]] std::vector<DrawnPatch> drawn_patches(const SurfaceModel& model,
                                                     SurfaceColouring colouring,
-                                                    std::size_t most_facets);
+                                                    std::size_t most_facets, Watch* watch);
 
 /// Range of the values of all patches, weighed by area.
 [[nodiscard]] ValueScale scale_of(const std::vector<DrawnPatch>& patches,

@@ -165,8 +165,10 @@ std::string dots(const Scene& scene, const Colours& colours, const SurfacePictur
 }
 
 Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions& options,
-                          std::size_t facets) {
-  auto patches = drawn_patches(model, options.colouring, facets);
+                          std::size_t facets, const RunContext& run) {
+  Watch watch(run);
+  auto patches = drawn_patches(model, options.colouring, facets, &watch);
+  if (watch.was_cancelled()) return fail(cancelled_error());
   for (const DrawnPatch& patch : patches) {
     if (!std::all_of(patch.points.begin(), patch.points.end(),
                      [](Vec3 p) { return is_finite(p); })) {
@@ -176,7 +178,11 @@ Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions
   }
   if (options.colouring == SurfaceColouring::kDeviation && options.deviation->of_place) {
     for (DrawnPatch& patch : patches) {
-      for (const Vec3 p : patch.points) patch.values.push_back(options.deviation->of_place(p));
+      auto offs = offs_at(
+          *options.deviation, patch.points.size(), [&](std::size_t i) { return patch.points[i]; },
+          run);
+      OBVID_TRY(offs);
+      patch.values = std::move(*offs);
     }
   }
   const double size = box_of_patches(patches).diagonal();
@@ -191,21 +197,25 @@ Result<std::string> drawn(const SurfaceModel& model, const SurfacePictureOptions
   const auto quads = projected(patches, camera);
   for (const auto& quad : quads) depth.add(quad);
   const Scene scene{model, patches, camera, depth};
+  if (watch.cancelled()) return fail(cancelled_error());
+  const std::string facet_text = facet_paths(patches, quads, depth, camera, colours, &watch);
+  if (watch.cancelled()) return fail(cancelled_error());
   const SheetTexts texts = texts_of(model, patches, options);
   return sheet(texts, options,
-               facet_paths(patches, quads, depth, camera, colours) + surface_lines(scene, options) +
-                   extra_lines(scene, options.lines) + dots(scene, colours, options) +
+               facet_text + surface_lines(scene, options) + extra_lines(scene, options.lines) +
+                   dots(scene, colours, options) +
                    sheet_furniture(texts, camera, colours, options));
 }
 
 }  // namespace
 
-Result<std::string> surface_svg(const SurfaceModel& model, const SurfacePictureOptions& options) {
+Result<std::string> surface_svg(const SurfaceModel& model, const SurfacePictureOptions& options,
+                                const RunContext& run) {
   OBVID_TRY(check_picture_options(options));
   OBVID_TRY(check_scene(model, options));
   std::size_t facets = options.most_facets;
   for (;;) {
-    auto svg = drawn(model, options, facets);
+    auto svg = drawn(model, options, facets, run);
     const std::size_t fewer = facets * 2 / 3;
     if (!svg || svg->size() <= kMostFileText || fewer < kFewestFacets + model.patches.size()) {
       return svg;

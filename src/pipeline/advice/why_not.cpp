@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "advice/uniform_tolerance.h"
+#include "obvid/numeric/internal/median.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/series/analysis.h"
 #include "verify/report.h"
@@ -84,6 +85,12 @@ class Search {
                                   [](const auto& fixed) { return fixed.tolerance.has_value(); });
   }
 
+  /// Whether the refusal says how far the points would have to move.
+  [[nodiscard]] bool told() const {
+    return out_.refusal.value > 0.0 && std::isfinite(out_.refusal.value) &&
+           out_.refusal.code == ErrorCode::kNoSpiral;
+  }
+
   /// A tolerance to begin with: what the refusal says, what the file's digits say, or the usual.
   [[nodiscard]] double guess() const {
     const double size = bounding_diagonal(series_.points);
@@ -91,11 +98,17 @@ class Search {
     const double printed = std::max(series_.rounding.x, series_.rounding.y);
     double first = kUsualGuess * size;
     if (printed > 0.0) first = printed;
-    if (out_.refusal.value > 0.0 && std::isfinite(out_.refusal.value) &&
-        out_.refusal.code == ErrorCode::kNoSpiral) {
-      first = out_.refusal.value;
-    }
+    if (told()) first = out_.refusal.value;
     return std::clamp(printable(first), lowest_, highest_);
+  }
+
+  /// Points that move so far at most seldom pass each other: the usual distance of neighbours.
+  [[nodiscard]] double within_order() const {
+    std::vector<double> chords;
+    for (std::size_t i = 1; i < series_.points.size(); ++i) {
+      chords.push_back(norm(series_.points[i] - series_.points[i - 1]));
+    }
+    return std::clamp(printable(median_of(std::move(chords))), lowest_, highest_);
   }
 
   [[nodiscard]] bool long_series() const { return series_.points.size() > kLongSeries; }
@@ -139,22 +152,42 @@ class Search {
     return true;
   }
 
-  /// Steps down from a guess that does, up from one that does not. False when nothing does.
-  bool bracket() {
+  /// Steps down from one that does, until one does not or there is none smaller.
+  void go_down() {
     const double step = long_series() ? kLongStep : kBracketStep;
-    double t = guess();
-    if (possible(t)) {
-      while (t > lowest_ && may_go_on()) {
-        t = std::max(printable(t / step), lowest_);
-        if (!possible(t)) return true;
-      }
-      return true;
+    double t = out_.tolerance;
+    while (t > lowest_ && may_go_on()) {
+      t = std::max(printable(t / step), lowest_);
+      if (!possible(t)) return;
     }
-    while (t < highest_ && may_go_on()) {
-      t = std::min(printable(t * step), highest_);
+  }
+
+  /// Steps up from one that does not to `last` at most. False when none does.
+  bool go_up(double t, double last) {
+    const double step = long_series() ? kLongStep : kBracketStep;
+    while (t < last && may_go_on()) {
+      t = std::min(printable(t * step), last);
       if (possible(t)) return true;
     }
     return false;
+  }
+
+  /// Leaves a tolerance that does, and where there is one a smaller one that does not. False when
+  /// nothing does. A trial that finds a contour is short, one that finds none is long: where
+  /// nothing says how far the points are off, the search begins with as much as leaves them in
+  /// their order.
+  bool bracket() {
+    const bool guided = told() || long_series();
+    const double first = guided ? guess() : within_order();
+    if (possible(first)) {
+      go_down();
+      return true;
+    }
+    if (go_up(first, highest_)) return true;
+    if (guided || !may_go_on()) return false;
+    const double last = printable(first / kBracketStep);
+    out_.refused = 0.0;
+    return guess() < last && (possible(guess()) || go_up(guess(), last));
   }
 
   void bisect() {

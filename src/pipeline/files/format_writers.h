@@ -33,7 +33,8 @@ struct SurfaceExport {
   std::vector<Mesh> meshes{};
   std::vector<std::string> warnings{};
 
-  [[nodiscard]] const std::optional<CurvatureExtremes>& extremes();
+  /// Fills the extremes that pictures of curvature and pages tell.
+  [[nodiscard]] Result<void> find_extremes_once();
   /// Fills `meshes`; tells how many triangles there are where it does.
   [[nodiscard]] Result<void> tessellate_once(std::vector<std::string>& remarks);
 };

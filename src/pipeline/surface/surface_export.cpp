@@ -43,7 +43,7 @@ Looks looks_of(SurfaceExport& e) {
   out.view = e.options.view;
   out.lines = e.options.lines;
   out.deviation = e.options.deviation;
-  out.extremes = e.extremes();
+  out.extremes = e.options.extremes;
   return out;
 }
 
@@ -81,9 +81,12 @@ Result<std::string> of_triangles(SurfaceExport& e, std::vector<std::string>& rem
 
 }  // namespace
 
-const std::optional<CurvatureExtremes>& SurfaceExport::extremes() {
-  if (!options.extremes && !model.patches.empty()) options.extremes = extremes_of(model);
-  return options.extremes;
+Result<void> SurfaceExport::find_extremes_once() {
+  if (options.extremes || model.patches.empty()) return {};
+  auto found = extremes_of(model, run);
+  OBVID_TRY(found);
+  options.extremes = *found;
+  return {};
 }
 
 Result<void> SurfaceExport::tessellate_once(std::vector<std::string>& remarks) {
@@ -158,6 +161,7 @@ Result<std::string> surface_as_ply(SurfaceExport& e, std::vector<std::string>& r
 Result<std::string> surface_as_page(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_as_it_is(e, remarks, [&] {
     return of_triangles(e, remarks, [&]() -> Result<std::string> {
+      OBVID_TRY(e.find_extremes_once());
       return surface_page(e.model, e.meshes, looks_of<PageOptions>(e), e.run);
     });
   });
@@ -165,7 +169,8 @@ Result<std::string> surface_as_page(SurfaceExport& e, std::vector<std::string>& 
 
 Result<std::string> surface_as_svg(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_as_it_is(e, remarks, [&]() -> Result<std::string> {
-    return surface_svg(e.model, looks_of<SurfacePictureOptions>(e));
+    if (is_curvature(e.options.colouring)) OBVID_TRY(e.find_extremes_once());
+    return surface_svg(e.model, looks_of<SurfacePictureOptions>(e), e.run);
   });
 }
 

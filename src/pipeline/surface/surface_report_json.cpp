@@ -240,15 +240,16 @@ CurvatureExtremes extremes_of(const SurfaceCheck& check) {
           over_all(&PatchReport::k1), over_all(&PatchReport::k2)};
 }
 
-CurvatureExtremes extremes_of(const SurfaceModel& model) {
+Result<CurvatureExtremes> extremes_of(const SurfaceModel& model, const RunContext& run) {
   SurfaceCheck check;
   for (const SurfacePatch& patch : model.patches) {
-    const CurvatureExtents found = curvature_extents(patch);
+    const auto found = curvature_extents(patch, run);
+    OBVID_TRY(found);
     PatchReport& report = check.patches.emplace_back();
-    report.gaussian = found.gaussian;
-    report.mean = found.mean;
-    report.k1 = found.k1;
-    report.k2 = found.k2;
+    report.gaussian = found->gaussian;
+    report.mean = found->mean;
+    report.k1 = found->k1;
+    report.k2 = found->k2;
   }
   return extremes_of(check);
 }

@@ -298,23 +298,16 @@ int notes(void* user) {
   return 0;
 }
 
-#if defined(__SANITIZE_THREAD__)
-constexpr double kMostBetweenQuestions =
-    4.0;  // s of processor time; it is some twenty times slower
-#else
-constexpr double kMostBetweenQuestions = 0.2;  // of these small jobs; 50 ms are aimed at
-#endif
-
-/// A job that is asked to go on does, and asks again before long.
+/// A job that is asked to go on does, and asks again. How long it goes without a question is
+/// printed (50 ms are aimed at; benches/cancellation.py measures longer jobs), not judged.
 void ask_often(const Job& job, const Handles& h, const std::string& wanted) {
   Gaps gaps{own_seconds()};
   const obvid_run run{&gaps, nullptr, notes};
   if (job.work(h, &run) != wanted) fault(job.name, "says something else when it is asked");
   notes(&gaps);
   if (gaps.questions < 2) fault(job.name, "never asks whether to go on");
-  if (gaps.longest > kMostBetweenQuestions) {
-    fault(job.name, ("asks too seldom: " + std::to_string(gaps.longest) + " s").c_str());
-  }
+  std::printf("%-32s %6d questions, at most %4.0f ms of processor time between two\n",
+              job.name.c_str(), gaps.questions, 1e3 * gaps.longest);
 }
 
 /// Cancelled at its questions 0, 1 and 3: there is nothing. Each job asks at least once; quick ones

@@ -32,7 +32,8 @@ namespace obvid {
 /// their colours.
 [[nodiscard]] CurvatureExtremes extremes_of(const SurfaceCheck& check);
 
-/// The same without the rest of a check, at its default number of samples.
-[[nodiscard]] CurvatureExtremes extremes_of(const SurfaceModel& model);
+/// The same without the rest of a check, at its default number of samples. Error: E103.
+[[nodiscard]] Result<CurvatureExtremes> extremes_of(const SurfaceModel& model,
+                                                    const RunContext& run);
 
 }  // namespace obvid

@@ -44,8 +44,9 @@ struct CurvatureExtents {
 /// patch are not looked for. All 0 without a tangent plane.
 [[nodiscard]] CurvatureExtents curvature_extents(const NurbsSurface& surface,
                                                  std::size_t samples = 65);
-/// Of what is there of a patch.
-[[nodiscard]] CurvatureExtents curvature_extents(const SurfacePatch& patch);
+/// Of what is there of a patch. Error: E103.
+[[nodiscard]] Result<CurvatureExtents> curvature_extents(const SurfacePatch& patch,
+                                                         const RunContext& run);
 
 /// Curvature along the lines of one family of parameters.
 struct LineReport {
