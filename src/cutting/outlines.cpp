@@ -28,6 +28,8 @@ constexpr int kPlacesCompared = 8;
 /// A tool that is so many times larger than the drawing is a mistake.
 constexpr double kLargestTool = 1e3;
 constexpr std::size_t kPlacesBetweenQuestions = 256;
+/// Of an open curve's length: ends nearer to each other look as if they were meant to meet.
+constexpr double kSmallGap = 0.01;
 
 Box2 box_around(const ArcPath& path) {
   Box2 out;
@@ -108,9 +110,36 @@ class TrackMaker {
     track.deviation = along->deviation * scale_;
     for (const Piece& piece : along->pieces) track.edge.pieces.push_back(scaled(piece, scale_));
     track.edge.closed = contour.closed;
+    if (!contour.closed) close_gap(track);
     track.room = box_around(track.edge);
     out_.all.push_back(std::move(track));
     return {};
+  }
+
+  /// Ends that are as near as the tolerance meet, by a line; of a small gap it is told that it
+  /// stays.
+  void close_gap(Track& track) {
+    std::vector<Piece>& pieces = track.edge.pieces;
+    const Vec2 from = end_point(pieces.back()), to = start_point(pieces.front());
+    const double gap = norm(to - from);
+    double length = 0.0;
+    for (const Piece& piece : pieces) length += length_of(piece);
+    if (pieces.size() < 2 || gap > kSmallGap * length) return;
+    const std::string apart =
+        fmt::format("{}: its ends are {} {} apart", track.name, significant(gap / scale_, 3),
+                    outlines_[track.outline].contour.units.text());
+    if (gap > options_.tolerance * scale_) {
+      if (radius_ == 0.0 || options_.side == CutSide::kOn) return;
+      out_.warnings.push_back(apart +
+                              ": it is an open curve, the tool follows it on the line and nothing "
+                              "lies inside; close it in the drawing, or allow more (--tolerance)");
+      return;
+    }
+    if (gap > 0.0) {
+      pieces.push_back(LinePiece{from, to});
+      out_.warnings.push_back(apart + ", less than the tolerance: a line closes it");
+    }
+    track.edge.closed = true;
   }
 
   static Error named(Error error, const std::string& name) {
