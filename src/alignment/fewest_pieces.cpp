@@ -84,7 +84,10 @@ class Search {
       end = *farthest + 1;
     }
     if (end <= last || reached_[last].empty()) {
-      return error(ErrorCode::kNoSpiral, "no clothoids within the tolerance were found")
+      return error(ErrorCode::kNoSpiral, sought_.plane == Plane::kMap
+                                             ? "no elements within the tolerance were found"
+                                             : "no grades and vertical curves within the tolerance "
+                                               "were found")
           .hint(options_.least_length > 0.0 || options_.least_radius > 0.0
                     ? "allow a larger tolerance, or shorter elements and smaller radii"
                     : "allow a larger tolerance")
