@@ -73,8 +73,8 @@ Result<void> check_no_planes(const std::vector<PlaneRow>& planes, const std::str
 /// What has curves, or series of points that are told apart.
 bool is_drawn(FileKind kind) { return kind != FileKind::kPoints && kind != FileKind::kOther; }
 
-Result<Drawing> from_text(const std::string& text, const std::string& path,
-                          const std::vector<PlaneRow>& planes) {
+Result<Drawing> parsed_by_kind(const std::string& text, const std::string& path,
+                               const std::vector<PlaneRow>& planes) {
   const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
   if (!is_drawn(kind) && is_mesh(text, text.size(), path)) {
     return pipeline_detail::sections_of_mesh(text, path, planes);
@@ -102,6 +102,15 @@ Result<Drawing> from_text(const std::string& text, const std::string& path,
               "give a list of points, a contour, STEP, IGES, BREP, DXF, SVG, GPX, GeoJSON, "
               "LandXML, OpenDRIVE, or a mesh (STL, PLY, OBJ) with --cut");
   }
+}
+
+/// Its name is the file's, wherever that lies: pictures have it as title.
+Result<Drawing> from_text(const std::string& text, const std::string& path,
+                          const std::vector<PlaneRow>& planes) {
+  auto drawing = parsed_by_kind(text, path, planes);
+  OBVID_TRY(drawing);
+  if (drawing->name == path) drawing->name = std::string(name_in_folder(path));
+  return drawing;
 }
 
 bool is_cad(FileKind kind) {
