@@ -126,7 +126,7 @@ Result<std::optional<double>> given_number(const std::optional<std::string>& tex
   if (!text) return std::optional<double>();
   const auto number = typed_number(*text);
   if (!number || !std::isfinite(*number) || (positive && !(*number > 0.0))) {
-    return fail(bad_option(what, option, hint));
+    return fail(bad_option(what, option, with_point(*text) + hint));
   }
   return number;
 }

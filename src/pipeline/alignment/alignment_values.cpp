@@ -18,8 +18,8 @@ Result<void> take_tolerance(const std::string& typed, const char* option, const 
   }
   const auto number = typed_number(typed);
   if (!number || !std::isfinite(*number) || !(*number > 0.0)) {
-    return fail(
-        bad_option("the tolerance must be a positive length, rounding or auto", option, hint));
+    return fail(bad_option("the tolerance must be a positive length, rounding or auto, not " + typed,
+                           option, with_point(typed) + hint));
   }
   length = number;
   return {};

@@ -27,6 +27,14 @@ std::string in_quotes(string_view text) {
 
 }  // namespace
 
+std::string with_point(std::string typed) {
+  const auto comma = typed.find(',');
+  if (comma == std::string::npos) return "";
+  typed[comma] = '.';
+  if (!typed_number(typed)) return "";
+  return "write it with a decimal point: " + typed + "; ";
+}
+
 std::optional<double> typed_number(string_view text) {
   if (text.starts_with("+")) text.remove_prefix(1);
   double value = 0.0;
@@ -145,15 +153,6 @@ Result<void> set_end_radius(const std::string& typed, const char* option,
     kappa = one.value;
     kappas = one.range;
   });
-}
-
-/// Advice for a number with a decimal comma; nothing for other words.
-std::string with_point(std::string typed) {
-  const auto comma = typed.find(',');
-  if (comma == std::string::npos) return "";
-  typed[comma] = '.';
-  if (!typed_number(typed)) return "";
-  return "write it with a decimal point: " + typed + "; ";
 }
 
 Result<void> set_noise(const std::string& typed, FitJob& job) {

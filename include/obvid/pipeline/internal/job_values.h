@@ -51,6 +51,8 @@ template <class Value>
 
 /// The whole text as a number; nothing for anything else.
 [[nodiscard]] std::optional<double> typed_number(std::string_view text);
+/// Advice for a number with a decimal comma; nothing for other words.
+[[nodiscard]] std::string with_point(std::string typed);
 
 /// "20..30", "20.." or "..30"; nothing for anything else, and where no value is between.
 [[nodiscard]] std::optional<ValueRange> typed_range(std::string_view text);
