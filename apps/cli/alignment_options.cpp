@@ -66,9 +66,11 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
              "File to write: .xml LandXML, .xodr OpenDRIVE, .dxf, .json contour, .step, .svg "
              "and every other ending of obvid convert; .csv is the table of elements, .svg shows "
              "curvature, speed and heights over the station");
-  app.add_option("--noise", raw.typed.noise,
-                 "How far the alignment may pass the points, input units, or rounding: half a unit "
-                 "of the last printed digit, or auto: estimated from their scatter [rounding]")
+  app.add_option(
+         "--noise", raw.typed.noise,
+         "How far the alignment may pass the points, input units, or rounding: as far as half "
+         "a unit of the last printed digit in x and in y together, or auto: estimated from "
+         "their scatter [rounding]")
       ->type_name("EPS");
   app.add_flag("--closed", command.job.closed,
                "Around a loop: behind the last point comes the first one, and the alignment has no "

@@ -168,7 +168,8 @@ TEST(Transition, ACubicOneIsTheParabolaBetweenItsCurvatures) {
   // inflection, towards it; of nearly no turning
   for (const Parabola& curve :
        {Parabola{2e-5, 0.0, 80.0}, Parabola{2e-5, 30.0, 75.0}, Parabola{2e-5, -40.0, 70.0},
-        Parabola{2e-5, -70.0, -10.0}, Parabola{-2e-5, 5.0, 70.0}, Parabola{1e-9, 0.0, 100.0}}) {
+        Parabola{2e-5, -70.0, -10.0}, Parabola{-2e-5, 5.0, 70.0}, Parabola{1e-9, 0.0, 100.0},
+        Parabola{2e-5, -85.0, 86.0}}) {  // up to 23.9 degrees on both sides
     const double length = curve.arc(curve.x1);
     const Element start{curve.point(curve.x0), curve.heading(curve.x0), curve.kappa(curve.x0)};
     const TransitionLaw law(Transition::kCubic, start.kappa, curve.kappa(curve.x1), length);

@@ -135,6 +135,48 @@ class Airfoils(unittest.TestCase):
         code, text = self.run_it("fit", "c.dat", "--noise", "rounding", "-o", "d.dat")
         self.assertAlmostEqual(self.figures(text)[1][1], 0.4, delta=1.5e-3)
 
+    def test_a_closed_trailing_edge_has_one_end_though_a_side_lacks_its_last_point(self):
+        for missing, deg, size in ((0, 0, 1.0), (1, 0, 1.0), (5, 25, 150.0), (9, 0, 1.0)):
+            rows = points(0)[:len(points(0)) - missing]
+            turn = math.radians(deg)
+            place = lambda x, y: (size * (x * math.cos(turn) - y * math.sin(turn)) + 7 * (size > 1),  # noqa: E731
+                                  size * (x * math.sin(turn) + y * math.cos(turn)))
+            (self.folder / "a.dat").write_text(
+                "foil\n" + "".join("{:.10f} {:.10f}\n".format(*place(x, y)) for x, y in rows))
+            self.run_it("fit", "a.dat", "--noise", str(1e-7 * size), "--open", "-o", "a.json", "-q")
+            code, text = self.run_it("convert", "a.json", "-o", "b.dat", "--trailing-edge", "0", "--unit-chord")
+            self.assertEqual(code, 0, text)
+            made = numbers(self.folder / "b.dat")
+            self.assertEqual(made[0], made[-1])
+            self.assertAlmostEqual(math.dist(made[0], (1.0, 0.0)), 0.0, delta=1.5e-8)
+            moved = float(re.search(r"each end moved ([\d.]+) chords", text).group(1))
+            # the tangent of the closed form at the last point of the lower side, up to the end of the upper one
+            x = rows[-1][0]
+            straight = half(x) + (1.0 - x) * (slope(x) if missing else 0.0)
+            self.assertAlmostEqual(moved, 0.5 * abs(straight), delta=3e-5)
+            if missing > 1:
+                self.assertRegex(text, r"the lower side ends [\d.]+ % of the chord before the other one")
+                self.assertIn("it goes on straight by", text)
+                ends, on = (float(re.search(what, text).group(1)) for what in (
+                    r"lower side ends ([\d.]+) %", r"straight by ([\d.]+) %"))
+                self.assertAlmostEqual(ends, 100 * (1 - x) / (0.5 + 0.5 * x), delta=0.02)
+                self.assertAlmostEqual(on, 100 * (1 - x) * math.hypot(1.0, slope(x)), delta=0.02)
+            code, plain = self.run_it("convert", "a.json", "-o", "c.dat", "--trailing-edge", "0")
+            self.assertEqual(code, 0, plain)
+            made = numbers(self.folder / "c.dat")
+            self.assertEqual(made[0], made[-1])
+            self.assertLess(math.dist(made[0], place(1.0, 0.0)), (0.5 * abs(straight) + 1e-5) * size)
+
+    def test_a_side_that_lacks_more_than_its_last_point_is_left_and_told_why(self):
+        rows = points(0)[:-25]
+        (self.folder / "a.dat").write_text("foil\n" + "".join(f"{x:.10f} {y:.10f}\n" for x, y in rows))
+        self.run_it("fit", "a.dat", "--noise", "1e-7", "--open", "-o", "a.json", "-q")
+        code, text = self.run_it("convert", "a.json", "-o", "b.dat", "--trailing-edge", "0")
+        self.assertEqual(code, 0, text)
+        self.assertIn("that is more than a tenth of the chord; add that point", text)
+        made = numbers(self.folder / "b.dat")
+        self.assertGreater(made[0][0] - made[-1][0], 0.09)
+
     def test_a_round_trailing_edge_touches_both_sides(self):
         self.write("a.dat")
         self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json", "-q")

@@ -33,8 +33,9 @@ struct StationHeights {
 /// What an alignment of points is to be.
 struct AlignmentJob {
   std::optional<double> noise{};  ///< how far the alignment may pass a point, units; nothing: half
-                                  ///< a unit of the last printed digit. Points with a tolerance of
-                                  ///< their own keep that
+                                  ///< the diagonal of the cell of the last printed digits, as far
+                                  ///< as rounding x and y may have moved it. Points with a
+                                  ///< tolerance of their own keep that
   bool noise_from_scatter = false;  ///< estimated from the points, in place of `noise`
   double least_length = 0.0;   ///< of each element, units; 0: a quarter of the points' distance
   double least_radius = 0.0;   ///< of each place, units; 0: any

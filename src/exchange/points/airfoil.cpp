@@ -168,7 +168,7 @@ std::vector<double> places(const WrittenSides& sides, bool upper, std::size_t m,
 Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options,
                               const AirfoilFigures& figures) {
   const double c = foil.chord();
-  const Vec2 a = foil.local(foil.at(0.0).point), b = foil.local(foil.at(foil.length()).point);
+  const Vec2 a = foil.local(foil.end(true)), b = foil.local(foil.end(false));
   const double thick = options.trailing_thickness.value_or(figures.trailing_thickness);
   const bool round = options.trailing_form == TrailingEdgeForm::kRound;
   if (round && !(thick > 0.0)) {
@@ -182,7 +182,8 @@ Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options
   Result<WrittenSides> sides =
       round ? WrittenSides::rounded(foil, 0.5 * thick * c) : WrittenSides(foil, more);
   OBVID_TRY(sides);
-  if (!(sides->more() < 0.0)) return sides;
+  const bool as_contour = foil.goes_on(true) == 0.0 && foil.goes_on(false) == 0.0;
+  if (!(sides->more() < 0.0) && as_contour) return sides;
   constexpr int kPlaces = 1000;
   for (int k = 1; k < kPlaces; ++k) {
     const double x = c * k / kPlaces;
@@ -197,6 +198,31 @@ Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options
   return sides;
 }
 
+/// The airfoil with ends that can become one point, where a closed edge is asked for and they can.
+Airfoil to_be_closed(Airfoil foil, const AirfoilOptions& options, AirfoilText& out) {
+  if (options.trailing_thickness != 0.0 || options.trailing_form != TrailingEdgeForm::kBlunt) {
+    return foil;
+  }
+  const double c = foil.chord();
+  const Vec2 apart = foil.local(foil.end(true)) - foil.local(foil.end(false));
+  ClosedEdge closed;
+  closed.gap = std::abs(apart.x) / c;
+  closed.upper = apart.x < 0.0;
+  Airfoil level = foil;
+  if (auto done = level.level_ends(); !done) {
+    closed.left_open = done.error().what;
+  } else if (const AirfoilFigures figures = level.figures();
+             !(level.runs_along(true) && level.runs_along(false) &&
+               sides_of(level, options, figures))) {
+    closed.left_open = "it would meet the other side before";
+  } else {
+    closed.gone_on = level.goes_on(closed.upper) / level.chord();
+    closed.moved = 0.5 * figures.trailing_thickness;
+  }
+  out.closed = closed;
+  return closed.left_open.empty() ? level : foil;
+}
+
 }  // namespace
 
 Result<AirfoilText> airfoil_text(const Contour& contour, const AirfoilOptions& options) {
@@ -205,10 +231,10 @@ Result<AirfoilText> airfoil_text(const Contour& contour, const AirfoilOptions& o
         .hint("for example 161")
         .value(static_cast<double>(options.count));
   }
-  const auto made = airfoil_of(contour);
+  auto made = airfoil_of(contour);
   OBVID_TRY(made);
-  const Airfoil& foil = *made;
   AirfoilText out;
+  const Airfoil foil = to_be_closed(std::move(*made), options, out);
   out.figures = foil.figures();
   const double c = foil.chord();
   const auto written = sides_of(foil, options, out.figures);
@@ -219,14 +245,19 @@ Result<AirfoilText> airfoil_text(const Contour& contour, const AirfoilOptions& o
   }
   const std::size_t below = (options.count - 1) / 2, above = options.count - 1 - below;
   std::vector<Vec2> sides[2];
+  const auto as_written = [&](Vec2 q) {
+    return options.unit_chord ? Vec2{q.x / c, q.y / c} : foil.back(q);
+  };
   for (const bool upper : {true, false}) {
     for (const double s : places(*written, upper, upper ? above : below, options.spacing)) {
-      const Vec2 q = written->point(upper, s);
-      sides[upper ? 0 : 1].push_back(options.unit_chord ? Vec2{q.x / c, q.y / c} : foil.back(q));
+      sides[upper ? 0 : 1].push_back(as_written(written->point(upper, s)));
       if (out.rounded && s >= written->arc_place(upper)) ++out.rounded->points;
     }
   }
-  if (out.rounded) --out.rounded->points;  // both sides end at the same one
+  if (out.rounded) --out.rounded->points;             // both sides end at the same one
+  if (out.closed && out.closed->left_open.empty()) {  // but for rounding they end at one point
+    sides[0].back() = sides[1].back() = 0.5 * (sides[0].back() + sides[1].back());
+  }
   out.upper = sides[0].size();
   out.lower = sides[1].size();
   const double size = options.unit_chord ? 1.0 : c;

@@ -23,6 +23,8 @@ constexpr double kNoseWindow = 4.0;  // of it in arc length: a nose that is bent
 constexpr double kBeside = 1e-6;     // of a look
 constexpr double kSameBend = 1e-3;   // of the largest curvature: what counts as turning back
 constexpr double kWidestEdge = 0.5;  // chords: beyond it is no airfoil
+/// Chords: a side that ends farther before the other one lacks more than its last point.
+constexpr double kMostGoneOn = 0.1;
 
 }  // namespace
 
@@ -60,6 +62,42 @@ ContourPath::Place Airfoil::at(double s) const {
 Vec2 Airfoil::local(Vec2 p) const {
   const Vec2 d = p - leading_;
   return {dot(along_, d), cross(along_, d)};
+}
+
+ContourPath::Place Airfoil::on_side(bool upper, double s) const {
+  const double own = of_contour(upper);
+  if (s <= own) return at(upper ? nose_ - s : nose_ + s);
+  ContourPath::Place place = at(upper ? 0.0 : length());
+  place.point = place.point + (s - own) * outward(upper);
+  place.kappa = 0.0;
+  return place;
+}
+
+Vec2 Airfoil::end(bool upper) const {
+  return at(upper ? 0.0 : length()).point + goes_on(upper) * outward(upper);
+}
+
+Result<void> Airfoil::level_ends() {
+  constexpr int kSteps = 60;            // each leaves a small part: the chord turns little
+  constexpr double kLevelEnds = 1e-15;  // chords
+  constexpr double kLeastAlong = 0.5;   // of the straight, along the chord
+  const double before = local(end(true)).x - local(end(false)).x;
+  const bool upper = before < 0.0;
+  double& on = goes_on_[upper ? 0 : 1];
+  const char* why = nullptr;
+  for (int step = 0; step < kSteps && why == nullptr; ++step) {
+    const double gap = local(end(!upper)).x - local(end(upper)).x;
+    if (std::abs(gap) <= kLevelEnds * chord_) break;
+    const double along = dot(along_, outward(upper));
+    on = std::max(0.0, on + gap / along);
+    if (!(along > kLeastAlong)) why = "its end does not point along the chord";
+    if (on > kMostGoneOn * chord_) why = "that is more than a tenth of the chord";
+    if (why == nullptr && !measure_chord()) why = "there would be no chord";
+  }
+  if (why == nullptr) return {};
+  on = 0.0;
+  OBVID_TRY(measure_chord());
+  return error(ErrorCode::kNothingThere, why);
 }
 
 bool Airfoil::runs_along(bool upper) const {
@@ -118,7 +156,7 @@ bool Airfoil::open_at_corner() {
 }
 
 Result<void> Airfoil::measure_chord() {
-  const Vec2 a = at(0.0).point, b = at(length()).point;
+  const Vec2 a = end(true), b = end(false);
   const Vec2 edge = 0.5 * (a + b);
   const std::size_t n = looks();
   const double step = length() / static_cast<double>(n);
@@ -186,8 +224,9 @@ AirfoilFigures Airfoil::figures() const {
   out.camber_at = top / c;
   out.nose_radius = 1.0 / std::abs(at(nose_).kappa) / c;
   const auto first = at(0.0), last = at(length());
-  out.trailing_thickness = std::abs(local(first.point).y - local(last.point).y) / c;
-  out.trailing_gap = std::abs(local(first.point).x - local(last.point).x) / c;
+  const Vec2 apart = local(end(true)) - local(end(false));
+  out.trailing_thickness = std::abs(apart.y) / c;
+  out.trailing_gap = std::abs(apart.x) / c;
   const Vec2 upper = -1.0 * first.tangent, lower = last.tangent;  // both towards the edge
   out.trailing_angle = std::atan2(cross(upper, lower), dot(upper, lower));
   look_at_nose(out);

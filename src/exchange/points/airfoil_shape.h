@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
 
@@ -52,11 +53,16 @@ class Airfoil {
   [[nodiscard]] Vec2 leading() const { return leading_; }
   [[nodiscard]] Vec2 along() const { return along_; }
 
+  /// The side that ends before the other one, along the chord, goes on straight to where that one
+  /// does; the chord is measured anew. Error, and nothing is changed: E311 why it does not.
+  Result<void> level_ends();
+  /// How far that side goes on, units.
+  [[nodiscard]] double goes_on(bool upper) const { return goes_on_[upper ? 0 : 1]; }
+  [[nodiscard]] Vec2 end(bool upper) const;
+
   /// Arc length on a side from the leading edge, to its end.
-  [[nodiscard]] double side_length(bool upper) const { return upper ? nose_ : length() - nose_; }
-  [[nodiscard]] ContourPath::Place on_side(bool upper, double s) const {
-    return at(upper ? nose_ - s : nose_ + s);
-  }
+  [[nodiscard]] double side_length(bool upper) const { return of_contour(upper) + goes_on(upper); }
+  [[nodiscard]] ContourPath::Place on_side(bool upper, double s) const;
   [[nodiscard]] double x_on(bool upper, double s) const { return local(on_side(upper, s).point).x; }
   /// Whether x rises all along a side.
   [[nodiscard]] bool runs_along(bool upper) const;
@@ -72,6 +78,11 @@ class Airfoil {
 
  private:
   explicit Airfoil(ContourPath path) : path_(std::move(path)) {}
+  [[nodiscard]] double of_contour(bool upper) const { return upper ? nose_ : length() - nose_; }
+  /// From the end of a side on.
+  [[nodiscard]] Vec2 outward(bool upper) const {
+    return upper ? -1.0 * at(0.0).tangent : at(length()).tangent;
+  }
   bool open_at_corner();
   Result<void> measure_chord();
   void look_at_nose(AirfoilFigures& figures) const;
@@ -79,6 +90,7 @@ class Airfoil {
   ContourPath path_;
   double from_ = 0.0, to_ = 0.0;
   bool wraps_ = false, reversed_ = false;
+  std::array<double, 2> goes_on_{};  ///< upper side, lower side
   double nose_ = 0.0, chord_ = 0.0;
   Vec2 leading_{}, along_{};
 };

@@ -27,8 +27,9 @@ Result<std::vector<double>> tolerances_of(const PointSeries& series, const Align
     return fail({ErrorCode::kBadOption, "the tolerance must be a positive length", "noise",
                  "give it in the units of the points"});
   }
-  const double rounding = std::max(series.rounding.x, series.rounding.y);
-  double all = job.noise.value_or(rounding);
+  // what was printed lies anywhere in the cell of its digits: its corners are the farthest, and a
+  // line that passes the points askew needs them
+  double all = job.noise.value_or(norm(series.rounding));
   if (job.noise_from_scatter) {
     const auto seen =
         pipeline_detail::estimated_noise(series.points, series.units, "--noise auto", remarks);

@@ -213,10 +213,11 @@ std::string unit_chord_remark(const AirfoilFigures& f) {
       0.0 - turn, f.chord, turn, f.leading_edge.x, f.leading_edge.y);
 }
 
+constexpr double kPrintedChords = 5e-6;  ///< what is less prints as 0.000 %
+
 template <class Figures>
 std::string camber_text(const Figures& f) {
-  constexpr double kPrinted = 0.0005;  // %: less prints as nothing, and has no place
-  if (std::abs(100.0 * f.camber) < kPrinted) return "camber 0.000 %";
+  if (std::abs(f.camber) < kPrintedChords) return "camber 0.000 %";
   return fmt::format("camber {:.3f} % at {:.2f} %", 100.0 * f.camber, 100.0 * f.camber_at);
 }
 
@@ -244,15 +245,32 @@ std::string nose_text(const AirfoilFigures& f) {
 }
 
 /// What a trailing edge has whose sides do not end beside each other; empty for others.
-std::string trailing_text(const AirfoilFigures& f, const std::optional<double>& wanted) {
+std::string trailing_text(const AirfoilText& made, const std::optional<double>& wanted) {
   constexpr double kBeside = 5e-4;  // chords
-  if (!(f.trailing_gap > kBeside)) return "";
+  const double gap = made.closed ? made.closed->gap : made.figures.trailing_gap;
+  if (!(gap > kBeside)) return "";
+  std::string out = fmt::format(
+      "{} side ends {:.3f} % of the chord before the other one, as where a file lacks its last "
+      "point: ",
+      !made.closed         ? "one"
+      : made.closed->upper ? "the upper"
+                           : "the lower",
+      100.0 * gap);
+  if (made.closed && made.closed->left_open.empty()) {
+    return out + fmt::format("it goes on straight by {:.3f} %", 100.0 * made.closed->gone_on);
+  }
+  out += wanted ? "the trailing edge of the file is as far open along the chord"
+                : "the thickness of the trailing edge is across the chord alone";
+  if (made.closed) out += ", for that side does not go on straight: " + made.closed->left_open;
+  return out + "; add that point";
+}
+
+/// How a closed trailing edge became one.
+std::string closed_text(const ClosedEdge& edge) {
   return fmt::format(
-      "one side ends {:.3f} % of the chord before the other one, as where a file lacks its last "
-      "point: {}; add that point",
-      100.0 * f.trailing_gap,
-      wanted ? "the trailing edge of the file is as far open along the chord"
-             : "the thickness of the trailing edge is across the chord alone");
+      "trailing edge of the file closed: both sides end at one point, each end moved {:.5f} chords "
+      "to it, and what lies before it by that times (x/chord)^2",
+      edge.moved);
 }
 
 /// The input's points from trailing edge to trailing edge: where a closed contour begins there, its
@@ -289,28 +307,63 @@ Result<Exported> airfoil_file(const ContourExport& e) {
   if (write.unit_chord) out.remarks.push_back(unit_chord_remark(f));
   if (made->rounded) {
     out.remarks.push_back(rounded_text(*made->rounded));
+  } else if (made->closed && made->closed->left_open.empty()) {
+    out.remarks.push_back(closed_text(*made->closed));
   } else if (write.trailing_thickness) {
     out.remarks.push_back(
         fmt::format("trailing edge of the file {:.4f} chords thick: sides moved apart by the "
                     "difference times (x/chord)^2",
                     *write.trailing_thickness));
   }
+  const bool longer = made->closed && made->closed->gone_on > kPrintedChords;
+  const char* measured = longer ? "contour with the side that goes on" : "contour";
+  out.remarks.push_back(fmt::format("{}, normal to its chord: thickness {:.3f} % at {:.2f} %, {}",
+                                    measured, 100.0 * f.thickness, 100.0 * f.thickness_at,
+                                    camber_text(f)));
   out.remarks.push_back(
-      fmt::format("contour, normal to its chord: thickness {:.3f} % at {:.2f} %, {}",
-                  100.0 * f.thickness, 100.0 * f.thickness_at, camber_text(f)));
-  out.remarks.push_back(
-      fmt::format("contour: leading edge radius {:.3f} %, trailing edge {:.3f} % thick, {:.2f} "
+      fmt::format("{}: leading edge radius {:.3f} %, trailing edge {:.3f} % thick, {:.2f} "
                   "degrees; % of the chord {:.6g} {}",
-                  100.0 * f.nose_radius, 100.0 * f.trailing_thickness,
+                  measured, 100.0 * f.nose_radius, 100.0 * f.trailing_thickness,
                   f.trailing_angle * 180.0 / std::numbers::pi, f.chord, e.contour.units.text()));
   if (const std::string told = nose_text(f); !told.empty()) out.warnings.push_back(told);
-  if (auto told = trailing_text(f, write.trailing_thickness); !told.empty()) {
+  if (auto told = trailing_text(*made, write.trailing_thickness); !told.empty()) {
     out.warnings.push_back(std::move(told));
   }
   if (const auto input = airfoil_point_figures(points_around(e.contour, f), f)) {
     out.remarks.push_back(points_text(*input));
   }
   return out;
+}
+
+/// What an alignment loses in a contour file, and in all that is made of that.
+void tell_of_alignment(const ContourExport& e, std::vector<std::string>& remarks) {
+  std::size_t pieces = 0;
+  for (const PlacedTransition& one : e.options.transitions) pieces += one.pieces;
+  const std::size_t transitions = e.options.transitions.size();
+  if (transitions > 0) {
+    remarks.push_back(
+        fmt::format("{} {} in this file, and stay so in what is made of it; .xml keeps the kind",
+                    counted(transitions, "transition is", "transitions are"),
+                    counted(pieces, "clothoid", "clothoids")));
+  }
+  if (e.options.first_station != 0.0) {
+    remarks.push_back(
+        fmt::format("stations begin at 0 in this file, not at {:.10g}; .xml keeps them",
+                    e.options.first_station));
+  }
+}
+
+/// What is written flat.
+std::string without_profile(const VerticalProfile& profile) {
+  double low = profile.end_height, high = profile.end_height;
+  for (const ProfileElement& one : profile.elements) {
+    low = std::min(low, one.height);
+    high = std::max(high, one.height);
+  }
+  return fmt::format(
+      "flat: the profile of {} ({:.6g} to {:.6g} high at its joints and ends) is in "
+      ".xml and .xodr alone",
+      counted(profile.elements.size(), "element", "elements"), low, high);
 }
 
 }  // namespace
@@ -326,7 +379,9 @@ Result<void> can_plot(const ContourExport& e) {
 }
 
 Result<Exported> contour_as_json(const ContourExport& e) {
-  return as_it_is(e, contour_to_json(e.stored, e.watch));
+  auto out = as_it_is(e, contour_to_json(e.stored, e.watch));
+  if (out) tell_of_alignment(e, out->remarks);
+  return out;
 }
 
 /// A picture for a report, or a drawing in true scale.
@@ -436,6 +491,10 @@ Result<Exported> export_contour(const StoredContour& stored, FileFormat format,
       {stored, stored.contour, options, size, options.tolerance.value_or(kExportTolerance * size),
        options.tolerance.value_or(kDefaultForArcs * size), &watch});
   if (watch.was_cancelled()) return fail(cancelled_error());
+  const bool has_heights = format == FileFormat::kLandXml || format == FileFormat::kOpenDrive;
+  if (made && options.profile && !has_heights) {
+    made->remarks.push_back(without_profile(*options.profile));
+  }
   return made;
 }
 

@@ -35,13 +35,12 @@ class TransitionLaw {
   [[nodiscard]] Place at(double u) const;
 
  private:
-  [[nodiscard]] double cubic_place(double u) const;
-
   Transition kind_;
   bool exists_ = true;
   /// Of a cubic parabola, in units in which its tangent at the abscissa x has the slope x^2: from
   /// its inflection, arc length up to its start, and from there to its end.
   double from_ = 0.0, to_ = 0.0, before_ = 0.0, along_ = 0.0;
+  double bent_ = 0.0, bends_ = 0.0;  ///< half the curvature at its start, and what it changes by
   double scale_ = 0.0, side_ = 1.0;  ///< units in one of these; its curvature grows or falls
 };
 

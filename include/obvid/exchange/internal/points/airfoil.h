@@ -47,22 +47,34 @@ struct RoundedEdge {
   std::size_t points = 0;                     ///< of the file between these, both ends counted once
 };
 
+/// A trailing edge of thickness 0: both sides end at one point. All in chords.
+struct ClosedEdge {
+  double gap = 0.0;       ///< by which one side ended before the other one, along the chord
+  bool upper = false;     ///< that side
+  double gone_on = 0.0;   ///< length of the straight that it goes on by, with its tangent
+  double moved = 0.0;     ///< each end, across the chord
+  std::string left_open;  ///< why that side does not go on; the ends are as far apart then
+};
+
 struct AirfoilText {
   std::string text;
-  AirfoilFigures figures;            ///< of the contour
+  AirfoilFigures figures;            ///< of the contour, with the straight of `closed`
   std::size_t upper = 0, lower = 0;  ///< points on each side, the leading edge on both
   double last_digit = 0.0;           ///< a unit of the last digit written, units of the file
   std::optional<RoundedEdge> rounded{};
+  std::optional<ClosedEdge> closed{};  ///< where a thickness of 0 was asked for
 };
 
 /// A list of points on the contour. With `trailing_thickness` on the contour whose sides are moved
 /// apart by an amount times (x / chord)^2, which leaves the nose as it is: that the ends are so far
 /// apart across the chord, or that an arc of this diameter touches both sides (G1) and reaches to
-/// the end of the chord, which stays as long as it was. A round edge without a thickness has that
-/// of the contour. The points of the arc follow the spacing of the sides. Closed contours need a
-/// trailing edge: one corner, or two with the base between them. Errors: E203 options out of range,
-/// sides that would cross, or no room for the arc; E311 no trailing edge, or a side that folds back
-/// along the chord.
+/// the end of the chord, which stays as long as it was. With a thickness of 0 both sides end at one
+/// point: a side that ends before the other one along the chord, by up to a tenth of it, goes on
+/// straight to there first, and the chord is that to this point. A round edge without a thickness
+/// has that of the contour. The points of the arc follow the spacing of the sides. Closed contours
+/// need a trailing edge: one corner, or two with the base between them. Errors: E203 options out of
+/// range, sides that would cross, or no room for the arc; E311 no trailing edge, or a side that
+/// folds back along the chord.
 [[nodiscard]] Result<AirfoilText> airfoil_text(const Contour& contour,
                                                const AirfoilOptions& options);
 
