@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "obvid/core/files.h"
-#include "obvid/io/internal/file_kind.h"
 #include "read_points_raw.h"
 #include "text_kind.h"
 #include "text_lines.h"
@@ -18,6 +17,11 @@ namespace {
 using std::string_view;
 
 constexpr std::size_t kMinDistinctPoints = 3;
+
+string_view base_name(string_view path) {
+  const std::size_t slash = path.find_last_of('/');
+  return slash == string_view::npos ? path : path.substr(slash + 1);
+}
 
 /// Another value of one heading or curvature.
 bool contradicts(const std::optional<double>& one, const std::optional<double>& other) {
@@ -180,7 +184,7 @@ Result<PointSeries> parse_points(string_view text, string_view name,
     return fail(too_few(*raw, name));
   }
   PointSeries series;
-  series.name = raw->title.empty() ? text::to_utf8(name_in_folder(name)) : std::move(raw->title);
+  series.name = raw->title.empty() ? text::to_utf8(base_name(name)) : std::move(raw->title);
   series.units = std::move(raw->units);
   series.points = std::move(raw->points);
   series.fixed = std::move(raw->fixed);

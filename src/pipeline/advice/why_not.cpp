@@ -112,6 +112,7 @@ class Search {
   }
 
   [[nodiscard]] bool long_series() const { return series_.points.size() > kLongSeries; }
+  [[nodiscard]] double step() const { return long_series() ? kLongStep : kBracketStep; }
 
   /// Whether another trial may begin.
   bool may_go_on() {
@@ -154,19 +155,17 @@ class Search {
 
   /// Steps down from one that does, until one does not or there is none smaller.
   void go_down() {
-    const double step = long_series() ? kLongStep : kBracketStep;
     double t = out_.tolerance;
     while (t > lowest_ && may_go_on()) {
-      t = std::max(printable(t / step), lowest_);
+      t = std::max(printable(t / step()), lowest_);
       if (!possible(t)) return;
     }
   }
 
   /// Steps up from one that does not to `last` at most. False when none does.
   bool go_up(double t, double last) {
-    const double step = long_series() ? kLongStep : kBracketStep;
     while (t < last && may_go_on()) {
-      t = std::min(printable(t * step), last);
+      t = std::min(printable(t * step()), last);
       if (possible(t)) return true;
     }
     return false;
@@ -187,7 +186,8 @@ class Search {
     if (guided || !may_go_on()) return false;
     const double last = printable(first / kBracketStep);
     out_.refused = 0.0;
-    return guess() < last && (possible(guess()) || go_up(guess(), last));
+    const double small = guess();
+    return small < last && (possible(small) || go_up(small, last));
   }
 
   void bisect() {

@@ -188,7 +188,8 @@ ValueRange grades_around(const std::vector<Vec2>& heights, double tolerance, dou
 /// that is sharper than the tolerance rounds.
 void tell_humps(const VerticalProfile& profile, const std::vector<Vec2>& heights, double tolerance,
                 const Units& units, std::vector<std::string>& remarks) {
-  double farthest = 0.0, grade = 0.0, station = 0.0;
+  double farthest = 0.0;
+  ProfileElement worst;
   ValueRange borne;
   std::size_t humps = 0;
   for (const ProfileElement& e : profile.elements) {
@@ -198,8 +199,7 @@ void tell_humps(const VerticalProfile& profile, const std::vector<Vec2>& heights
     ++humps;
     if (off <= farthest) continue;
     farthest = off;
-    grade = e.grade0;
-    station = e.station;
+    worst = e;
     borne = room;
   }
   if (humps == 0) return;
@@ -207,7 +207,7 @@ void tell_humps(const VerticalProfile& profile, const std::vector<Vec2>& heights
       "the profile has a grade of {} % at station {} {}, where the heights bear {} to {} % ({} in "
       "all): a corner of theirs is sharper than a vertical curve within the tolerance of {} {}; "
       "allow more (--profile-noise), or give heights nearer to each other there",
-      significant(100.0 * grade, 3), significant(station, 7), units.text(),
+      significant(100.0 * worst.grade0, 3), significant(worst.station, 7), units.text(),
       significant(100.0 * borne.low, 3), significant(100.0 * borne.high, 3),
       counted(humps, "such joint", "such joints"), significant(tolerance, 3), units.text()));
 }
@@ -283,9 +283,7 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   auto profile =
       fit_profile(ascending, std::vector<double>(ascending.size(), *tolerance), options, run);
   OBVID_TRY(profile);
-  if (ascending.size() > 1) {
-    tell_humps(*profile, around(ascending, options.lap), *tolerance, series.units, remarks);
-  }
+  tell_humps(*profile, around(ascending, options.lap), *tolerance, series.units, remarks);
   std::vector<double> offsets(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) offsets[order[k]] = profile->offsets[k];
   if (again) offsets.push_back(offsets.front());

@@ -109,7 +109,7 @@ Result<Drawing> from_text(const std::string& text, const std::string& path,
                           const std::vector<PlaneRow>& planes) {
   auto drawing = parsed_by_kind(text, path, planes);
   OBVID_TRY(drawing);
-  if (drawing->name == path) drawing->name = std::string(name_in_folder(path));
+  if (drawing->name == path) drawing->name = name_of(path);
   return drawing;
 }
 

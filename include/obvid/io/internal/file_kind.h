@@ -5,12 +5,6 @@
 
 namespace obvid {
 
-/// What stands behind the last slash.
-[[nodiscard]] inline std::string_view name_in_folder(std::string_view path) {
-  const std::size_t slash = path.find_last_of('/');
-  return slash == std::string_view::npos ? path : path.substr(slash + 1);
-}
-
 /// What a file holds, as its first bytes say.
 enum class FileKind {
   kPoints,  ///< none of the others: text with points, if anything
