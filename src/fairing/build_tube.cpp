@@ -52,8 +52,9 @@ constexpr double kSmoothEnough = 1e-2;  ///< Newton's decrement
 
 class Builder {
  public:
-  Builder(const MeasuredSeries& series, const std::vector<std::size_t>& loose, Watch& watch)
-      : series_(series), loose_(loose), watch_(watch) {
+  Builder(const MeasuredSeries& series, const std::vector<std::size_t>& loose, Watch& watch,
+          Seam seam)
+      : series_(series), loose_(loose), watch_(watch), seam_(seam) {
     tube_.closed = series.closed;
     tube_.origin = series.points.front();
   }
@@ -171,10 +172,15 @@ class Builder {
     const auto kappa = [&](std::size_t i) {
       return tube_.nodes[i % n].kappa + x_[kPerNode * (i % n) + 2] / tube_.nodes[i % n].length;
     };
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < n; ++i) {
-      if (std::abs(kappa(i + 1) - kappa(i)) > std::abs(kappa(best + 1) - kappa(best))) best = i;
-    }
+    const auto steepest = [&](std::size_t first, std::size_t last) {
+      std::size_t best = first;
+      for (std::size_t i = first + 1; i < last; ++i) {
+        if (std::abs(kappa(i + 1) - kappa(i)) > std::abs(kappa(best + 1) - kappa(best))) best = i;
+      }
+      return best;
+    };
+    std::size_t best = steepest(0, n);
+    if (seam_ == Seam::kElsewhere) best = steepest(best + n / 4, best + n - n / 4) % n;
     std::rotate(source_.begin(), source_.begin() + static_cast<std::ptrdiff_t>(best),
                 source_.end());
     smooth();
@@ -438,6 +444,7 @@ class Builder {
   State x_;
   const std::vector<std::size_t>& loose_;
   Watch& watch_;
+  Seam seam_;
   std::vector<std::size_t> source_;
   std::vector<Knot> knots_;
   double share_ = kModelShare;  ///< of their reach that points between nodes may use
@@ -449,8 +456,8 @@ class Builder {
 }  // namespace
 
 SmoothTube build_tube(const MeasuredSeries& series, const std::vector<std::size_t>& loose,
-                      Watch& watch) {
-  return Builder(series, loose, watch).run();
+                      Watch& watch, Seam seam) {
+  return Builder(series, loose, watch, seam).run();
 }
 
 void set_sizes(Tube& tube, const State& x) {

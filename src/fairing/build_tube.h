@@ -20,11 +20,15 @@ struct SmoothTube {
   std::size_t trouble = 0;  ///< node farthest outside then
 };
 
+/// Where a closed tube is cut: far from any vertex, or a quarter of its nodes away from there.
+enum class Seam { kSteepest, kElsewhere };
+
 /// Chooses nodes among the points and lays a smooth curve through the tube, without regard to
 /// directions. Where primitives are wanted, stretches that mean a line or circle become one node
 /// each, except those with an `loose` point.
 [[nodiscard]] SmoothTube build_tube(const MeasuredSeries& series,
-                                    const std::vector<std::size_t>& loose, Watch& watch);
+                                    const std::vector<std::size_t>& loose, Watch& watch,
+                                    Seam seam = Seam::kSteepest);
 
 /// Expected sizes of all links from the curvatures at x: the largest mean rate of curvature over
 /// three links before, after and around, but not less than what the tolerance can hide.

@@ -114,11 +114,11 @@ void collect_nodes(const LaidTube& laid, const SmoothTube& smooth, std::size_t t
   out.trouble = (out.trouble + out.elements.size() - 1) % out.elements.size();
 }
 
-FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
-                     const std::vector<std::size_t>& loose, Watch& watch) {
+FairedSeries attempt_from(Seam seam, const MeasuredSeries& series, int lower_bound,
+                          const std::vector<std::size_t>& loose, Watch& watch) {
   constexpr const char* kStage = "searching runs";
   FairedSeries out;
-  const SmoothTube smooth = build_tube(series, loose, watch);
+  const SmoothTube smooth = build_tube(series, loose, watch, seam);
   watch.tell(kStage, 0.1);
   if (smooth.tube.nodes.size() == 1) {
     out = one_primitive(series, smooth);
@@ -143,6 +143,20 @@ FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
   collect_nodes(laid, smooth, runs.trouble, out);
   watch.tell(kStage, 1.0);
   return out;
+}
+
+/// The search looks at links of one side of the seam at a time: where it fails beside the seam, it
+/// begins anew from another.
+FairedSeries attempt(const MeasuredSeries& series, int lower_bound,
+                     const std::vector<std::size_t>& loose, Watch& watch) {
+  constexpr std::size_t kBesideSeam = 8;  // elements
+  FairedSeries out = attempt_from(Seam::kSteepest, series, lower_bound, loose, watch);
+  const std::size_t n = out.elements.size();
+  const bool beside = std::min(out.trouble, n - std::min(n, out.trouble)) < kBesideSeam;
+  if (out.feasible || !series.closed || !beside || !watch.may_go_on()) return out;
+  FairedSeries again = attempt_from(Seam::kElsewhere, series, lower_bound, loose, watch);
+  again.newton_steps += out.newton_steps;
+  return again.feasible ? again : out;
 }
 
 /// Points that are taken off the ends of primitives until the transitions have room.

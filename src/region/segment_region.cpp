@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "obvid/region/internal/arcs_over_chord.h"
 #include "two_arcs.h"
 
 namespace obvid {
@@ -48,18 +49,6 @@ double rise_to_opposite(Vec2 tangent, double kappa) {
   return tangent.y * tangent.y / ((1.0 - tangent.x) * kappa);
 }
 
-/// Tangent at the joint of the two arcs, by closing the chord ([Kurnosenko 2013]).
-Vec2 joint_tangent(const ChordFrame& f, double k0, double k1) {
-  const double a = 0.5 * k0 * f.h, b = 0.5 * k1 * f.h;
-  if (std::isinf(a)) return b == 0.0 ? f.end_tangent : Vec2{f.end_tangent.x, -f.end_tangent.y};
-  if (std::isinf(b)) return Vec2{f.start_tangent.x, -f.start_tangent.y};
-  // (b - a) e^{i theta} = 2 i a b + b e^{i alpha} - a e^{i beta}
-  const Vec2 v = Vec2{0.0, 2.0 * a * b} + b * f.start_tangent - a * f.end_tangent;
-  const Vec2 w = b > a ? v : -v;
-  const double length = norm(w);
-  return length > 0.0 ? w / length : f.start_tangent;
-}
-
 Boundary make_boundary(const ChordFrame& f, double k0, double k1) {
   Boundary b{k0, k1, joint_tangent(f, k0, k1), 0.0, 0.0};
   const auto reach = [&b](double y) {
@@ -90,10 +79,7 @@ struct Graph {
     const double least = std::min({f.start_tangent.x, f.end_tangent.x, b.joint_tangent.x});
     if (!(least > 0.0)) return std::nullopt;
     Graph g{f.h, 0.0, b.kappa_first, b.kappa_second, f.start_tangent.y, f.end_tangent.y, 0.0};
-    const bool first_bends_more = std::abs(g.k0) >= std::abs(g.k1);
-    g.x_joint = first_bends_more ? (b.joint_tangent.y - g.s0) / g.k0
-                                 : f.h - (g.s1 - b.joint_tangent.y) / g.k1;
-    if (!(g.x_joint >= 0.0 && g.x_joint <= f.h)) g.x_joint = std::clamp(g.x_joint, 0.0, f.h);
+    g.x_joint = joint_abscissa(f, g.k0, g.k1, b.joint_tangent);
     return g;
   }
 

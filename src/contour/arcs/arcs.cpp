@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/region/internal/arcs_over_chord.h"
+
 namespace obvid {
 namespace {
 
@@ -15,40 +17,6 @@ BiarcCurvatures middle_biarc(const ChordFrame& f, const SegmentRegion& r) {
   const double middle = std::copysign(std::sqrt(std::max(0.0, from * to)), from);
   const double first = (middle - sa) / half;
   return {first, second_curvature(f, first)};
-}
-
-/// Abscissa of the joint of two arcs within a right angle of the chord, from the one that bends
-/// more.
-double joint_abscissa(const ChordFrame& f, double first, double second, Vec2 tangent) {
-  const double x = std::abs(first) >= std::abs(second)
-                       ? (tangent.y - f.start_tangent.y) / first
-                       : f.h - (f.end_tangent.y - tangent.y) / second;
-  return std::clamp(x, 0.0, f.h);
-}
-
-/// Where the ray foot + s way, s > 0, first meets the circle (or line) through `at` with this unit
-/// tangent: the root of k |p - at|^2 = 2 (p - at) . normal of smaller size.
-double first_meeting(Vec2 foot, Vec2 way, Vec2 at, Vec2 tangent, double kappa) {
-  const Vec2 v = foot - at, normal = left_normal(tangent);
-  const double a = kappa * dot(way, way), half = kappa * dot(v, way) - dot(way, normal);
-  const double c = kappa * dot(v, v) - 2.0 * dot(v, normal);
-  const double root = std::sqrt(std::max(0.0, half * half - a * c));
-  return -c / (half + std::copysign(root, half));
-}
-
-/// Where the median from the middle of the chord to the apex meets a boundary.
-Vec2 on_median(const ChordFrame& f, const Boundary& b, Vec2 apex) {
-  const Vec2 foot = {0.5 * f.h, 0.0}, way = apex - foot;
-  const double joint = joint_abscissa(f, b.kappa_first, b.kappa_second, b.joint_tangent);
-  const Vec2 p = foot + first_meeting(foot, way, {0.0, 0.0}, f.start_tangent, b.kappa_first) * way;
-  if (p.x <= joint) return p;
-  return foot + first_meeting(foot, way, {f.h, 0.0}, f.end_tangent, b.kappa_second) * way;
-}
-
-bool has_triangle(const ChordFrame& f, const SegmentRegion& r) {
-  const double least = std::min(
-      {f.start_tangent.x, f.end_tangent.x, r.from_start.joint_tangent.x, r.to_end.joint_tangent.x});
-  return least > 0.0 && f.start_tangent.y * f.end_tangent.y < 0.0;
 }
 
 /// How far an arc turns, with the tangent of half of it.
@@ -65,15 +33,6 @@ ArcTurn arc_turn(Vec2 from, Vec2 to) {
 double half_turn_sine_squared(const ChordFrame& f) {
   const Vec2 turn = complex_product(f.start_tangent, f.end_tangent);
   return turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
-}
-
-/// Tangent at the joint of the arcs with these curvatures, by closing the chord ([Kurnosenko
-/// 2013]).
-Vec2 joint_tangent(const ChordFrame& f, double first, double second) {
-  const double a = 0.5 * first * f.h, b = 0.5 * second * f.h;
-  const Vec2 v = Vec2{0.0, 2.0 * a * b} + b * f.start_tangent - a * f.end_tangent;
-  const double length = std::copysign(norm(v), b - a);
-  return length != 0.0 ? v / length : f.start_tangent;
 }
 
 /// First curvature of the biarc through p: p lies on its first arc, or on its second.
@@ -121,13 +80,15 @@ double second_curvature(const ChordFrame& f, double first) {
 std::optional<BiarcCurvatures> choose_biarc(const ChordFrame& f, int direction) {
   const auto region = segment_region(f, direction);
   if (!region) return std::nullopt;
-  if (!has_triangle(f, *region)) return middle_biarc(f, *region);
+  if (!(f.start_tangent.y * f.end_tangent.y < 0.0)) return middle_biarc(f, *region);
   const double apex_x = f.h * f.end_tangent.y * f.start_tangent.x /
                         (f.end_tangent.y * f.start_tangent.x - f.start_tangent.y * f.end_tangent.x);
   const Vec2 apex = {apex_x, apex_x * f.start_tangent.y / f.start_tangent.x};
-  const Vec2 p =
-      0.5 * (on_median(f, region->from_start, apex) + on_median(f, region->to_end, apex));
-  const double first = first_through(f, p);
+  const auto one = part_of_median(f, region->from_start, apex);
+  const auto other = part_of_median(f, region->to_end, apex);
+  if (!one || !other) return middle_biarc(f, *region);
+  const Vec2 foot = {0.5 * f.h, 0.0};
+  const double first = first_through(f, foot + 0.5 * (*one + *other) * (apex - foot));
   const double low = std::min(region->from_start.kappa_first, region->to_end.kappa_first);
   const double high = std::max(region->from_start.kappa_first, region->to_end.kappa_first);
   // in a region narrower than rounding the median point says nothing

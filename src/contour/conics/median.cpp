@@ -6,30 +6,12 @@
 
 #include "links.h"
 #include "obvid/contour/conics.h"
-#include "obvid/region/internal/boundary_distance.h"
+#include "obvid/region/internal/arcs_over_chord.h"
 #include "obvid/region/internal/segment_region.h"
 #include "triangle.h"
 
 namespace obvid {
 namespace conics {
-namespace {
-
-/// Where the median from the middle of the chord (0) to the apex (1) leaves a boundary behind.
-std::optional<double> on_median(const ChordFrame& frame, const Boundary& b, Vec2 apex) {
-  const Vec2 foot = {0.5 * frame.h, 0.0};
-  double low = 0.0, high = 1.0;
-  constexpr int kBisections = 60;  // to the last bit
-  for (int i = 0; i < kBisections; ++i) {
-    const double s = 0.5 * (low + high);
-    const Vec2 p = foot + s * (apex - foot);
-    const auto y = ordinate_over_chord(frame, b, p.x);
-    if (!y) return std::nullopt;
-    (std::abs(p.y) > std::abs(*y) ? high : low) = s;
-  }
-  return 0.5 * (low + high);
-}
-
-}  // namespace
 
 std::optional<MedianCut> median_cut(const Element& start, const Element& end) {
   const auto t = triangle_over(start, end);
@@ -39,8 +21,8 @@ std::optional<MedianCut> median_cut(const Element& start, const Element& end) {
   if (!region) return std::nullopt;
   const double side = -t->turning, a = std::exp(t->log_a);
   const Vec2 apex = {a * std::cos(t->phi), side * a * std::sin(t->phi)};
-  const auto s0 = on_median(frame, region->from_start, apex);
-  const auto s1 = on_median(frame, region->to_end, apex);
+  const auto s0 = part_of_median(frame, region->from_start, apex);
+  const auto s1 = part_of_median(frame, region->to_end, apex);
   if (!s0 || !s1) return std::nullopt;
   return MedianCut{std::min(*s0, *s1), std::max(*s0, *s1)};
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
@@ -269,7 +270,21 @@ class SectionChooser {
       const bool fixed = source && !series_.fixed.empty() && series_.fixed[*source].says_how();
       given.push_back(fixed);
     }
-    return find_wandering(chain, reach, given, loop_);
+    Wandering out = find_wandering(chain, reach, given, loop_);
+    const auto passes_others = [&](const WanderingPart& part) {
+      return !follows(*chain.source[part.first], *chain.source[part.last]);
+    };
+    out.guessed.erase(std::remove_if(out.guessed.begin(), out.guessed.end(), passes_others),
+                      out.guessed.end());
+    return out;
+  }
+
+  /// Whether no point of the section lies between two.
+  [[nodiscard]] bool follows(std::size_t before, std::size_t after) const {
+    const auto at = std::find(index_.begin(), index_.end(), before);
+    if (at == index_.end()) return false;
+    const auto next = std::next(at);
+    return (next == index_.end() ? index_.front() : *next) == after;
   }
 
   /// Where something is given: turns of the contour that the points have without it. Nothing where
@@ -434,7 +449,7 @@ class SectionChooser {
       }
     }
     if (chain || moves_) {
-      if (chain) out_.warnings = warn(*analysis, *chain, whole);
+      if (chain) tell(warn(*analysis, *chain, whole));
       return chain;
     }
     // where the points alone have a curve, it is the given data that are in the way: more vertices
@@ -442,8 +457,12 @@ class SectionChooser {
     if (chain.error().code == ErrorCode::kFixedDataContradict) return chain;
     auto mended = with_more_vertices(points, *analysis, constraints, watch_);
     if (!mended || bends_back(*mended)) return chain;
-    out_.warnings = warn(*analysis, *mended, whole);
+    tell(warn(*analysis, *mended, whole));
     return mended;
+  }
+
+  void tell(std::vector<std::string> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(out_.warnings));
   }
 
   /// Near an end of what the points leave to given data: the chain that is proved there, where the
@@ -600,13 +619,17 @@ class SectionChooser {
     give_nodes(measured, whole, series_.convex);
     FairedSeries faired;
     if (auto chain = follow_runs(measured, faired)) {
-      if (measured.primitives) tell_primitives(faired);
       if (bends_without_need(*chain)) {
         give_nodes(measured, whole, true);
         FairedSeries one_way;
         auto convex = follow_runs(measured, one_way);
-        if (convex && runs_of(*convex) <= runs_of(*chain)) return std::move(*convex);
+        if (convex && runs_of(*convex) <= runs_of(*chain) &&
+            one_way.primitives >= faired.primitives) {
+          chain = std::move(convex);
+          faired = std::move(one_way);
+        }
       }
+      if (measured.primitives) tell_primitives(faired);
       return std::move(*chain);
     }
     if (measured.primitives) {
