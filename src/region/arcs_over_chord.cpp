@@ -17,6 +17,13 @@ double first_meeting(Vec2 foot, Vec2 way, Vec2 at, Vec2 tangent, double kappa) {
   return -c / (half + std::copysign(root, half));
 }
 
+/// Whether a line through the chord meets a boundary beyond the joint of its arcs.
+bool meets_beyond_joint(const ChordFrame& f, const Boundary& b, Vec2 foot, Vec2 way) {
+  const double x = joint_abscissa(f, b.kappa_first, b.kappa_second, b.joint_tangent);
+  const Vec2 along = f.start_tangent + b.joint_tangent;  // the chord of the first arc
+  return cross(way, x / along.x * along - foot) * way.y > 0.0;
+}
+
 }  // namespace
 
 Vec2 joint_tangent(const ChordFrame& f, double k0, double k1) {
@@ -45,12 +52,8 @@ std::optional<double> part_of_median(const ChordFrame& f, const Boundary& b, Vec
                           (!no_second && !(f.end_tangent.x > 0.0)) ||
                           (!no_first && !no_second && !(b.joint_tangent.x > 0.0));
   if (turns_away) return std::nullopt;
-  if (!no_first) {
-    const double s = first_meeting(foot, way, {0.0, 0.0}, f.start_tangent, b.kappa_first);
-    if (no_second) return s;
-    const double joint = joint_abscissa(f, b.kappa_first, b.kappa_second, b.joint_tangent);
-    if (foot.x + s * way.x <= joint) return s;
-  }
+  const bool first = no_second || (!no_first && !meets_beyond_joint(f, b, foot, way));
+  if (first) return first_meeting(foot, way, {0.0, 0.0}, f.start_tangent, b.kappa_first);
   return first_meeting(foot, way, {f.h, 0.0}, f.end_tangent, b.kappa_second);
 }
 

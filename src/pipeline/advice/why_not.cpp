@@ -28,8 +28,8 @@ constexpr double kLargestMove = 0.1;   // of the size: beyond, it is another sha
 constexpr double kUsualGuess = 1e-5;   // of the size, where nothing says more
 constexpr double kUsualTrials = 14.0;  // for the progress bar
 /// The search ends when so many steps on every point, and some more where there are few, were
-/// spent.
-constexpr double kSearchSteps = 2500.0, kSpareSearch = 1e6;
+/// spent, or a single trial has taken so much of them.
+constexpr double kSearchSteps = 2500.0, kSpareSearch = 1e6, kTrialShare = 0.4;
 constexpr double kNoMove = 1e-6;  // of the tolerance: the rounding of a distance
 
 bool says_no_contour(ErrorCode code) { return category(code) == ErrorCategory::kNoContour; }
@@ -137,7 +137,7 @@ class Search {
       out_.refused = tolerance;
       return false;
     }
-    const Allowance allowance(watch_, most_ - watch_.spent());
+    const Allowance allowance(watch_, std::min(kTrialShare * most_, most_ - watch_.spent()));
     auto made = fit_within(series_, job_, tolerance, watch_);
     if (!watch_.may_go_on()) {  // `fit` has more time, and may find another answer
       out_.stopped = true;
