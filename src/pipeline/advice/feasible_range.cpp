@@ -36,7 +36,7 @@ constexpr double kNarrowestExact = 1e-10;
 constexpr double kToldExactly = 1e-5;
 /// Series of so many points have their ranges in closed form, or none.
 constexpr std::size_t kTooLongForTrials = 1000;
-/// No further trial begins when so many steps on every point, and some more, were spent.
+/// The trials end when so many steps on every point, and some more, were spent.
 constexpr double kRangeSteps = 5000.0, kSpareRange = 2e6;
 /// A piece is formed, proved and measured in the time of so many steps.
 constexpr double kStepsOfPiece = 6.0;
@@ -152,7 +152,9 @@ class RangeSearch {
       series.fixed.resize(series.points.size());
       (heading ? series.fixed[given.point].theta : series.fixed[given.point].kappa) = value;
     }
+    const Allowance allowance(watch_, most_ - watch_.spent());
     auto made = fit(series, job, watch_);
+    if (!watch_.may_go_on()) return std::nullopt;  // it may find another answer with more
     if (made) watch_.spend(kStepsOfPiece * static_cast<double>(made->contour.pieces.size()));
     if (!made || broken_promise(*made)) return std::nullopt;
     return std::move(*made);
