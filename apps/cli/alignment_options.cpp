@@ -55,7 +55,7 @@ constexpr std::array kNumberOptions = {
     NumberOption{"--min-vertical-length", "L", &RawAlignment::least_vertical, true, kPositive,
                  kInUnits,
                  "Least length of a grade or vertical curve, input units [a quarter of the mean "
-                 "distance of heights]"}};
+                 "distance of heights; shorter at sharp kinks of these]"}};
 
 void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   AlignmentCommand& command = raw.command;

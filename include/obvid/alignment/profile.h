@@ -46,7 +46,8 @@ struct VerticalProfile {
 struct ProfileOptions {
   ProfileCurves curves = ProfileCurves::kParabolas;
   double least_length = 0.0;  ///< of each element, units (of arcs along the curve); 0: a quarter of
-                              ///< the mean distance of heights. A profile of one may be shorter
+                              ///< the mean distance of heights, but what rounds a sharp kink of
+                              ///< them is shorter. A profile of one may be shorter
   double lap = 0.0;           ///< of a loop: its length, units; 0: not closed
   double begin = 0.0;         ///< of a loop: the station at which the profile begins
 };
@@ -57,7 +58,8 @@ struct ProfileOptions {
 /// grades are preferred wherever the tolerance allows them.
 ///
 /// Guaranteed: every offset is at most its tolerance (else an error), grades are continuous but for
-/// rounding, elements are as long as asked for. Not guaranteed: that no fewer elements exist.
+/// rounding, elements are as long as asked for. Not guaranteed: that no fewer elements exist, nor
+/// that heights bear every grade between them (`unborne_grades`), where elements have to be long.
 /// Around a loop (`lap`; heights within one lap) height and grade at the end are those at the
 /// start; the element that passes `begin` is cut there. Deterministic; reentrant.
 ///
