@@ -11,8 +11,10 @@
 
 #include "element_table.h"
 #include "obvid/core/units.h"
+#include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/element_table.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
 #include "series_report.h"
@@ -190,6 +192,48 @@ std::string audit_report_json(const AnalysedDrawing& analysed) {
                     points ? series_report_json(points->series, points->analysis) : "");
 }
 
+/// The picture of the curve that is asked for, or of the longest.
+Result<std::string> audit_picture(const AnalyseOptions& options, const AnalysedDrawing& analysed) {
+  const CurveAudit& a = pictured(analysed.audits, analysed.asked);
+  ExportOptions titled;
+  titled.picture = {analysed.drawing.name + ": " + a.label, as_drawn(a)};
+  titled.plots = options.plots;
+  const auto drawn =
+      export_contour({a.contour, std::nullopt, a.certificate}, FileFormat::kPicture, titled);
+  OBVID_TRY(drawn);
+  return drawn->files.front().text;
+}
+
+Result<std::string> audit_page(const AnalyseOptions& options, const AnalysedDrawing& analysed) {
+  const auto& [drawing, audits, points, asked] = analysed;
+  ReportPage page;
+  page.title = drawing.name;
+  page.verdict = fmt::format("{} and {} of points", counted(audits.size(), "curve", "curves"),
+                             counted(drawing.series.size(), "series", "series"));
+  page.figures = {{"asked for", options.asked}, {"lengths in", drawing.units.text()}};
+  page.tables.push_back(
+      table_of_csv("curves", "Curves and series of points", drawing_csv(drawing, audits)));
+  if (!audits.empty()) {
+    auto picture = audit_picture(options, analysed);
+    OBVID_TRY(picture);
+    page.pictures.push_back(std::move(*picture));
+    const CurveAudit& a = pictured(audits, asked);
+    page.figures.emplace_back("picture", a.label);
+    const auto elements = elements_of(a);
+    if (elements) {
+      page.tables.push_back(table_of_csv("elements", "Elements", elements_csv(*elements, {})));
+    }
+    if (a.profile) {
+      page.tables.push_back(table_of_csv("profile", "Profile", profile_csv(*a.profile)));
+    }
+  }
+  if (points) {
+    page.tables.push_back(
+        table_of_csv("points", "Points", series_report_csv(points->series, points->analysis)));
+  }
+  return page_text(page);
+}
+
 Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& options,
                                                       const AnalysedDrawing& analysed) {
   const std::vector<CurveAudit>& audits = analysed.audits;
@@ -201,19 +245,20 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
                                                           : audit_report_json(analysed);
       continue;
     }
+    if (output.format == FileFormat::kPage) {
+      auto page = audit_page(options, analysed);
+      OBVID_TRY(page);
+      output.text = std::move(*page);
+      continue;
+    }
     if (output.format != FileFormat::kPicture || audits.empty()) {
       return error(ErrorCode::kBadOption, "analyse writes a picture of a curve (.svg), and tables")
           .where(output.path)
-          .hint("name an .svg, .csv or .json");
+          .hint("name an .svg, .html, .csv or .json");
     }
-    const CurveAudit& a = pictured(audits, analysed.asked);
-    ExportOptions titled;
-    titled.picture = {analysed.drawing.name + ": " + a.label, as_drawn(a)};
-    titled.plots = options.plots;
-    const auto drawn =
-        export_contour({a.contour, std::nullopt, a.certificate}, FileFormat::kPicture, titled);
-    OBVID_TRY(drawn);
-    output.text = drawn->files.front().text;
+    auto picture = audit_picture(options, analysed);
+    OBVID_TRY(picture);
+    output.text = std::move(*picture);
   }
   return write_files(*outputs, options.input);
 }

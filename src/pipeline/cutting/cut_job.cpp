@@ -63,6 +63,7 @@ class Taken {
     std::string name = drawn->name.empty() ? fmt::format("curve {}", number + 1) : drawn->name;
     if (several_) name = drawing.name + ": " + name;
     made_.outlines.push_back({std::move(name), std::move(drawn->stored.contour), is_cut});
+    made_.curves.push_back(number);
     return {};
   }
 
@@ -197,6 +198,20 @@ std::string cut_json(const MadeCut& made) {
   json.end_object();
   add_list(json, "warnings", made.warnings).end_object();
   return json.take();
+}
+
+std::string cut_csv(const MadeCut& made) {
+  std::string out = "order,curve,outline,tool,closed,start_x,start_y,length,left_in_corners\n";
+  std::size_t order = 0;
+  for (const CutStep& step : made.program.steps) {
+    std::string name = made.outlines[step.outline].name;
+    std::replace(name.begin(), name.end(), '"', '\'');
+    out += fmt::format("{},{},\"{}\",{},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", ++order,
+                       made.curves[step.outline] + 1, name, to_string(step.side),
+                       step.closed ? "yes" : "no", step.start.x, step.start.y, step.length,
+                       step.left_in_corners);
+  }
+  return out;
 }
 
 Result<void> set_cut(const CutValues& typed, CutJob& job) {
