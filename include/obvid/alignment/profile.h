@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <array>
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -18,6 +20,17 @@ enum class ProfileCurves {
   kParabolas,  ///< the grade is linear in the station, as most roads have it
   kArcs,       ///< arcs of circles over the station
 };
+
+inline constexpr std::array<std::string_view, 3> kProfileKindNames = {"grade", "crest", "sag"};
+inline constexpr std::array<std::string_view, 2> kProfileCurveNames = {"parabolas", "arcs"};
+/// "grade", "crest", "sag".
+[[nodiscard]] inline std::string_view name_of(ProfileKind kind) {
+  return kProfileKindNames[static_cast<std::size_t>(kind)];
+}
+/// "parabolas", "arcs".
+[[nodiscard]] inline std::string_view name_of(ProfileCurves curves) {
+  return kProfileCurveNames[static_cast<std::size_t>(curves)];
+}
 
 /// One element over [station, station + length].
 struct ProfileElement {

@@ -400,6 +400,7 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
     out.label = drawing.curves[chosen].label;
   } else {
     out = drawing.series[chosen - drawing.curves.size()];
+    if (!options.list.heights) out.fixed.clear();  // of maps: heights, which alignments take
     out.label = out.name;
     const bool edges = options.use == DrawnUse::kExact && out.kind == SeriesKind::kLine;
     if (edges) {
