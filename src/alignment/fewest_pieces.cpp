@@ -111,9 +111,7 @@ class Search {
                                              ? "no elements within the tolerance were found"
                                              : "no grades and vertical curves within the tolerance "
                                                "were found")
-          .hint(options_.least_length > 0.0 || options_.least_radius > 0.0
-                    ? "allow a larger tolerance, or shorter elements and smaller radii"
-                    : "allow a larger tolerance")
+          .hint(advice_to_allow_more(options_))
           .point(static_cast<std::ptrdiff_t>(places_[std::min(layer.end, last) - 1].at));
     }
     return nodes(*goal);
@@ -627,6 +625,13 @@ std::optional<ClothoidPiece> piece_between(Plane plane, Vec2 start, double theta
                        (6.0 * slope - 4.0 * theta0 - 2.0 * theta1) / length,
                        (2.0 * theta0 + 4.0 * theta1 - 6.0 * slope) / length,
                        length};
+}
+
+std::string advice_to_allow_more(const AlignmentOptions& options) {
+  std::string out = "allow a larger tolerance";
+  if (options.least_length > 0.0) out += ", or shorter elements";
+  if (options.least_radius > 0.0) out += ", or smaller radii";
+  return out;
 }
 
 BorneGrades grades_borne_by(std::vector<Vec2> points, std::vector<double> tolerance,

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "obvid/alignment/alignment.h"
@@ -26,6 +27,9 @@ struct Node {
 /// Nothing where there is none.
 [[nodiscard]] std::optional<ClothoidPiece> piece_between(Plane plane, Vec2 start, double theta0,
                                                          Vec2 end, double theta1);
+
+/// What may help where nothing was found: those limits alone that were given.
+[[nodiscard]] std::string advice_to_allow_more(const AlignmentOptions& options);
 
 /// Grades that the heights of a search bear: of a loop the last one is the first one again.
 [[nodiscard]] BorneGrades grades_borne_by(std::vector<Vec2> points, std::vector<double> tolerance,

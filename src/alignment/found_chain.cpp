@@ -978,6 +978,21 @@ constexpr std::array kAttempts = {Attempt{1.0, 0.0},  Attempt{1.0, 0.5},  Attemp
 /// short. Not of profiles: that of as many heights takes a second.
 constexpr std::size_t kMostSearchedAgain = 400;
 
+/// Other elements than those that left the tolerance: less is asked of them, or more of what no
+/// limit was given for.
+std::string advice_for_others(const AlignmentOptions& options, const Sought& sought) {
+  std::string out = advice_to_allow_more(options);
+  const bool radii = !sought.constant;  // profiles have no least radius
+  if (options.least_length == 0.0 && (options.least_radius == 0.0 && radii)) {
+    return out + ", or set a least length or radius: other elements may do";
+  }
+  if (options.least_length == 0.0) return out + ", or set a least length: other elements may do";
+  if (options.least_radius == 0.0 && radii) {
+    return out + ", or set a least radius: other elements may do";
+  }
+  return out;
+}
+
 /// Elements from one of these searches.
 Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
                             const AlignmentOptions& options, const Sought& sought,
@@ -1018,7 +1033,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   if (!(largest <= 1.0)) {
     return fail(
         error(ErrorCode::kToleranceNotReached, "the alignment that was found leaves the tolerance")
-            .hint("allow more, or set a least length or radius: other elements may do")
+            .hint(advice_for_others(options, sought))
             .value(largest));
   }
   return out;
