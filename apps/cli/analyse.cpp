@@ -49,11 +49,13 @@ Result<std::vector<std::string>> write_tables(const AnalyseOptions& options,
                                               const AnalysedSeries& points) {
   std::vector<Output> files;
   for (const std::string& path : options.outputs) {
-    if (path.ends_with(".csv")) {
+    const auto format = analysis_format_of(path);
+    OBVID_TRY(format);
+    if (*format == FileFormat::kSamples) {
       files.push_back({path, {}, series_report_csv(points.series, points.analysis)});
-    } else if (path.ends_with(".json")) {
+    } else if (*format == FileFormat::kContour) {
       files.push_back({path, {}, series_report_json(points.series, points.analysis)});
-    } else if (path.ends_with(".html")) {
+    } else if (*format == FileFormat::kPage) {
       files.push_back({path, {}, points_page(options, points)});
     } else {
       return error(ErrorCode::kBadOption, "points alone make no picture of a curve")

@@ -237,9 +237,13 @@ Result<std::string> audit_page(const AnalyseOptions& options, const AnalysedDraw
 Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& options,
                                                       const AnalysedDrawing& analysed) {
   const std::vector<CurveAudit>& audits = analysed.audits;
-  Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
-  OBVID_TRY(outputs);
-  for (Output& output : *outputs) {
+  std::vector<Output> outputs;
+  for (const std::string& path : options.outputs) {
+    const auto format = analysis_format_of(path);
+    OBVID_TRY(format);
+    outputs.push_back({path, *format, {}});
+  }
+  for (Output& output : outputs) {
     if (output.format == FileFormat::kSamples || output.format == FileFormat::kContour) {
       output.text = output.format == FileFormat::kSamples ? drawing_csv(analysed.drawing, audits)
                                                           : audit_report_json(analysed);
@@ -251,19 +255,30 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
       output.text = std::move(*page);
       continue;
     }
-    if (output.format != FileFormat::kPicture || audits.empty()) {
-      return error(ErrorCode::kBadOption, "analyse writes a picture of a curve (.svg), and tables")
+    if (audits.empty()) {
+      return error(ErrorCode::kBadOption, "points alone make no picture of a curve")
           .where(output.path)
-          .hint("name an .svg, .html, .csv or .json");
+          .hint("name an .html, .csv or .json");
     }
     auto picture = audit_picture(options, analysed);
     OBVID_TRY(picture);
     output.text = std::move(*picture);
   }
-  return write_files(*outputs, options.input);
+  return write_files(outputs, options.input);
 }
 
 }  // namespace
+
+Result<FileFormat> analysis_format_of(const std::string& path) {
+  const auto format = format_of(path);
+  for (const FileFormat one :
+       {FileFormat::kPicture, FileFormat::kPage, FileFormat::kSamples, FileFormat::kContour}) {
+    if (format == one) return one;
+  }
+  return error(ErrorCode::kUnknownFormat, "analyse writes no such file")
+      .where(path)
+      .hint("possible are .svg (picture of a curve), .html (page), .csv and .json (tables)");
+}
 
 Result<AnalysedDrawing> analysed_drawing(const AnalyseOptions& options) {
   Result<Drawing> drawing = read_drawing(options.input, options.import.planes);

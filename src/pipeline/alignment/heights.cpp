@@ -210,6 +210,14 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
     auto own = heights_of_points(series, alignment);
     OBVID_TRY(own);
     out = std::move(*own);
+    const bool no_tolerance =
+        rounding == 0.0 && !job.profile_noise && !job.profile_noise_from_scatter;
+    if (no_tolerance) {
+      remarks.emplace_back(
+          "the points have heights, but nothing says how exact they are: no profile "
+          "(--profile-noise makes one)");
+      return std::optional<ProfileReport>();
+    }
     // drawings fill a column that nobody measured
     if (std::all_of(out.heights.begin(), out.heights.end(),
                     [](const Vec2& at) { return at.y == 0.0; })) {
