@@ -12,6 +12,7 @@
 #include "obvid/core/files.h"
 #include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -39,8 +40,7 @@ void add_profile_facts(const ProfileReport& report, const Units& units, Facts& f
                                    significant(profile.rms, kOffsetDigits)));
 }
 
-std::string alignment_text(const AlignmentReport& report, const std::vector<std::string>& remarks,
-                           const std::vector<std::string>& files) {
+Facts alignment_facts(const AlignmentReport& report) {
   const Alignment& alignment = report.alignment;
   double largest = 0.0;
   for (const auto& d : alignment.deviations) largest = std::max(largest, std::abs(d.offset));
@@ -60,6 +60,13 @@ std::string alignment_text(const AlignmentReport& report, const std::vector<std:
                                   significant(alignment.rms, kOffsetDigits)));
   if (report.profile) add_profile_facts(*report.profile, report.units, facts);
   for (const std::string& remark : report.remarks) facts.add("note", remark);
+  return facts;
+}
+
+std::string alignment_text(const AlignmentReport& report, const std::vector<std::string>& remarks,
+                           const std::vector<std::string>& files) {
+  const Alignment& alignment = report.alignment;
+  Facts facts = alignment_facts(report);
   for (const std::string& remark : remarks) facts.add("note", remark);
   if (!files.empty()) facts.add("written", listed(files));
   return bold(report.name) + "\n" +
@@ -73,8 +80,27 @@ std::string alignment_text(const AlignmentReport& report, const std::vector<std:
          facts.text();
 }
 
+std::string alignment_page(const AlignmentReport& report, const std::vector<Vec2>& points,
+                           const std::string& asked) {
+  ReportPage page;
+  page.title = report.name;
+  page.verdict = alignment_verdict(report);
+  page.pictures.push_back(alignment_picture(report));
+  page.figures = {{"asked for", asked}, {"lengths in", report.units.text()}};
+  const Facts facts = alignment_facts(report);
+  page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
+  page.tables.push_back(
+      table_of_csv("elements", "Elements", elements_csv(report.alignment.elements, report.limit)));
+  if (report.profile) {
+    page.tables.push_back(table_of_csv("profile", "Profile", profile_csv(report.profile->profile)));
+  }
+  page.tables.push_back(table_of_csv("deviations", "Points", deviations_csv(report, points)));
+  return page_text(page);
+}
+
 /// What the formats of contours do not write for it.
-std::optional<std::string> own_text(const std::string& path, const AlignmentReport& report) {
+std::optional<std::string> own_text(const std::string& path, const AlignmentReport& report,
+                                    const std::vector<Vec2>& points, const std::string& asked) {
   const auto format = format_of(path);
   if (format == FileFormat::kSamples) {
     return elements_csv(report.alignment.elements, report.limit);
@@ -82,6 +108,7 @@ std::optional<std::string> own_text(const std::string& path, const AlignmentRepo
   if (format == FileFormat::kPicture) {
     return alignment_picture(report);
   }
+  if (format == FileFormat::kPage) return alignment_page(report, points, asked);
   return std::nullopt;
 }
 
@@ -124,7 +151,7 @@ int run(const AlignmentCommand& command) {
   if (made->profile) formats.profile = made->profile->profile;
   std::vector<Output> drawn, own;
   for (Output& output : *outputs) {
-    auto text = own_text(output.path, *made);
+    auto text = own_text(output.path, *made, series->points, command.asked);
     if (text) output.text = std::move(*text);
     (text ? own : drawn).push_back(std::move(output));
   }

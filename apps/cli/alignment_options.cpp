@@ -55,7 +55,7 @@ constexpr std::array kNumberOptions = {
     NumberOption{"--min-vertical-length", "L", &RawAlignment::least_vertical, true, kPositive,
                  kInUnits,
                  "Least length of a grade or vertical curve, input units [a quarter of the mean "
-                 "distance of heights]"}};
+                 "distance of heights; shorter at sharp kinks of these]"}};
 
 void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   AlignmentCommand& command = raw.command;
@@ -65,7 +65,7 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   add_output(app, command.outputs, raw.format,
              "File to write: .xml LandXML, .xodr OpenDRIVE, .dxf, .json contour, .step, .svg "
              "and every other ending of obvid convert; .csv is the table of elements, .svg shows "
-             "curvature, speed and heights over the station");
+             "curvature, speed and heights over the station, .html is a page with both");
   app.add_option(
          "--noise", raw.typed.noise,
          "How far the alignment may pass the points, input units, or rounding: as far as half "
@@ -189,6 +189,7 @@ Result<Command> parse_alignment(int argc, const char* const* argv) {
   }
   OBVID_TRY(check_extras(app, app.remaining(), "alignment"));
   OBVID_TRY(check_alignment(raw));
+  raw.command.asked = asked_for(app, "obvid alignment");
   return Command{raw.command};
 }
 

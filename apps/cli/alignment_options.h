@@ -19,6 +19,7 @@ struct AlignmentCommand {
   std::string heights;        ///< file of stations and heights; empty: the column z
   std::string profile_table;  ///< .csv of grades and vertical curves; empty: none
   AlignmentJob job;
+  std::string asked;  ///< what was typed, for pages
   ImportOptions import;
   std::optional<Units> units;
   bool json = false;

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
 #include "series_report.h"
@@ -31,19 +32,35 @@ Result<AnalysedSeries> analysed_points(const AnalyseOptions& options) {
   return AnalysedSeries{std::move(*series), std::move(*analysis)};
 }
 
+std::string points_page(const AnalyseOptions& options, const AnalysedSeries& points) {
+  ReportPage page;
+  page.title = points.series.name;
+  page.verdict = "what the points alone say";
+  page.figures = {{"asked for", options.asked},
+                  {"lengths in", points.series.units.text()},
+                  {"points", std::to_string(points.series.points.size())}};
+  page.tables.push_back(
+      table_of_csv("points", "Points", series_report_csv(points.series, points.analysis)));
+  return page_text(page);
+}
+
 /// Tables of points; a picture needs a curve.
 Result<std::vector<std::string>> write_tables(const AnalyseOptions& options,
                                               const AnalysedSeries& points) {
   std::vector<Output> files;
   for (const std::string& path : options.outputs) {
-    if (path.ends_with(".csv")) {
+    const auto format = analysis_format_of(path);
+    OBVID_TRY(format);
+    if (*format == FileFormat::kSamples) {
       files.push_back({path, {}, series_report_csv(points.series, points.analysis)});
-    } else if (path.ends_with(".json")) {
+    } else if (*format == FileFormat::kContour) {
       files.push_back({path, {}, series_report_json(points.series, points.analysis)});
+    } else if (*format == FileFormat::kPage) {
+      files.push_back({path, {}, points_page(options, points)});
     } else {
       return error(ErrorCode::kBadOption, "points alone make no picture of a curve")
           .where(path)
-          .hint("use `obvid fit POINTS -o NAME.svg`; analyse writes .csv and .json");
+          .hint("use `obvid fit POINTS -o NAME.svg`; analyse writes .csv, .json and .html");
     }
   }
   return write_files(files, options.input);

@@ -11,8 +11,10 @@
 
 #include "element_table.h"
 #include "obvid/core/units.h"
+#include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/element_table.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
 #include "series_report.h"
@@ -190,35 +192,93 @@ std::string audit_report_json(const AnalysedDrawing& analysed) {
                     points ? series_report_json(points->series, points->analysis) : "");
 }
 
+/// The picture of the curve that is asked for, or of the longest.
+Result<std::string> audit_picture(const AnalyseOptions& options, const AnalysedDrawing& analysed) {
+  const CurveAudit& a = pictured(analysed.audits, analysed.asked);
+  ExportOptions titled;
+  titled.picture = {analysed.drawing.name + ": " + a.label, as_drawn(a)};
+  titled.plots = options.plots;
+  const auto drawn =
+      export_contour({a.contour, std::nullopt, a.certificate}, FileFormat::kPicture, titled);
+  OBVID_TRY(drawn);
+  return drawn->files.front().text;
+}
+
+Result<std::string> audit_page(const AnalyseOptions& options, const AnalysedDrawing& analysed) {
+  const auto& [drawing, audits, points, asked] = analysed;
+  ReportPage page;
+  page.title = drawing.name;
+  page.verdict = fmt::format("{} and {} of points", counted(audits.size(), "curve", "curves"),
+                             counted(drawing.series.size(), "series", "series"));
+  page.figures = {{"asked for", options.asked}, {"lengths in", drawing.units.text()}};
+  page.tables.push_back(
+      table_of_csv("curves", "Curves and series of points", drawing_csv(drawing, audits)));
+  if (!audits.empty()) {
+    auto picture = audit_picture(options, analysed);
+    OBVID_TRY(picture);
+    page.pictures.push_back(std::move(*picture));
+    const CurveAudit& a = pictured(audits, asked);
+    page.figures.emplace_back("picture", a.label);
+    const auto elements = elements_of(a);
+    if (elements) {
+      page.tables.push_back(table_of_csv("elements", "Elements", elements_csv(*elements, {})));
+    }
+    if (a.profile) {
+      page.tables.push_back(table_of_csv("profile", "Profile", profile_csv(*a.profile)));
+    }
+  }
+  if (points) {
+    page.tables.push_back(
+        table_of_csv("points", "Points", series_report_csv(points->series, points->analysis)));
+  }
+  return page_text(page);
+}
+
 Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& options,
                                                       const AnalysedDrawing& analysed) {
   const std::vector<CurveAudit>& audits = analysed.audits;
-  Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
-  OBVID_TRY(outputs);
-  for (Output& output : *outputs) {
+  std::vector<Output> outputs;
+  for (const std::string& path : options.outputs) {
+    const auto format = analysis_format_of(path);
+    OBVID_TRY(format);
+    outputs.push_back({path, *format, {}});
+  }
+  for (Output& output : outputs) {
     if (output.format == FileFormat::kSamples || output.format == FileFormat::kContour) {
       output.text = output.format == FileFormat::kSamples ? drawing_csv(analysed.drawing, audits)
                                                           : audit_report_json(analysed);
       continue;
     }
-    if (output.format != FileFormat::kPicture || audits.empty()) {
-      return error(ErrorCode::kBadOption, "analyse writes a picture of a curve (.svg), and tables")
-          .where(output.path)
-          .hint("name an .svg, .csv or .json");
+    if (output.format == FileFormat::kPage) {
+      auto page = audit_page(options, analysed);
+      OBVID_TRY(page);
+      output.text = std::move(*page);
+      continue;
     }
-    const CurveAudit& a = pictured(audits, analysed.asked);
-    ExportOptions titled;
-    titled.picture = {analysed.drawing.name + ": " + a.label, as_drawn(a)};
-    titled.plots = options.plots;
-    const auto drawn =
-        export_contour({a.contour, std::nullopt, a.certificate}, FileFormat::kPicture, titled);
-    OBVID_TRY(drawn);
-    output.text = drawn->files.front().text;
+    if (audits.empty()) {
+      return error(ErrorCode::kBadOption, "points alone make no picture of a curve")
+          .where(output.path)
+          .hint("name an .html, .csv or .json");
+    }
+    auto picture = audit_picture(options, analysed);
+    OBVID_TRY(picture);
+    output.text = std::move(*picture);
   }
-  return write_files(*outputs, options.input);
+  return write_files(outputs, options.input);
 }
 
 }  // namespace
+
+Result<FileFormat> analysis_format_of(const std::string& path) {
+  const auto format = format_of(path);
+  for (const FileFormat one :
+       {FileFormat::kPicture, FileFormat::kPage, FileFormat::kSamples, FileFormat::kContour}) {
+    if (format == one) return one;
+  }
+  return error(ErrorCode::kUnknownFormat, "analyse writes no such file")
+      .where(path)
+      .hint("possible are .svg (picture of a curve), .html (page), .csv and .json (tables)");
+}
 
 Result<AnalysedDrawing> analysed_drawing(const AnalyseOptions& options) {
   Result<Drawing> drawing = read_drawing(options.input, options.import.planes);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <optional>
@@ -226,6 +227,35 @@ Error from_cli(const CLI::ParseError& error, const std::string& name) {
     return bad_option(what, "", help);
   }
   return usage(what, "see obvid --help");
+}
+
+namespace {
+
+/// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+  const bool plain =
+      !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[]{}()<>|&;#~!") == std::string::npos;
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+std::string asked_for(const CLI::App& command, const std::string& program) {
+  constexpr std::array kLeftOut = {"--output", "--format", "--json",
+                                   "--csv",    "--quiet",  "--no-progress"};
+  std::string out = program;
+  for (const CLI::Option* option : command.get_options()) {
+    const bool left_out =
+        std::find(kLeftOut.begin(), kLeftOut.end(), option->get_name()) != kLeftOut.end();
+    if (option->count() == 0 || !option->nonpositional() || left_out) continue;
+    out += " " + option->get_name();
+    if (option->get_items_expected_max() == 0) continue;
+    for (const std::string& value : option->results()) out += " " + shell_word(value);
+  }
+  return out;
 }
 
 }  // namespace obvid

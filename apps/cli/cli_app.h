@@ -42,6 +42,10 @@ namespace obvid {
 void add_output(CLI::App& command, std::vector<std::string>& outputs, std::string& format,
                 const std::string& help, const char* fallback = "json");
 
+/// "obvid fit --noise 0.01": what was typed behind `program`, but for files and what merely
+/// concerns the terminal.
+[[nodiscard]] std::string asked_for(const CLI::App& command, const std::string& program);
+
 /// What stands below the options of a command: `text`, which may be empty, and the exit codes.
 [[nodiscard]] std::string with_exit_codes(const std::string& text);
 

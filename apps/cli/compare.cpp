@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "fit_report.h"
 #include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/internal/summary.h"
 #include "outputs.h"
@@ -155,7 +157,31 @@ std::string report_csv(const PointSeries&, const Comparison& compared) {
 /// What to write under a name: .svg picture, .csv or .json table.
 using Maker = std::function<std::string(const PointSeries&, const Comparison&)>;
 
-Result<Maker> maker_of(const std::string& path, const ShownCurvatures& shown) {
+std::string comparison_page(const PointSeries& series, const Comparison& compared,
+                            const ShownCurvatures& shown, const std::string& asked) {
+  ReportPage page;
+  page.title = series.name;
+  const auto proved = std::count_if(
+      compared.carriers.begin(), compared.carriers.end(),
+      [](const ComparedCarrier& row) { return !row.refusal && row.fit.certificate.proved; });
+  page.verdict = fmt::format("{} of {} carriers proved", proved, compared.carriers.size());
+  page.pictures.push_back(comparison_svg(series, compared, shown));
+  const Fit& spirals = compared.carriers.front().fit;
+  page.figures = {{"asked for", asked},
+                  {"lengths in", series.units.text()},
+                  {"points", std::to_string(spirals.contour.points.size())},
+                  {"tolerance", length_text(spirals.report.tolerance)}};
+  page.tables.push_back(table_of_csv("carriers", "Carriers", report_csv(series, compared)));
+  return page_text(page);
+}
+
+Result<Maker> maker_of(const std::string& path, const ShownCurvatures& shown,
+                       const std::string& asked) {
+  if (path.ends_with(".html")) {
+    return Maker([shown, asked](const PointSeries& series, const Comparison& compared) {
+      return comparison_page(series, compared, shown, asked);
+    });
+  }
   if (path.ends_with(".svg")) {
     return Maker([shown](const PointSeries& series, const Comparison& compared) {
       return comparison_svg(series, compared, shown);
@@ -165,7 +191,7 @@ Result<Maker> maker_of(const std::string& path, const ShownCurvatures& shown) {
   if (path.ends_with(".csv")) return Maker(&report_csv);
   return error(ErrorCode::kUnknownFormat, "no such format of a comparison")
       .where(path)
-      .hint("possible are .svg (picture), .csv and .json (tables)");
+      .hint("possible are .svg (picture), .html (page), .csv and .json (tables)");
 }
 
 }  // namespace
@@ -177,7 +203,7 @@ int run(const CompareOptions& options) {
   }
   std::vector<Maker> makers;
   for (const std::string& path : options.outputs) {
-    const Result<Maker> maker = maker_of(path, options.shown);
+    const Result<Maker> maker = maker_of(path, options.shown, options.asked);
     if (!maker) return report(maker.error());
     makers.push_back(*maker);
   }

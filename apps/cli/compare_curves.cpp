@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "obvid/core/files.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -146,7 +147,33 @@ std::string compared_text(const CurveComparison& compared) {
 
 using CurvesMaker = std::function<std::string(const CurveComparison&)>;
 
-Result<CurvesMaker> curves_maker(const std::string& path, std::optional<double> enlarge) {
+std::string curves_page(const CurveComparison& compared, const CompareOptions& options) {
+  ReportPage page;
+  std::vector<std::string> names;
+  for (const ComparedCurve& curve : compared.curves) names.push_back(curve.name);
+  page.title = listed(names);
+  page.verdict = fmt::format("compared with {}, along its normals, {} positive", names.front(),
+                             compared.outward ? "outward" : "to the left");
+  page.pictures.push_back(curves_svg(compared, options.enlarge));
+  page.figures = {{"asked for", options.asked}, {"lengths in", compared.units.text()}};
+  for (const CurveDeviation& one : compared.as_they_lie) {
+    const std::string label = "deviation of " + compared.curves[one.curve].name;
+    page.figures.emplace_back(label + ", root mean square",
+                              significant(one.root_mean_square, kCurveDigits));
+    if (one.largest) {
+      page.figures.emplace_back(label + ", largest",
+                                significant(*one.largest->deviation, kCurveDigits));
+    }
+  }
+  page.tables.push_back(table_of_csv("places", "Deviations at places", curves_csv(compared)));
+  return page_text(page);
+}
+
+Result<CurvesMaker> curves_maker(const std::string& path, const CompareOptions& options) {
+  const std::optional<double> enlarge = options.enlarge;
+  if (path.ends_with(".html")) {
+    return CurvesMaker([options](const CurveComparison& c) { return curves_page(c, options); });
+  }
   if (path.ends_with(".svg")) {
     return CurvesMaker([enlarge](const CurveComparison& c) { return curves_svg(c, enlarge); });
   }
@@ -154,7 +181,7 @@ Result<CurvesMaker> curves_maker(const std::string& path, std::optional<double> 
   if (path.ends_with(".csv")) return CurvesMaker(&curves_csv);
   return error(ErrorCode::kUnknownFormat, "no such format of a comparison")
       .where(path)
-      .hint("possible are .svg (picture), .csv (every place) and .json (table)");
+      .hint("possible are .svg (picture), .html (page), .csv (every place) and .json (table)");
 }
 
 /// Files of one name keep their folders.
@@ -177,7 +204,7 @@ int compare_several(const CompareOptions& options) {
   }
   std::vector<CurvesMaker> makers;
   for (const std::string& path : options.outputs) {
-    const auto maker = curves_maker(path, options.enlarge);
+    const auto maker = curves_maker(path, options);
     if (!maker) return report(maker.error());
     makers.push_back(*maker);
   }

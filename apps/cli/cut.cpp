@@ -9,6 +9,7 @@
 #include "obvid/core/files.h"
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/file_formats.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -60,6 +61,7 @@ Result<MadeCut> cut_from(const CutCommand& command, ProgressBar& bar) {
 std::string steps_table(const MadeCut& made) {
   Table table;
   table.column("order");
+  table.column("curve");
   table.column("outline", Table::Align::kLeft);
   table.column("tool", Table::Align::kLeft);
   table.column("start\nx");
@@ -68,7 +70,8 @@ std::string steps_table(const MadeCut& made) {
   table.column("left in\ncorners");
   std::size_t number = 0;
   for (const CutStep& step : made.program.steps) {
-    table.row({std::to_string(++number), made.outlines[step.outline].name,
+    table.row({std::to_string(++number), std::to_string(made.curves[step.outline] + 1),
+               made.outlines[step.outline].name,
                step.side == CutSide::kOn ? "on it" : to_string(step.side),
                significant(step.start.x), significant(step.start.y), significant(step.length),
                step.left_in_corners > 0.0 ? significant(step.left_in_corners, 4) : "-"});
@@ -76,7 +79,7 @@ std::string steps_table(const MadeCut& made) {
   return table.text();
 }
 
-std::string cut_text(const MadeCut& made, const std::vector<std::string>& files) {
+Facts cut_facts(const MadeCut& made) {
   const CutReport& r = made.program.report;
   const std::string unit = made.units.text();
   Facts facts;
@@ -97,8 +100,26 @@ std::string cut_text(const MadeCut& made, const std::vector<std::string>& files)
     facts.add("inner corners", fmt::format("the round tool leaves up to {} {} in them",
                                            significant(r.left_in_corners, 3), unit));
   }
+  return facts;
+}
+
+std::string cut_text(const MadeCut& made, const std::vector<std::string>& files) {
+  Facts facts = cut_facts(made);
   facts.add("written", listed(files));
   return facts.text();
+}
+
+std::string cut_page(const MadeCut& made, const CutCommand& command) {
+  const Sketch sketch = cut_sketch(made, command.job);
+  ReportPage page;
+  page.title = command.job.plan.name;
+  page.verdict = sketch.remarks.front();
+  page.pictures.push_back(sketch_svg(sketch));
+  page.figures = {{"asked for", command.asked}, {"lengths in", made.units.text()}};
+  const Facts facts = cut_facts(made);
+  page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
+  page.tables.push_back(table_of_csv("outlines", "Outlines", cut_csv(made)));
+  return page_text(page);
 }
 
 }  // namespace
@@ -113,6 +134,10 @@ int run(const CutCommand& command) {
   for (Output& output : *outputs) {
     if (output.format == FileFormat::kGcode) {
       output.text = made->program.text;
+    } else if (output.format == FileFormat::kPage) {
+      output.text = cut_page(*made, command);
+    } else if (output.format == FileFormat::kSamples) {
+      output.text = cut_csv(*made);
     } else {
       const Sketch sketch = cut_sketch(*made, command.job);
       output.text = output.format == FileFormat::kPicture ? sketch_svg(sketch) : sketch_dxf(sketch);

@@ -15,11 +15,12 @@ struct RawCut {
   CutValues values;
   FormatValues reading;
   std::string units, format;  ///< format: of what -o sends to standard output
-  bool no_progress = false;
+  bool csv = false, no_progress = false;
 };
 
 constexpr const char* kCutOutputHelp =
-    "File to write: .nc, .ngc, .gcode, .tap (G-code), .svg (picture), .dxf (drawing of the paths)";
+    "File to write: .nc, .ngc, .gcode, .tap (G-code), .svg (picture), .dxf (drawing of the paths), "
+    ".csv (table), .html (page with both)";
 
 /// Options that are one number each.
 class Numbers {
@@ -103,6 +104,9 @@ Result<Command> checked_cut(const CLI::App& app, RawCut& raw) {
   OBVID_TRY(set_import(raw.reading, command.import));
   OBVID_TRY(set_cut(raw.values, command.job));
   if (command.inputs.empty()) return fail(usage("cut needs a drawing", "see obvid cut --help"));
+  OBVID_TRY(settle_streams(command, raw.format, raw.csv, "nc"));
+  if (raw.csv) command.outputs.emplace_back("-.csv");
+  if (raw.csv) command.quiet = true;
   if (command.outputs.empty()) {
     return fail(usage("cut needs a file to write", "add -o part.nc"));
   }
@@ -112,7 +116,6 @@ Result<Command> checked_cut(const CLI::App& app, RawCut& raw) {
     command.job.units = std::move(*units);
   }
   command.job.plan.name = std::filesystem::path(command.inputs.front()).filename().string();
-  OBVID_TRY(settle_streams(command, raw.format, false, "nc"));
   command.progress = !raw.no_progress && !command.quiet && !command.json;
   return Command{command};
 }
@@ -143,6 +146,7 @@ Result<Command> parse_cut(int argc, const char* const* argv) {
   add_placement(app, raw.reading);
   app.add_option("--units", raw.units, "Unit of the drawing [as the file says; else mm]")
       ->type_name("NAME");
+  app.add_flag("--csv", raw.csv, "Table of outlines as CSV on standard output, as -o NAME.csv");
   app.add_flag("--json", raw.command.json, "Report as JSON on standard output");
   app.add_flag("-q,--quiet", raw.command.quiet, "No report and no progress bar");
   app.add_flag("--no-progress", raw.no_progress, "No progress bar");
@@ -163,6 +167,7 @@ Result<Command> parse_cut(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "cut"));
   }
+  raw.command.asked = asked_for(app, "obvid cut");
   return checked_cut(app, raw);
 }
 

@@ -15,6 +15,7 @@ struct CutCommand {
   std::vector<std::string> outputs;  ///< G-code, pictures
   ImportOptions import;
   CutJob job;
+  std::string asked;  ///< what was typed, for pages
   bool json = false;
   bool quiet = false;
   bool progress = true;

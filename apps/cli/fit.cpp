@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,16 @@ struct Outcome {
   int code = 0;
 };
 
+/// Of the curve: that in its drawing, or that of an airfoil; not that of its file.
+void set_name(const PointSeries& series, const FitOptions& options, ExportOptions& formats) {
+  const std::string file = std::filesystem::path(options.name()).filename().string();
+  if (!series.label.empty()) {
+    formats.name = series.label;
+  } else if (!series.name.empty() && series.name != file) {
+    formats.name = series.name;
+  }
+}
+
 Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, ProgressBar& bar) {
   const auto stop = [&](const Error& error) {
     bar.clear();
@@ -42,7 +53,7 @@ Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, Progress
   if (!series) return stop(series.error());
   if (options.units) take_units(*series, *options.units);
   formats.picture.name = series->name;
-  if (!series->label.empty()) formats.name = series->label;
+  set_name(*series, options, formats);
   Result<Fit> made = options.construction
                          ? fit_construction(*series, *options.construction, bar.progress())
                          : fit(*series, options.job, bar.progress());
@@ -111,7 +122,7 @@ Summary summary_of_fit(const FitOptions& all, const OneOf& one,
   }
   ExportOptions formats = options.formats;
   formats.picture.name = series->name;
-  if (!series->label.empty()) formats.name = series->label;
+  set_name(*series, options, formats);
   const auto wanted = outputs_of(outputs, options.input);
   if (!wanted) return failed(wanted.error());
   const auto written = write_contour(*made, *wanted, formats, options.input, out.warnings);

@@ -341,7 +341,7 @@ void add_readers(CLI::App& app, Raw& raw) {
       ->type_name("");
   add_output(analyse, raw.analyse.outputs, raw.format,
              "File to write: .svg picture of the curvature of a drawn curve, .csv the list of "
-             "curves or the table of points, .json the report");
+             "curves or the table of points, .json the report, .html a page with both");
   add_import(analyse, raw.formats);
   analyse.add_option("--units", raw.units, kUnitsHelp)->type_name("NAME");
   add_plot(analyse, raw.formats, "Pictures");
@@ -359,7 +359,7 @@ void add_region(CLI::App& app, Raw& raw) {
   region.add_option("INPUT", raw.region.input, kInputHelp);
   add_output(region, raw.region.outputs, raw.format,
              "File to write: .csv, .tex or .json the tables; .svg or .dxf the limiting arcs, "
-             "adjacent circles, tangents and triangles");
+             "adjacent circles, tangents and triangles; .html a page with both");
   region
       .add_option("--prefer", raw.construction.prefer,
                   "Tangents that are not given: fair (as fit chooses them) or centre (each in the "
@@ -413,8 +413,9 @@ void add_compare(CLI::App& app, Raw& raw) {
                   "and measured from the first")
       ->type_name("");
   add_output(compare, raw.compare.outputs, raw.format,
-             "File to write: .svg stacked curvature plots, .csv or .json the table; of several "
-             "files the curves with their deviations enlarged, .csv the deviation at every place");
+             "File to write: .svg stacked curvature plots, .csv or .json the table, .html a page "
+             "with both; of several files the curves with their deviations enlarged, .csv the "
+             "deviation at every place");
   compare
       .add_option("--align", raw.align,
                   "Of several airfoils: chord: measure them also after each has the chord of the "
@@ -576,32 +577,6 @@ Result<void> set_construction(Raw& raw) {
   return {};
 }
 
-/// A word as a shell takes it.
-std::string shell_word(const std::string& word) {
-  const bool plain =
-      !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[]{}()<>|&;#~!") == std::string::npos;
-  if (plain) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-/// "obvid fit --noise 0.01": what was typed but for files and what merely concerns the terminal.
-std::string asked_for(const CLI::App& command) {
-  constexpr std::array kLeftOut = {"--output", "--format", "--json",
-                                   "--csv",    "--quiet",  "--no-progress"};
-  std::string out = "obvid " + command.get_name();
-  for (const CLI::Option* option : command.get_options()) {
-    const bool left_out =
-        std::find(kLeftOut.begin(), kLeftOut.end(), option->get_name()) != kLeftOut.end();
-    if (option->count() == 0 || !option->nonpositional() || left_out) continue;
-    out += " " + option->get_name();
-    if (option->get_items_expected_max() == 0) continue;
-    for (const std::string& value : option->results()) out += " " + shell_word(value);
-  }
-  return out;
-}
-
 Result<Command> checked_fit(Raw& raw) {
   raw.fit.progress = !raw.no_progress;
   const auto along = direction_named(raw.along);
@@ -668,6 +643,7 @@ Result<Command> checked_compare(Raw& raw) {
   allow_two_points(raw.fit.job, raw.compare.import);
   raw.compare.progress =
       !raw.no_progress && !raw.compare.json && !raw.compare.csv && !raw.compare.quiet;
+  raw.compare.asked = raw.asked;
   return Command{raw.compare};
 }
 
@@ -696,6 +672,7 @@ Result<Command> checked_analyse(Raw& raw) {
   OBVID_TRY(set_plots(raw.formats, raw.analyse.plots));
   OBVID_TRY(set_units(raw.units, raw.analyse.units));
   OBVID_TRY(settle_streams(raw.analyse, raw.format, raw.analyse.csv));
+  raw.analyse.asked = raw.asked;
   OBVID_TRY(set_inputs(raw, raw.analyse, "analyse", "a file with points"));
   return Command{raw.analyse};
 }
@@ -709,6 +686,7 @@ Result<Command> checked_region(Raw& raw) {
   allow_two_points(raw.fit.job, raw.region.import);
   OBVID_TRY(set_units(raw.units, raw.region.units));
   OBVID_TRY(settle_streams(raw.region, raw.format, raw.region.csv));
+  raw.region.asked = raw.asked;
   OBVID_TRY(need(raw.region.input, "region", "a file with points"));
   return Command{raw.region};
 }
@@ -717,7 +695,7 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   OBVID_TRY(check_command(app));
   OBVID_TRY(check_all_extras(app));
   const std::string& name = app.get_subcommands().front()->get_name();
-  raw.asked = asked_for(*app.get_subcommands().front());
+  raw.asked = asked_for(*app.get_subcommands().front(), "obvid " + name);
   if (name == "fit") return checked_fit(raw);
   if (name == "analyse") return checked_analyse(raw);
   if (name == "convert") return checked_convert(raw);

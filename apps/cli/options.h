@@ -65,6 +65,7 @@ struct AnalyseOptions {
   std::vector<std::string> outputs;
   ImportOptions import;
   PicturePlots plots;
+  std::string asked;  ///< what was typed, for pages
   std::optional<Units> units;
   bool csv = false;
   bool json = false;
@@ -76,6 +77,7 @@ struct RegionOptions {
   std::vector<std::string> outputs;
   ImportOptions import;
   RegionJob job;
+  std::string asked;  ///< what was typed, for pages
   std::optional<Units> units;
   bool csv = false;
   bool json = false;
@@ -91,6 +93,7 @@ struct CompareOptions {
   ImportOptions import;
   std::vector<std::string> outputs;
   FitJob job;
+  std::string asked;  ///< what was typed, for pages
   std::optional<Units> units;
   bool csv = false;
   bool json = false;

@@ -250,7 +250,8 @@ int run(const RegionOptions& options) {
   std::vector<NamedFile> files;
   for (const std::string& path : options.outputs) {
     const std::string ending = std::filesystem::path(path).extension().string();
-    auto file = region_file(ending.empty() ? ending : ending.substr(1), *series, *region);
+    auto file = region_file(ending.empty() ? ending : ending.substr(1), *series, *region, {},
+                            options.asked);
     if (!file) {
       Error error = file.error();
       error.where = path;

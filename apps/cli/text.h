@@ -28,6 +28,9 @@ class Facts {
  public:
   void add(std::string label, std::string value);
   [[nodiscard]] std::string text() const;
+  [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& lines() const {
+    return lines_;
+  }
 
  private:
   std::vector<std::pair<std::string, std::string>> lines_;

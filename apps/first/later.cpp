@@ -5,6 +5,7 @@
 #include "obvid/alignment/profile.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/exchange/internal/dxf/read.h"
+#include "obvid/exchange/internal/gcode/path.h"
 #include "obvid/exchange/internal/geo/geojson.h"
 #include "obvid/exchange/internal/geo/gpx.h"
 #include "obvid/exchange/internal/points/airfoil.h"
@@ -16,6 +17,7 @@
 #include "obvid/io/contour_json.h"
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_sections.h"
+#include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/internal/mesh_sections.h"
 #include "obvid/pipeline/space_fit.h"
@@ -87,6 +89,8 @@ OBVID_LATER(Result<std::string> cad_text(const std::vector<CadCurve>&, const Cad
 OBVID_LATER(std::string dxf_unit(const Units&))
 OBVID_LATER(Result<DxfText> dxf_text(const Contour&, const DxfOptions&, Watch*))
 OBVID_LATER(Result<GcodeText> gcode_text(const Contour&, const GcodeOptions&, Watch*))
+OBVID_LATER(std::vector<Piece> exchange::whole_arcs(const std::vector<Piece>&))
+OBVID_LATER(std::string profile_csv(const VerticalProfile&))
 OBVID_LATER(std::string_view landxml_unit(std::string_view))
 OBVID_LATER(Result<std::string> landxml_text(const Contour&, const LandXmlOptions&))
 OBVID_LATER(Result<std::string> opendrive_text(const Contour&, const OpenDriveOptions&))

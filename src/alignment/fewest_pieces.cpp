@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "obvid/contour/clothoids.h"
 #include "obvid/curve/internal/clothoid.h"
@@ -26,6 +27,9 @@ constexpr double kSameState = 1e-7;  ///< offsets and slopes, likewise, that cou
 /// A clothoid of the search has to be longer than asked for by this part: joints move afterwards.
 constexpr double kSpareLength = 1e-3;
 constexpr double kFarOff = 0.3;  ///< rad: headings farther from those of the chords make no sense
+/// Of the way to the joints beside a corner: what rounds it takes no more on either side.
+constexpr double kRounded = 0.4;
+constexpr int kHalvings = 12;  ///< of that way, until what rounds a corner passes the points
 
 /// A place of a joint; deviations are measured from its point and heading.
 struct Place {
@@ -43,10 +47,24 @@ struct Source {
   std::size_t place = 0, polygon = 0;
 };
 
+/// How one comes from a place to another.
+enum class Way {
+  kElement,
+  kCorner,    ///< from a point to the next one by two grades that meet between them, below ...
+  kCornerUp,  ///< ... or above
+};
+
 /// Convex: corners in order, and how one came there.
 struct Polygon {
   std::vector<State> corners;
   Source from;
+  Way way = Way::kElement;
+};
+
+/// What as many elements lead to.
+struct Layer {
+  std::vector<Source> sources;
+  std::size_t end = 0;  ///< places before this one are reached
 };
 
 double area_of(const std::vector<State>& corners) {
@@ -62,7 +80,11 @@ class Search {
  public:
   Search(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
          const AlignmentOptions& options, const Sought& sought)
-      : points_(points), tolerance_(tolerance), options_(options), sought_(sought) {
+      : points_(points),
+        tolerance_(tolerance),
+        options_(options),
+        sought_(sought),
+        borne_(grades_borne_by(points, tolerance, sought)) {
     set_places();
   }
 
@@ -70,30 +92,29 @@ class Search {
     const std::size_t last = places_.size() - 1;
     reached_.resize(places_.size());
     reached_[0].push_back({start_polygon(), {}});
-    std::size_t first = 0, end = 1;  // places reached by the last clothoid
-    while (end <= last) {
+    Layer layer{{{0, 0}}, 1};
+    while (layer.end <= last) {
       if (auto on = tell(run, "fewest elements",
-                         static_cast<double>(end) / static_cast<double>(last + 1));
+                         static_cast<double>(layer.end) / static_cast<double>(last + 1));
           !on) {
         return fail(on.error());
       }
-      const auto farthest = advance(first, end, run);
-      OBVID_TRY(farthest);
-      if (*farthest < end) break;
-      first = end;
-      end = *farthest + 1;
+      auto next = advance(layer, run);
+      OBVID_TRY(next);
+      layer = std::move(*next);
+      if (layer.sources.empty()) break;
     }
-    if (end <= last || reached_[last].empty()) {
+    const auto goal = std::find_if(layer.sources.begin(), layer.sources.end(),
+                                   [&](const Source& s) { return s.place == last; });
+    if (goal == layer.sources.end()) {
       return error(ErrorCode::kNoSpiral, sought_.plane == Plane::kMap
                                              ? "no elements within the tolerance were found"
                                              : "no grades and vertical curves within the tolerance "
                                                "were found")
-          .hint(options_.least_length > 0.0 || options_.least_radius > 0.0
-                    ? "allow a larger tolerance, or shorter elements and smaller radii"
-                    : "allow a larger tolerance")
-          .point(static_cast<std::ptrdiff_t>(places_[std::min(end, last) - 1].at));
+          .hint(advice_to_allow_more(options_))
+          .point(static_cast<std::ptrdiff_t>(places_[std::min(layer.end, last) - 1].at));
     }
-    return nodes();
+    return nodes(*goal);
   }
 
  private:
@@ -111,6 +132,7 @@ class Search {
           2.0 * heading_of(points_[n - 1] - points_[n - 2], theta_[n - 2]) - theta_[n - 2];
     }
     for (std::size_t i = 0; i + 1 < n; ++i) {
+      place_of_.push_back(places_.size());
       places_.push_back({static_cast<double>(i), points_[i], theta_[i]});
       const auto piece =
           piece_between(sought_.plane, points_[i], theta_[i], points_[i + 1], theta_[i + 1]);
@@ -121,6 +143,7 @@ class Search {
             {static_cast<double>(i) + part, at.point, heading_of(at.direction, theta_[i])});
       }
     }
+    place_of_.push_back(places_.size());
     places_.push_back({static_cast<double>(n - 1), points_[n - 1], theta_[n - 1]});
     along_ = {0.0};
     for (std::size_t k = 1; k < places_.size(); ++k) {
@@ -155,7 +178,50 @@ class Search {
   std::vector<State> start_polygon() const {
     const double farthest = sought_.plane == Plane::kMap ? kFarOff : kBox * eps_ / unit_;
     const double e = tolerance_.front() / eps_, s = farthest * unit_ / eps_;
-    return {{-e, -s}, {e, -s}, {e, s}, {-e, s}};
+    ValueRange slopes{-s, s};
+    if (sought_.corners) slopes = common(slopes, borne_slopes(0));
+    return {{-e, slopes.low}, {e, slopes.low}, {e, slopes.high}, {-e, slopes.high}};
+  }
+
+  /// Slopes at a place that the heights bear.
+  [[nodiscard]] ValueRange borne_slopes(std::size_t place) const {
+    const Place& at = places_[place];
+    const ValueRange grades = borne_.at(at.point.x);
+    return {(grades.low - at.theta) * unit_ / eps_, (grades.high - at.theta) * unit_ / eps_};
+  }
+
+  /// Without them what passes a corner swings beyond it, where a few tolerances are room for that.
+  void add_borne_slopes(std::size_t place) {
+    const ValueRange slopes = borne_slopes(place);
+    const double size = std::max({1.0, std::abs(slopes.low), std::abs(slopes.high)});
+    rows_.push_back({{0.0, 0.0, 0.0, 1.0 / size}, slopes.high / size});
+    rows_.push_back({{0.0, 0.0, 0.0, -1.0 / size}, -slopes.low / size});
+  }
+
+  /// Two grades that meet between points i and j = i + 1: rows in their heights and slopes there.
+  void set_rows_of_corner(std::size_t i, std::size_t j, Way way) {
+    cached_i_ = static_cast<std::size_t>(-1);
+    rows_.clear();
+    const Place &a = places_[i], &b = places_[j];
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+      const Place& at = side == 0 ? a : b;
+      const double most = tolerance_[static_cast<std::size_t>(at.at)] / eps_;
+      for (const double sign : {1.0, -1.0}) {
+        HalfSpace row;
+        row.a[2 * side] = sign;
+        row.b = most;
+        rows_.push_back(row);
+      }
+    }
+    const double length = b.point.x - a.point.x, slope = length / unit_;
+    const double size = std::max(1.0, slope), below = way == Way::kCorner ? 1.0 : -1.0;
+    // in a valley the first grade is the higher one at its own point, the second one at its
+    const double rise = b.point.y - a.point.y;
+    rows_.push_back({{-below / size, 0.0, below / size, -below * slope / size},
+                     below * (length * b.theta - rise) / (eps_ * size)});
+    rows_.push_back({{below / size, below * slope / size, -below / size, 0.0},
+                     below * (rise - length * a.theta) / (eps_ * size)});
+    add_borne_slopes(j);
   }
 
   /// What keeps a clothoid from place i to place j within the tolerances of the points between:
@@ -210,6 +276,7 @@ class Search {
     }
     if (options_.least_radius > 0.0) add_curvature_rows(*piece);
     if (sought_.constant) add_constant_rows(*piece);
+    if (sought_.corners) add_borne_slopes(j);
     valid_ = true;
     return &rows_;
   }
@@ -266,11 +333,14 @@ class Search {
   }
 
   /// Makes the program of the clothoids from there to place j; false: there are none.
-  bool set_program(const Source& from, std::size_t j) {
-    const auto* between = rows_between(from.place, j);
-    if (!between) return false;
+  bool set_program(const Source& from, std::size_t j, Way way = Way::kElement) {
+    if (way == Way::kElement) {
+      if (rows_between(from.place, j) == nullptr) return false;
+    } else {
+      set_rows_of_corner(from.place, j, way);
+    }
     program_.clear();
-    program_.add(*between);
+    program_.add(rows_);
     add_polygon(reached_[from.place][from.polygon].corners);
     program_.shuffle();
     return true;
@@ -300,47 +370,91 @@ class Search {
     return good;
   }
 
-  /// Places behind `end` that one clothoid reaches from one in [first, end); the farthest.
-  Result<std::size_t> advance(std::size_t first, std::size_t end, const RunContext& run) {
-    struct Reach {
-      Source from;
-      std::size_t to = 0;
-    };
+  struct Reach {
+    Source from;
+    std::size_t to = 0;
+  };
+
+  /// Places behind those of a layer that one clothoid reaches from there, and corners beside them.
+  Result<Layer> advance(const Layer& layer, const RunContext& run) {
     std::vector<Reach> reaches;
     std::size_t farthest = 0, guess = 0;
-    for (std::size_t i = first; i < end; ++i) {
+    for (const Source& from : layer.sources) {
       OBVID_TRY(may_go_on(run));
-      for (std::size_t p = 0; p < reached_[i].size(); ++p) {
-        const std::size_t to = reach_of({i, p}, guess);
-        guess = to;
-        if (to >= end) reaches.push_back({{i, p}, to});
-        farthest = std::max(farthest, to);
-      }
+      const std::size_t to = reach_of(from, guess);
+      guess = to;
+      if (to >= layer.end) reaches.push_back({from, to});
+      farthest = std::max(farthest, to);
     }
-    for (std::size_t j = end; j <= farthest; ++j) {
+    Layer out;
+    out.end = std::max(layer.end, farthest + 1);
+    for (std::size_t j = layer.end; j <= farthest; ++j) {
       OBVID_TRY(may_go_on(run));
-      std::vector<Source> from;
-      for (const Reach& r : reaches) {
-        if (r.to >= j && is_long_enough(r.from.place, j)) from.push_back(r.from);
-      }
-      const std::size_t stride = std::max<std::size_t>(1, from.size() / kPredecessors);
       std::vector<Polygon> found;
-      for (std::size_t k = 0; k < from.size(); k += stride) {
-        auto polygon = polygon_at(from[k], j);
-        if (polygon) found.push_back(std::move(*polygon));
-      }
+      for (const bool behind_corner : {false, true}) add_elements(reaches, j, behind_corner, found);
       std::stable_sort(found.begin(), found.end(), [](const Polygon& a, const Polygon& b) {
         return area_of(a.corners) > area_of(b.corners);
       });
       if (found.size() > kPolygons) found.resize(kPolygons);
-      reached_[j] = std::move(found);
+      for (Polygon& polygon : found) keep(j, std::move(polygon), out);
     }
-    return farthest;
+    if (sought_.corners) add_corners(layer, out);
+    return out;
   }
 
-  std::optional<Polygon> polygon_at(const Source& from, std::size_t j) {
-    if (!is_long_enough(from.place, j) || !set_program(from, j)) return std::nullopt;
-    Polygon out{corners_of_set(2), from};
+  void keep(std::size_t place, Polygon polygon, Layer& layer) {
+    layer.sources.push_back({place, reached_[place].size()});
+    reached_[place].push_back(std::move(polygon));
+  }
+
+  [[nodiscard]] const Polygon& polygon_of(const Source& source) const {
+    return reached_[source.place][source.polygon];
+  }
+
+  /// What elements from some of the places lead to at place j.
+  void add_elements(const std::vector<Reach>& reaches, std::size_t j, bool behind_corner,
+                    std::vector<Polygon>& found) {
+    std::vector<Source> from;
+    for (const Reach& r : reaches) {
+      if ((polygon_of(r.from).way != Way::kElement) != behind_corner) continue;
+      if (r.to >= j && is_long_enough(r.from.place, j)) from.push_back(r.from);
+    }
+    const std::size_t stride = std::max<std::size_t>(1, from.size() / kPredecessors);
+    for (std::size_t k = 0; k < from.size(); k += stride) {
+      auto polygon = polygon_at(from[k], j);
+      if (polygon) found.push_back(std::move(*polygon));
+    }
+  }
+
+  /// Corners behind elements of a layer: to the next point, which is behind none of its own. The
+  /// widest above and below. None at the ends: there a grade more would say nothing.
+  void add_corners(const Layer& layer, Layer& next) {
+    for (auto from = layer.sources.begin(); from != layer.sources.end();) {
+      const std::size_t place = from->place;
+      const auto point = static_cast<std::size_t>(places_[place].at);
+      std::array<std::optional<Polygon>, 2> widest;
+      for (; from != layer.sources.end() && from->place == place; ++from) {
+        const bool inside = place > 0 && point + 2 < points_.size() && place_of_[point] == place;
+        if (!inside || polygon_of(*from).way != Way::kElement) continue;
+        for (std::size_t k = 0; k < widest.size(); ++k) {
+          const Way way = k == 0 ? Way::kCorner : Way::kCornerUp;
+          auto found = polygon_at(*from, place_of_[point + 1], way);
+          if (!found) continue;
+          if (!widest[k] || area_of(found->corners) > area_of(widest[k]->corners)) {
+            widest[k] = std::move(found);
+          }
+        }
+      }
+      for (auto& one : widest) {
+        if (one) keep(place_of_[point + 1], std::move(*one), next);
+      }
+    }
+  }
+
+  std::optional<Polygon> polygon_at(const Source& from, std::size_t j, Way way = Way::kElement) {
+    if (way == Way::kElement && !is_long_enough(from.place, j)) return std::nullopt;
+    if (!set_program(from, j, way)) return std::nullopt;
+    Polygon out{corners_of_set(2), from, way};
     // nothing goes on from the last place: there a segment will do
     const bool is_last = j + 1 == places_.size();
     if (out.corners.empty() || (!is_last && !(area_of(out.corners) > 0.0))) return std::nullopt;
@@ -406,14 +520,17 @@ class Search {
             p.theta + eps_ / unit_ * s.slope};
   }
 
-  Result<std::vector<Node>> nodes() {
-    std::size_t place = places_.size() - 1;
-    std::size_t polygon = 0;
+  std::vector<Node> nodes(const Source& goal) {
+    std::size_t place = goal.place;
+    std::size_t polygon = goal.polygon;
     State state = middle_of(reached_[place][polygon].corners);
     std::vector<Node> out = {node_at(place, state)};
+    std::vector<std::size_t> corners;  // nodes, from the end on, behind a corner
     while (place > 0) {
       const Source from = reached_[place][polygon].from;
-      set_program(from, place);
+      const Way way = reached_[place][polygon].way;
+      if (way != Way::kElement) corners.push_back(out.size() - 1);
+      set_program(from, place, way);
       for (const int sign : {1, -1}) {  // from there to this very state
         for (std::size_t k = 2; k < kUnknowns; ++k) {
           HalfSpace fixed;
@@ -429,16 +546,63 @@ class Search {
       out.push_back(node_at(place, state));
     }
     std::reverse(out.begin(), out.end());
+    const std::vector<Node> sharp = out;
+    for (const std::size_t k : corners) round_corner(sharp, out.size() - 2 - k, out);
     return out;
+  }
+
+  /// Rounds the corner between the grades of nodes k and k + 1, of those as they were, by a
+  /// parabola that passes the points.
+  void round_corner(const std::vector<Node>& sharp, std::size_t k, std::vector<Node>& out) const {
+    const Node &a = sharp[k], &b = sharp[k + 1];
+    const double bend = b.theta - a.theta;
+    const double length = b.point.x - a.point.x;
+    const double from_a = (b.theta * length - (b.point.y - a.point.y)) / bend;
+    const double x = a.point.x + (bend == 0.0 ? 0.5 * length : std::clamp(from_a, 0.0, length));
+    const Vec2 corner{x, a.point.y + a.theta * (x - a.point.x)};
+    double half = kRounded * std::min(x - sharp[k - 1].point.x, sharp[k + 2].point.x - x);
+    for (int i = 0; i < kHalvings && !passes(corner, a.theta, b.theta, half); ++i) half *= 0.5;
+    half = std::max(half, (0.5 + kSpareLength) * options_.least_length);
+    const auto node = [&](double way, double theta) {
+      const Vec2 at = corner + way * Vec2{1.0, theta};
+      return Node{place_at(at.x), at, theta};
+    };
+    out[k] = node(-half, a.theta);
+    out[k + 1] = node(half, b.theta);
+  }
+
+  /// Whether the parabola that leaves grade `theta0` by `half` before a corner passes the points.
+  [[nodiscard]] bool passes(Vec2 corner, double theta0, double theta1, double half) const {
+    const auto before = [](const Vec2& p, double x) { return p.x < x; };
+    auto p = std::lower_bound(points_.begin(), points_.end(), corner.x - half, before);
+    for (; p != points_.end() && p->x <= corner.x + half; ++p) {
+      const double way = p->x - corner.x, along = half + way;
+      const double height =
+          corner.y + theta0 * way + (theta1 - theta0) * along * along / (4.0 * half);
+      if (std::abs(p->y - height) > tolerance_[static_cast<std::size_t>(p - points_.begin())]) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The place at a station, in intervals of the points.
+  [[nodiscard]] double place_at(double station) const {
+    const auto behind = std::upper_bound(points_.begin() + 1, points_.end() - 1, station,
+                                         [](double x, const Vec2& p) { return x < p.x; });
+    const Vec2 a = *std::prev(behind), b = *behind;
+    return static_cast<double>(behind - points_.begin() - 1) + (station - a.x) / (b.x - a.x);
   }
 
   const std::vector<Vec2>& points_;
   const std::vector<double>& tolerance_;
   const AlignmentOptions& options_;
   const Sought sought_;
+  const BorneGrades borne_;
   std::vector<double> theta_;
   std::vector<Place> places_;
-  std::vector<double> along_;  ///< length of the chords before a place
+  std::vector<std::size_t> place_of_;  ///< each point
+  std::vector<double> along_;          ///< length of the chords before a place
   double unit_ = 1.0, eps_ = 1.0;
   std::vector<std::vector<Polygon>> reached_;
   std::vector<HalfSpace> rows_;
@@ -461,6 +625,22 @@ std::optional<ClothoidPiece> piece_between(Plane plane, Vec2 start, double theta
                        (6.0 * slope - 4.0 * theta0 - 2.0 * theta1) / length,
                        (2.0 * theta0 + 4.0 * theta1 - 6.0 * slope) / length,
                        length};
+}
+
+std::string advice_to_allow_more(const AlignmentOptions& options) {
+  std::string out = "allow a larger tolerance";
+  if (options.least_length > 0.0) out += ", or shorter elements";
+  if (options.least_radius > 0.0) out += ", or smaller radii";
+  return out;
+}
+
+BorneGrades grades_borne_by(std::vector<Vec2> points, std::vector<double> tolerance,
+                            const Sought& sought) {
+  if (sought.lap.x > 0.0) {
+    points.pop_back();
+    tolerance.pop_back();
+  }
+  return {std::move(points), std::move(tolerance), sought.lap.x};
 }
 
 Result<std::vector<Node>> fewest_pieces(const std::vector<Vec2>& points,

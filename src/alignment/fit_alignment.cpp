@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fewest_pieces.h"
 #include "found_chain.h"
 #include "obvid/alignment/alignment.h"
 
@@ -67,7 +68,7 @@ Result<void> keeps_limits(const Alignment& found, const AlignmentOptions& option
     return fail(error(ErrorCode::kToleranceNotReached,
                       long_enough ? "an element was found with a smaller radius only"
                                   : "an element was found with a smaller length only")
-                    .hint("allow a larger tolerance, or shorter elements and smaller radii")
+                    .hint(advice_to_allow_more(options))
                     .value(long_enough ? 1.0 / std::max(std::abs(e.start.kappa), std::abs(e.kappa1))
                                        : e.length));
   }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "found_chain.h"
+#include "obvid/alignment/internal/borne_grades.h"
 #include "obvid/alignment/profile.h"
 
 namespace obvid {
@@ -116,6 +119,28 @@ VerticalProfile begun_at(const VerticalProfile& profile, double begin, double la
   return out;
 }
 
+struct Candidate {
+  VerticalProfile profile;
+  std::size_t humps = 0;
+
+  /// The least is the best.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> rank() const {
+    return {humps, profile.elements.size()};
+  }
+};
+
+Result<Candidate> candidate(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
+                            const AlignmentOptions& limits, const Sought& sought,
+                            const ProfileOptions& options, const RunContext& run) {
+  const auto found = find_chain(points, tolerance, limits, sought, run);
+  OBVID_TRY(found);
+  Candidate out;
+  out.profile = profile_of(*found, options.curves, tolerance);
+  OBVID_TRY(keeps_length(out.profile, found->chain, options.least_length));
+  out.humps = unborne_grades(out.profile, BorneGrades(points, tolerance, options.lap)).size();
+  return out;
+}
+
 Result<void> check_stations(const std::vector<Vec2>& points, const ProfileOptions& options) {
   if (!(options.lap >= 0.0 && std::isfinite(options.lap) && std::isfinite(options.begin))) {
     return error(ErrorCode::kBadOption, "the lap of a profile must be 0 or more")
@@ -148,13 +173,24 @@ Result<VerticalProfile> fit_profile(const std::vector<Vec2>& points,
   limits.least_length = options.least_length;
   limits.closed = options.lap > 0.0;
   const bool arcs = options.curves == ProfileCurves::kArcs;
-  const alignment::Sought sought{
-      arcs ? alignment::Plane::kMap : alignment::Plane::kGraph, true, {options.lap, 0.0}};
-  const auto found = alignment::find_chain(points, tolerance, limits, sought, run);
-  OBVID_TRY(found);
-  VerticalProfile out = alignment::profile_of(*found, options.curves, tolerance);
-  OBVID_TRY(alignment::keeps_length(out, found->chain, options.least_length));
-  return limits.closed ? alignment::begun_at(out, options.begin, options.lap) : out;
+  alignment::Sought sought{
+      arcs ? alignment::Plane::kMap : alignment::Plane::kGraph, true, {options.lap, 0.0}, true};
+  std::optional<alignment::Candidate> best;
+  std::optional<Error> refused;
+  for (const bool corners : {true, false}) {
+    sought.corners = corners;
+    auto found = alignment::candidate(points, tolerance, limits, sought, options, run);
+    if (!found) {
+      if (found.error().code == ErrorCode::kCancelled) return fail(found.error());
+      refused = found.error();
+      continue;
+    }
+    if (!best || found->rank() < best->rank()) best = std::move(*found);
+    if (best->humps == 0) break;
+  }
+  if (!best) return fail(*refused);
+  VerticalProfile& out = best->profile;
+  return limits.closed ? alignment::begun_at(out, options.begin, options.lap) : std::move(out);
 }
 
 ProfilePlace profile_at(const VerticalProfile& profile, double station) {

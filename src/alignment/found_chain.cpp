@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fewest_pieces.h"
+#include "obvid/alignment/internal/borne_grades.h"
 #include "obvid/alignment/internal/transition_law.h"
 #include "whole_circle.h"
 
@@ -17,9 +18,11 @@ namespace obvid::alignment {
 namespace {
 
 constexpr std::size_t kBeside = 3;   ///< elements to both sides that move with one that is changed
+constexpr std::size_t kBridged = 3;  ///< elements that one vertical curve takes the place of
 constexpr std::size_t kWindow = 12;  ///< elements that are fitted at once
 constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elements get no shorter
-constexpr double kHopeless = 4.0;      ///< estimated squares over the most that there can be
+constexpr double kOfShortest = 0.5;  ///< of the shortest element of a search with corners: likewise
+constexpr double kHopeless = 4.0;    ///< estimated squares over the most that there can be
 /// Largest offset over its tolerance after least squares from which no higher power comes back.
 constexpr double kHopelessOffset = 3.0;
 constexpr int kPasses = 4;  ///< over all conditions
@@ -56,8 +59,14 @@ class Simplifier {
       const Vec2 chord = points_[i] - points_[i - 1];
       length += chain_.plane == Plane::kMap ? norm(chord) : chord.x;
     }
-    least_length_ = std::max(kLeastLength * length / static_cast<double>(points_.size() - 1),
-                             options.least_length);
+    double least = kLeastLength * length / static_cast<double>(points_.size() - 1);
+    if (sought.corners) {
+      borne_ = grades_borne_by(points_, tolerance_, sought);
+      // what rounds a corner is as short as the tolerance makes it
+      const double shortest = *std::min_element(chain_.length.begin(), chain_.length.end());
+      least = std::min(least, kOfShortest * shortest);
+    }
+    least_length_ = std::max(least, options.least_length);
     if (options.least_radius > 0.0) largest_curvature_ = 1.0 / options.least_radius;
     if (without_steps_) {
       for (double& one : tolerance_) one *= kBeforeTransitions;
@@ -346,11 +355,31 @@ class Simplifier {
   }
 
   /// Whether its elements, fitted, pass its points.
-  static bool fits(Window& window) {
+  bool fits(Window& window) const {
     if (window.points.empty()) return false;
     const Fitted fitted =
         fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
-    return fitted.largest <= 1.0 && transitions_exist(window.chain);
+    return fitted.largest <= 1.0 && transitions_exist(window.chain) && is_borne(window.chain);
+  }
+
+  static bool passes_as_it_is(const Window& window) {
+    std::vector<Foot> feet = window.feet;
+    find_feet(window.chain, window.points, feet);
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      if (!(std::abs(feet[i].offset) <= window.tolerance[i])) return false;
+    }
+    return true;
+  }
+
+  /// Whether the points bear the grades at all joints of a profile.
+  [[nodiscard]] bool is_borne(const Chain& chain) const {
+    if (!borne_) return true;
+    for (const Element& joint : chain.joints()) {
+      const double grade = chain.plane == Plane::kMap ? std::tan(joint.theta) : joint.theta;
+      const ValueRange borne = borne_->at(joint.point.x);
+      if (!(borne.low <= grade && grade <= borne.high)) return false;
+    }
+    return true;
   }
 
   [[nodiscard]] static bool transitions_exist(const Chain& chain) {
@@ -392,9 +421,11 @@ class Simplifier {
       Window window = cut(chain_, first, last);
       if (meant != nullptr && last < chain_.size()) window.held.end = (*meant)[last];
       if (window.points.empty()) continue;
+      const bool was_good = borne_ && is_borne(window.chain) && passes_as_it_is(window);
       const Fitted fitted =
           fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
-      if (std::isfinite(fitted.largest) && transitions_exist(window.chain)) {
+      if (std::isfinite(fitted.largest) && transitions_exist(window.chain) &&
+          (!was_good || is_borne(window.chain))) {
         put_back(window, chain_);
       }
       if (last == chain_.size()) break;
@@ -409,9 +440,62 @@ class Simplifier {
     for (std::size_t k = 0; k + 1 < chain_.size();) {
       const double done = static_cast<double>(k) / static_cast<double>(chain_.size());
       OBVID_TRY(tell(run, "fewer elements", done));
-      if (!merge(k)) ++k;
+      if (!merge(k) && !(borne_ && bridge(k))) ++k;
     }
     return {};
+  }
+
+  /// Element k and the next one, or the next two, of a profile as one curve between the tangents
+  /// before and behind, about where they meet: as one of the two it would begin too far off.
+  bool bridge(std::size_t k) {
+    for (std::size_t count = 2; count <= kBridged; ++count) {
+      if (k > 0 && k + count < chain_.size() && bridge(k, count)) return true;
+    }
+    return false;
+  }
+
+  bool bridge(std::size_t k, std::size_t count) {
+    const std::vector<Element> joints = chain_.joints();
+    const Element &a = joints[k], &b = joints[k + count];
+    const Vec2 before = forward(chain_.plane, a.theta), behind = forward(chain_.plane, b.theta);
+    const Vec2 chord = b.point - a.point;
+    const double to_corner = cross(chord, behind) / cross(before, behind);
+    const double from_corner = cross(before, chord) / cross(before, behind);
+    if (!(to_corner > 0.0 && from_corner > 0.0)) return false;
+    // the points decide; it has to begin at a length from which the fit finds its own
+    for (const double half : {std::min(to_corner, from_corner), std::sqrt(to_corner * from_corner),
+                              0.5 * (to_corner + from_corner)}) {
+      if (put_curve(k, count, to_corner - half, from_corner - half, 2.0 * half)) return true;
+    }
+    return false;
+  }
+
+  /// One curve in the place of `count` elements: those beside them grow, or shrink.
+  bool put_curve(std::size_t k, std::size_t count, double before, double behind, double length) {
+    const std::vector<Element> joints = chain_.joints();
+    Chain next = chain_;
+    const auto at = static_cast<std::ptrdiff_t>(k);
+    const auto last = at + static_cast<std::ptrdiff_t>(count);
+    next.length[k - 1] += before;
+    next.length[k + count] += behind;
+    if (std::min(next.length[k - 1], next.length[k + count]) < least_length_) return false;
+    next.length[k] = length;
+    next.length.erase(next.length.begin() + at + 1, next.length.begin() + last);
+    const int number = static_cast<int>(next.kappa.size());
+    next.kappa.push_back(turn_between(chain_.plane, joints[k].theta, joints[k + count].theta) /
+                         length);
+    next.ends[k] = {number, number};
+    next.ends.erase(next.ends.begin() + at + 1, next.ends.begin() + last);
+    next.law.erase(next.law.begin() + at + 1, next.law.begin() + last);
+    std::vector<Foot> feet = feet_;
+    for (Foot& foot : feet) {
+      if (foot.element <= k) continue;
+      foot.element = std::max(k, foot.element - std::min(foot.element, count - 1));
+    }
+    const std::size_t first = k - std::min(k, kBeside);
+    const std::size_t end = std::min(k + kBeside + 1, next.size());
+    Window window = cut(next, feet, first, end, joints, end + count - 1);
+    return accept(std::move(next), std::move(feet), std::move(window));
   }
 
   /// Element k and the next one as one: begun as the longer one, or from end to end.
@@ -821,10 +905,11 @@ class Simplifier {
   std::vector<double> tolerance_;
   Transition transitions_ = Transition::kClothoid;
   bool without_steps_ = false;
-  bool constant_ = false;        ///< curvature of each element
-  bool closed_ = false;          ///< the pose at the end is that at the start, and stays
-  Vec2 lap_;                     ///< from the start to the end
-  std::size_t first_given_ = 0;  ///< number, as given, of the first point
+  bool constant_ = false;             ///< curvature of each element
+  std::optional<BorneGrades> borne_;  ///< what grades have to be
+  bool closed_ = false;               ///< the pose at the end is that at the start, and stays
+  Vec2 lap_;                          ///< from the start to the end
+  std::size_t first_given_ = 0;       ///< number, as given, of the first point
   Chain chain_;
   std::vector<Foot> feet_;
   double least_length_ = 0.0;
@@ -890,8 +975,23 @@ constexpr std::array kAttempts = {Attempt{1.0, 0.0},  Attempt{1.0, 0.5},  Attemp
                                   Attempt{0.1, 0.5}};
 
 /// Points beyond which there is one search: another one of that many takes a minute, and chords are
-/// short.
+/// short. Not of profiles: that of as many heights takes a second.
 constexpr std::size_t kMostSearchedAgain = 400;
+
+/// Other elements than those that left the tolerance: less is asked of them, or more of what no
+/// limit was given for.
+std::string advice_for_others(const AlignmentOptions& options, const Sought& sought) {
+  std::string out = advice_to_allow_more(options);
+  const bool radii = !sought.constant;  // profiles have no least radius
+  if (options.least_length == 0.0 && (options.least_radius == 0.0 && radii)) {
+    return out + ", or set a least length or radius: other elements may do";
+  }
+  if (options.least_length == 0.0) return out + ", or set a least length: other elements may do";
+  if (options.least_radius == 0.0 && radii) {
+    return out + ", or set a least radius: other elements may do";
+  }
+  return out;
+}
 
 /// Elements from one of these searches.
 Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
@@ -915,8 +1015,13 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   std::vector<double> within = tolerance;
   const double part = attempt.part * (options.without_steps ? kBeforeTransitions : 1.0);
   for (double& one : within) one *= part;
-  const auto nodes = fewest_pieces(points, within, options, sought, run);
+  Sought search = sought;
+  if (sought.corners) search.plane = Plane::kGraph;  // for arcs likewise: they begin as parabolas
+  auto nodes = fewest_pieces(points, within, options, search, run);
   OBVID_TRY(nodes);
+  if (search.plane != sought.plane) {
+    for (Node& node : *nodes) node.theta = std::atan(node.theta);
+  }
   Chain chain;
   std::vector<Foot> feet;
   set_chain(*nodes, points.size(), sought, chain, feet);
@@ -928,7 +1033,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   if (!(largest <= 1.0)) {
     return fail(
         error(ErrorCode::kToleranceNotReached, "the alignment that was found leaves the tolerance")
-            .hint("allow more, or set a least length or radius: other elements may do")
+            .hint(advice_for_others(options, sought))
             .value(largest));
   }
   return out;
@@ -959,7 +1064,7 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     allowed.push_back(allowed.front());
   }
   std::optional<Error> first;
-  const bool again = given.size() <= kMostSearchedAgain;
+  const bool again = sought.constant || given.size() <= kMostSearchedAgain;
   double tried = 0.0;  // of open points it is all the same where they begin
   for (const Attempt& attempt : kAttempts) {
     if (!options.closed && attempt.part == tried) continue;

@@ -22,6 +22,9 @@ struct Sought {
   Plane plane = Plane::kMap;
   bool constant = false;  ///< curvature along each of them: arcs and lines only
   Vec2 lap{};  ///< of closed ones, from the start to where it is reached again: none on a map
+  /// The search is one in a graph, where corners of the points, which vertical curves round, count
+  /// as one element each, and no slope is steeper than the points around it bear.
+  bool corners = false;
 };
 
 /// Direction of a heading.

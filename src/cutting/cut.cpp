@@ -225,7 +225,11 @@ class Cutting {
     for (std::size_t k = 0; k < printed.size(); ++k) {
       const Piece piece = cutting::scaled(printed[k], 1.0 / scale_);
       report.cut_length += length_of(piece);
-      if (text.first_pass()[k]) out.moves.push_back({CutMoveKind::kCut, piece});
+      if (text.over_tab()[k]) {
+        out.moves.push_back({CutMoveKind::kTab, piece});
+      } else if (text.first_pass()[k]) {
+        out.moves.push_back({CutMoveKind::kCut, piece});
+      }
     }
     Vec2 at{};
     for (const CutBlock& block : blocks.blocks) {

@@ -118,6 +118,7 @@ class Blocks {
       block.z = k + 1 == parts ? z : from + (z - from) * (k + 1) / parts;
       block.feed = feed_for(curvature_of(block.piece), rules_);
       block.first_pass = first_pass_;
+      block.over_tab = over_tab_;
     }
     z_ = z;
   }
@@ -297,6 +298,7 @@ class Blocks {
       });
       const auto kept = [&](double z) { return over ? std::max(z, tab_z) : z; };
       down(kept(height(a)));
+      over_tab_ = over && z_from == z_to && z_to == -rules_.depth;
       const std::vector<Piece> pieces = along.between(a, b);
       double done = a;
       for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -304,6 +306,7 @@ class Blocks {
         const bool last = i + 1 == pieces.size();
         cut(pieces[i], kept(last && b == to ? z_to : height(last ? b : std::min(done, b))));
       }
+      over_tab_ = false;
     }
   }
 
@@ -312,7 +315,7 @@ class Blocks {
   CutBlocks out_;
   std::size_t track_ = 0;
   double z_ = 0.0, z_ramp_ = 0.0;
-  bool first_pass_ = false;
+  bool first_pass_ = false, over_tab_ = false;
   std::vector<Tab> tabs_;
 };
 

@@ -26,6 +26,7 @@ struct CutBlock {
   double z = 0.0;
   double feed = 0.0;
   bool first_pass = false;  ///< for pictures: once around
+  bool over_tab = false;    ///< in the last pass
 };
 
 /// What the machine does with the visits. Lengths in units of the machine.

@@ -108,6 +108,11 @@ std::vector<std::string> idle_cut_options(const CutOptions& o) {
         .add(o.plunge_feed.has_value(), "--plunge-feed")
         .tell("of mills alone", out);
   }
+  if (mill && o.diameter == 0.0 && o.side != CutSide::kOn) {
+    out.emplace_back(
+        "no --diameter: the middle of the tool goes along the outlines, so that parts are smaller "
+        "and openings larger by its radius (--side on says that this is meant)");
+  }
   Idle().add(mill && o.passes != 1, "--passes").tell("of lasers and torches alone", out);
   if (o.diameter == 0.0 || o.side == CutSide::kOn) {
     Idle()

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "obvid/exchange/internal/gcode/path.h"
+
 namespace obvid::cutting {
 namespace {
 
@@ -111,7 +113,8 @@ class Ordering {
     const Track& track = tracks_[i];
     if (!track.axis.closed)
       return {i, start.turned ? reversed(track.axis) : track.axis, {}, {}, false};
-    Visit out{i, begun_at(track.axis, start.piece, 0.5), {}, {}, false};
+    const ArcPath around = begun_at(track.axis, start.piece, 0.5);
+    Visit out{i, {exchange::whole_arcs(around.pieces), true}, {}, {}, false};
     if (!wants_lead(track)) return out;
     out.lead_left_out = start.begin == start_point(out.path.pieces.front());
     if (out.lead_left_out) return out;

@@ -101,6 +101,7 @@ void CutText::cut(const CutBlock& block) {
     motions_.push_back(block.track);
     cut_tracks_.push_back(block.track);
     first_pass_.push_back(block.first_pass);
+    over_tab_.push_back(block.over_tab);
   }
 }
 

@@ -23,6 +23,7 @@ class CutText {
   /// Of each piece of the path.
   [[nodiscard]] const std::vector<std::size_t>& cut_tracks() const { return cut_tracks_; }
   [[nodiscard]] const std::vector<bool>& first_pass() const { return first_pass_; }
+  [[nodiscard]] const std::vector<bool>& over_tab() const { return over_tab_; }
   /// What stands before the blocks, and behind them.
   [[nodiscard]] std::string start() const;
   [[nodiscard]] std::string end() const;
@@ -44,7 +45,7 @@ class CutText {
   double z_ = 0.0;
   std::string feed_;
   std::vector<std::size_t> motions_, cut_tracks_;
-  std::vector<bool> first_pass_;
+  std::vector<bool> first_pass_, over_tab_;
 };
 
 }  // namespace obvid::cutting

@@ -46,6 +46,9 @@ class ContourReader : private JsonValues {
   RationalBezier bezier(const Node& node);
   void exact_points(const Node& exact, const Node& points, RationalBezier& bezier);
   Run run(const Node& node);
+  StoredAlignment alignment(const Node& node);
+  PlacedTransition transition(const Node& node, std::size_t from);
+  VerticalProfile profile(const Node& node);
   [[nodiscard]] bool rows_fit(std::size_t rows) const;
   std::vector<double> moves(const Node& node);
   GivenDatum given(const Node& node);
@@ -314,6 +317,82 @@ Run ContourReader::run(const Node& node) {
   return run;
 }
 
+// ---- alignments ------------------------------------------------------------------------------
+
+StoredAlignment ContourReader::alignment(const Node& node) {
+  StoredAlignment out;
+  out.first_station = number(field(node, "first_station"));
+  if (const auto list = optional_field(node, "transitions")) {
+    std::size_t from = 0;
+    each(*list, [&](const Node& one) {
+      out.transitions.push_back(transition(one, from));
+      from = out.transitions.back().first_piece + out.transitions.back().pieces;
+    });
+  }
+  if (const auto heights = optional_field(node, "profile")) out.profile = profile(*heights);
+  return out;
+}
+
+/// Clothoids alone stand for one, each for one at most: `from` is the first that may.
+PlacedTransition ContourReader::transition(const Node& node, std::size_t from) {
+  PlacedTransition out;
+  const std::vector<Piece>& pieces = stored_.contour.pieces;
+  const Node first = field(node, "first_piece"), kind = field(node, "kind");
+  out.first_piece = index(first, pieces.size(), "pieces");
+  out.pieces = static_cast<std::size_t>(
+      integer(field(node, "pieces"), 1, static_cast<long long>(pieces.size())));
+  const auto named = transition_named(word(kind));
+  out.kappa0 = number(field(node, "kappa_start"));
+  out.kappa1 = number(field(node, "kappa_end"));
+  const Node length = field(node, "length");
+  out.length = number(length);
+  if (failed()) return out;
+  if (!named) {
+    refuse(kind, "this is no kind of transitions");
+    return out;
+  }
+  out.kind = *named;
+  if (!(out.length > 0.0)) refuse(length, "the length of a transition is above 0");
+  const std::size_t end = out.first_piece + out.pieces;
+  bool fits = out.first_piece >= from && end <= pieces.size();
+  for (std::size_t i = out.first_piece; fits && i < end; ++i) {
+    fits = std::holds_alternative<ClothoidPiece>(pieces[i]);
+  }
+  if (!fits) refuse(first, "clothoids stand for a transition, one after the other");
+  return out;
+}
+
+VerticalProfile ContourReader::profile(const Node& node) {
+  VerticalProfile out;
+  const auto pick = [&](const Node& name, const auto& names) {
+    const auto found = std::find(names.begin(), names.end(), word(name));
+    if (!failed() && found == names.end()) refuse(name, "this word is not known here");
+    return failed() ? std::size_t{0} : static_cast<std::size_t>(found - names.begin());
+  };
+  out.curves = static_cast<ProfileCurves>(pick(field(node, "curves"), kProfileCurveNames));
+  const Node elements = field(node, "elements");
+  each(elements, [&](const Node& one) {
+    ProfileElement e;
+    e.kind = static_cast<ProfileKind>(pick(field(one, "kind"), kProfileKindNames));
+    e.station = number(field(one, "station"));
+    const Node length = field(one, "length");
+    e.length = number(length);
+    if (!(e.length > 0.0)) refuse(length, "the length of an element is above 0");
+    e.height = number(field(one, "height"));
+    e.grade0 = number(field(one, "grade_start"));
+    e.grade1 = number(field(one, "grade_end"));
+    e.radius = number(field(one, "radius"));
+    if (!out.elements.empty() && !(e.station > out.elements.back().station)) {
+      refuse(one, "stations of a profile ascend");
+    }
+    out.elements.push_back(e);
+  });
+  if (out.elements.empty()) refuse(elements, "a profile has at least one element");
+  out.end_station = number(field(node, "end_station"));
+  out.end_height = number(field(node, "end_height"));
+  return out;
+}
+
 // ---- claims ----------------------------------------------------------------------------------
 
 SegmentReport ContourReader::segment(const Node& node) {
@@ -552,6 +631,8 @@ Result<StoredContour> ContourReader::read(const json& document) {
   const Node root{&document, nullptr, {}, 0};
   read_head(root);
   read_contour(root);
+  if (const auto node = optional_field(root, "name")) stored_.name = word(*node);
+  if (const auto node = optional_field(root, "alignment")) stored_.alignment = alignment(*node);
   if (const auto node = optional_field(root, "report")) stored_.report = report(*node);
   if (const auto node = optional_field(root, "certificate")) {
     stored_.certificate = certificate(*node);

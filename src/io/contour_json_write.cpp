@@ -56,6 +56,8 @@ class Writer {
   void given(const GivenReport& report);
   void segment(const SegmentReport& row);
   void proof(std::size_t index, const PieceProof& proof);
+  void alignment(const StoredAlignment& alignment);
+  void profile(const VerticalProfile& profile);
   void one_nurbs(const NurbsCurve& curve);
   void report(const FitReport& report);
   void certificate(const Certificate& certificate);
@@ -409,6 +411,51 @@ void Writer::certificate(const Certificate& certificate) {
   raw("\n  }");
 }
 
+void Writer::alignment(const StoredAlignment& alignment) {
+  raw("{");
+  figure("first_station", alignment.first_station);
+  if (!alignment.transitions.empty()) {
+    raw(",\n");
+    line_list("transitions", alignment.transitions, "    ", [&](const PlacedTransition& one) {
+      format_into(buffer_, "{{\"first_piece\": {}, \"pieces\": {}, \"kind\": \"{}\", ",
+                  one.first_piece, one.pieces, name_of(one.kind));
+      figure("kappa_start", one.kappa0);
+      raw(", ");
+      figure("kappa_end", one.kappa1);
+      raw(", ");
+      figure("length", one.length);
+      raw("}");
+    });
+  }
+  if (alignment.profile) {
+    raw(",\n    \"profile\": ");
+    profile(*alignment.profile);
+  }
+  raw("}");
+}
+
+void Writer::profile(const VerticalProfile& profile) {
+  format_into(buffer_, "{{\"curves\": \"{}\", ", name_of(profile.curves));
+  figure("end_station", profile.end_station);
+  raw(", ");
+  figure("end_height", profile.end_height);
+  raw(",\n");
+  line_list("elements", profile.elements, "    ", [&](const ProfileElement& one) {
+    format_into(buffer_, "{{\"kind\": \"{}\"", name_of(one.kind));
+    for (const auto& [key, value] : {std::pair{"station", one.station},
+                                     {"length", one.length},
+                                     {"height", one.height},
+                                     {"grade_start", one.grade0},
+                                     {"grade_end", one.grade1},
+                                     {"radius", one.radius}}) {
+      raw(", ");
+      figure(key, value);
+    }
+    raw("}");
+  });
+  raw("}");
+}
+
 void Writer::one_nurbs(const NurbsCurve& curve) {
   raw(",\n  \"bspline\": {\"degree\": ");
   number(curve.degree);
@@ -460,6 +507,14 @@ std::string Writer::write(const StoredContour& stored) {
     raw(",\n  \"kept\": ");
     inline_list(contour.kept,
                 [&](std::size_t i) { fmt::format_to(std::back_inserter(buffer_), "{}", i); });
+  }
+  if (!stored.name.empty()) {
+    raw(",\n  \"name\": ");
+    text(stored.name);
+  }
+  if (stored.alignment) {
+    raw(",\n  \"alignment\": ");
+    alignment(*stored.alignment);
   }
   if (stored.report) {
     raw(",\n  \"report\": ");

@@ -51,13 +51,17 @@ Result<std::vector<double>> heights_over(const TriangleMesh& mesh, const Frame& 
 Result<std::vector<CutEdge>> cut_edges(const TriangleMesh& mesh,
                                        const std::vector<double>& heights) {
   std::vector<CutEdge> out;
+  const bool lowest =
+      std::none_of(heights.begin(), heights.end(), [](double height) { return height < 0.0; });
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
     if (std::max({t[0], t[1], t[2]}) >= heights.size()) {
       return fail(cut_error(ErrorCode::kBadCount, "a triangle has a corner without a point", i));
     }
-    const std::array<bool, 3> above{heights[t[0]] >= 0.0, heights[t[1]] >= 0.0,
-                                    heights[t[2]] >= 0.0};
+    const auto is_above = [&](std::uint32_t corner) {
+      return heights[corner] > 0.0 || (heights[corner] == 0.0 && !lowest);
+    };
+    const std::array<bool, 3> above{is_above(t[0]), is_above(t[1]), is_above(t[2])};
     if (above[0] == above[1] && above[1] == above[2]) continue;
     CutEdge cut;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include "obvid/alignment/internal/borne_grades.h"
 
 namespace obvid {
 namespace {
@@ -25,7 +28,7 @@ double height_by_corners(const std::vector<Corner>& road, double s) {
     const double g1 = (c.height - b.height) / (c.station - b.station);
     const double x = s - (b.station - 0.5 * b.length);
     if (x < 0.0) return b.height + g0 * (s - b.station);
-    if (x > b.length) continue;
+    if (x >= b.length) continue;
     return b.height - 0.5 * b.length * g0 + g0 * x + (g1 - g0) * x * x / (2.0 * b.length);
   }
   const Corner &a = road[road.size() - 2], &b = road.back();
@@ -167,6 +170,118 @@ TEST(Profile, RefusesStationsThatDoNotAscend) {
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::kChordReversal);
   EXPECT_EQ(found.error().index, 2);
+}
+
+/// Numbers in [0, 1), the same ones each time.
+class Numbers {
+ public:
+  double next() {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<double>(state_ >> 11) * 0x1p-53;
+  }
+  double between(double low, double high) { return low + (high - low) * next(); }
+
+ private:
+  std::uint64_t state_ = 5;
+};
+
+/// Heights of a road, with how far noise moves them.
+std::vector<Vec2> sampled(const std::vector<Corner>& road, double step, double noise,
+                          Numbers& numbers) {
+  std::vector<Vec2> out;
+  for (int i = 0; i * step <= road.back().station; ++i) {
+    out.push_back(
+        {i * step, height_by_corners(road, i * step) + noise * numbers.between(-1.0, 1.0)});
+  }
+  return out;
+}
+
+/// No grade is beyond those of the chords, each end of them moved by the tolerance.
+void expect_borne(const VerticalProfile& found, const std::vector<Vec2>& heights,
+                  double tolerance) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    const double run = heights[i].x - heights[i - 1].x, rise = heights[i].y - heights[i - 1].y;
+    low = std::min(low, (rise - 2.0 * tolerance) / run);
+    high = std::max(high, (rise + 2.0 * tolerance) / run);
+  }
+  for (const ProfileElement& e : found.elements) {
+    for (const double grade : {e.grade0, e.grade1}) {
+      EXPECT_GE(grade, low - 1e-9) << "at " << e.station;
+      EXPECT_LE(grade, high + 1e-9) << "at " << e.station;
+    }
+  }
+}
+
+TEST(Profile, RoundsASharpKinkWithoutSwingingPastIt) {
+  // 2 % and then -1 %, a height each 5 m: at a height and between two
+  for (const double kink : {200.0, 201.3, 202.5}) {
+    for (const ProfileCurves curves : {ProfileCurves::kParabolas, ProfileCurves::kArcs}) {
+      Numbers numbers;
+      const std::vector<Corner> road = {
+          {0, 0, 0}, {kink, 0.02 * kink, 0}, {400, 0.03 * kink - 4, 0}};
+      const auto heights = sampled(road, 5.0, 0.0, numbers);
+      const auto found = fit_profile(heights, std::vector<double>(heights.size(), 1e-3), {curves});
+      ASSERT_TRUE(found) << found.error().what;
+      ASSERT_EQ(found->elements.size(), 3U) << kink;
+      EXPECT_EQ(found->elements[1].kind, ProfileKind::kCrest);
+      EXPECT_NEAR(found->elements[0].grade0, 0.02, 1e-4);
+      EXPECT_NEAR(found->elements[2].grade0, -0.01, 1e-4);
+      EXPECT_NEAR(grades_meet(found->elements[1], curves).x, kink, 0.2);
+      EXPECT_LE(found->largest_share, 1.0);
+      expect_borne(*found, heights, 1e-3);
+    }
+  }
+}
+
+TEST(Profile, HasNoMoreElementsThanWhatWasMadeAndNoGradeThatNoHeightBears) {
+  Numbers numbers;
+  for (int made = 0; made < 16; ++made) {
+    const double step = made % 2 == 0 ? 5.0 : 2.0, tolerance = made % 3 == 0 ? 0.01 : 0.002;
+    std::vector<Corner> road = {{0, 50, 0}};
+    const std::size_t corners = 1 + static_cast<std::size_t>(numbers.between(0.0, 4.0));
+    for (std::size_t k = 0; k <= corners; ++k) {
+      const double way = 10.0 * step * numbers.between(1.0, 3.0), from = road.back().station;
+      double station = from + way;
+      if (made % 4 == 0) station = step * std::round(station / step);  // kinks at heights
+      const double height = road.back().height + numbers.between(-0.06, 0.06) * (station - from);
+      road.push_back({station, height, 0.0});
+    }
+    for (std::size_t k = 1; k + 1 < road.size(); ++k) {
+      const double room =
+          std::min(road[k].station - road[k - 1].station, road[k + 1].station - road[k].station);
+      const double kind = numbers.next(), share = numbers.next();
+      if (kind > 0.4) road[k].length = kind < 0.6 ? share * step : 0.9 * share * room;
+    }
+    const auto heights = sampled(road, step, made % 5 == 0 ? 0.0 : 0.5 * tolerance, numbers);
+    const auto found = fit_profile(heights, std::vector<double>(heights.size(), tolerance));
+    ASSERT_TRUE(found) << made << ' ' << found.error().what;
+    EXPECT_LE(found->elements.size(), 2 * corners + 1) << made;
+    EXPECT_LE(found->largest_share, 1.0);
+    expect_borne(*found, heights, tolerance);
+  }
+}
+
+TEST(Profile, TellsGradesThatNoHeightBears) {
+  // chords of 10 and 20 %; moved by 0.1 m at both ends they bear -10 to 40 %
+  const std::vector<Vec2> heights = {{0, 0}, {1, 0.1}, {2, 0.3}};
+  const std::vector<double> tolerance(3, 0.1);
+  const BorneGrades grades(heights, tolerance, 0.0);
+  const ValueRange borne = grades.at(1.2);
+  EXPECT_NEAR(borne.low, -0.1, 1e-15);
+  EXPECT_NEAR(borne.high, 0.4, 1e-15);
+  VerticalProfile profile;
+  profile.elements = {{ProfileKind::kSag, 0.0, 1.0, 0.0, -0.2, 0.4, 1.0 / 0.6},
+                      {ProfileKind::kSag, 1.0, 1.0, 0.1, 0.4, 0.5, 10.0}};
+  profile.end_station = 2.0;
+  const auto told = unborne_grades(profile, grades);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0].station, 0.0);
+  EXPECT_EQ(told[0].grade, -0.2);
+  EXPECT_EQ(told[1].station, 2.0);
+  EXPECT_EQ(told[1].grade, 0.5);
+  // a loop of 3 m: across the seam it falls by 0.3 m, so that -50 % are borne everywhere
+  EXPECT_EQ(unborne_grades(profile, BorneGrades(heights, tolerance, 3.0)).size(), 1U);
 }
 
 /// A loop of 1000 m: 3 % up to the crest between 200 and 400, 3 % down to the sag between 700 and

@@ -140,6 +140,55 @@ class Profile(unittest.TestCase):
         with self.assertRaises(AssertionError):
             self.judged("check_landxml.py", "broken.xml")
 
+    def test_a_contour_file_makes_the_same_road_files(self):
+        self.run_alignment("survey.csv", "--units", "m", "--noise", 0.001, "--profile-noise", 0.008, "--station", 1000,
+                           "-o", "r.json", "-o", "r.xml", "-o", "r.xodr", "-q")
+        subprocess.run([PROGRAM, "convert", "r.json", "-o", "again.xml", "-o", "again.xodr"], cwd=self.folder.name,
+                       check=True, capture_output=True)
+        for ending in ("xml", "xodr"):
+            self.assertEqual(self.at(f"again.{ending}").read_text(), self.at(f"r.{ending}").read_text())
+        stored = json.loads(self.at("r.json").read_text())["alignment"]
+        self.assertEqual(stored["first_station"], 1000)
+        # by the textbook, where the corners are
+        curves = [e for e in stored["profile"]["elements"] if e["kind"] != "grade"]
+        self.assertEqual([e["kind"] for e in curves], ["crest", "sag"])
+        for e, (station, _, length) in zip(curves, CORNERS[1:3]):
+            self.assertAlmostEqual(e["station"] + e["length"] / 2, 1000 + station, delta=4)
+            self.assertAlmostEqual(e["length"], length, delta=12)
+
+    def test_false_transitions_of_a_contour_file_are_found(self):
+        length, radius = 100.0, 250.0  # Bloss into an arc: its heading by the closed form u^3 - u^4 / 2
+        rows, x, y, steps = [], 0.0, 0.0, 4000
+        for k in range(steps + 1):
+            if k % 200 == 0:
+                rows.append((x, y))
+            u = (k + 0.5) / steps
+            turn = length / radius * (u ** 3 - u ** 4 / 2)
+            x, y = x + length / steps * math.cos(turn), y + length / steps * math.sin(turn)
+        self.at("b.csv").write_text("x,y\n" + "".join(f"{a - 60},0\n" for a in range(0, 60, 5)) +
+                                    "".join(f"{a:.6f},{b:.6f}\n" for a, b in rows))
+        self.run_alignment("b.csv", "--units", "m", "--noise", 0.002, "--transitions", "bloss", "-o", "b.json", "-q")
+        stored = json.loads(self.at("b.json").read_text())
+        self.assertEqual([t["kind"] for t in stored["alignment"]["transitions"]], ["bloss"])
+
+        def verified(change):
+            changed = json.loads(json.dumps(stored))
+            change(changed["alignment"]["transitions"][0])
+            self.at("c.json").write_text(json.dumps(changed))
+            done = subprocess.run([PROGRAM, "verify", "c.json"], capture_output=True, text=True, cwd=self.folder.name,
+                                  check=False)
+            return done.returncode, done.stdout + done.stderr
+
+        self.assertEqual(verified(lambda t: None)[0], 0)
+        for name, value in (("kind", "sine"), ("length", 90.0), ("kappa_end", 0.005)):
+            code, said = verified(lambda t: t.update({name: value}))
+            self.assertEqual(code, 5, name)
+            self.assertIn("E503", said)
+        for name, value in (("pieces", 1000), ("first_piece", 0), ("kind", "curl"), ("length", -1.0)):
+            code, said = verified(lambda t: t.update({name: value}))
+            self.assertEqual(code, 3, name)
+            self.assertIn("/alignment/transitions/0", said)
+
     def test_what_is_no_profile_is_refused(self):
         self.at("back.csv").write_text("0,1\n10,2\n5,3\n")
         self.assertIn("ascend", self.run_alignment("survey.csv", "--profile", "back.csv", code=4).stderr)

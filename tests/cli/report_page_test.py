@@ -71,7 +71,7 @@ def same(text, value):
     return abs(printed - value) <= 0.5001 * unit or printed == value
 
 
-class Reports(unittest.TestCase):
+class PageCase(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
@@ -91,6 +91,8 @@ class Reports(unittest.TestCase):
         self.assertEqual(page.kinds.count("svg"), 1)
         return page
 
+
+class Reports(PageCase):
     def judge(self, page, stored):
         report, rows = stored["report"], dict(page.tables["figures"])
         self.assertEqual(rows["carrier"], stored["carrier"])
@@ -176,6 +178,135 @@ class Reports(unittest.TestCase):
         widest = sorted(range(1299), key=lambda i: -segments[i]["width"])[:1000]
         self.assertEqual([row[0] for row in self.page().tables["segments"][1:]],
                          ["-".join(str(i + 1) for i in segments[k]["points"]) for k in sorted(widest)])
+
+
+class PagesOfOtherCommands(PageCase):
+    """Figures of their pages against closed forms, and against what --json says."""
+
+    def columns(self, page, table):
+        head, *rows = page.tables[table]
+        return {name: [row[k] for row in rows] for k, name in enumerate(head)}
+
+    def close(self, text, value, room=1e-9):
+        self.assertLessEqual(abs(float(text) - value), room * max(1.0, abs(value)), (text, value))
+
+    def test_an_alignment(self):
+        said = json.loads(self.run_program(
+            "alignment", EXAMPLES / "road_survey.csv", "--noise", "0.008", "--station", "12000", "--profile",
+            EXAMPLES / "road_levels.csv", "--profile-noise", "0.012", "-o", "r.html", "--json"))
+        page = self.page()
+        elements, figures = self.columns(page, "elements"), dict(page.tables["figures"])
+        self.assertEqual(elements["kind"], [e["kind"] for e in said["elements"]])
+        for k, e in enumerate(said["elements"]):
+            for name in ("station", "length", "x", "y"):
+                self.close(elements[name][k], e[name])
+            heading = math.radians(90.0 - float(elements["azimuth_deg"][k]))
+            self.close(math.remainder(heading - e["heading"], 2 * math.pi), 0.0, 1e-8)
+            if e["curvature_start"]:
+                self.close(elements["radius_start"][k], 1.0 / e["curvature_start"])
+            else:
+                self.assertEqual(elements["radius_start"][k], "-")
+            if e["kind"] == "clothoid":
+                change = abs(e["curvature_end"] - e["curvature_start"])
+                self.close(elements["A"][k], math.sqrt(e["length"] / change))
+        profile = self.columns(page, "profile")
+        for k, e in enumerate(said["profile"]["elements"]):
+            self.close(profile["grade_start_percent"][k], 100.0 * e["grade_start"])
+            self.close(profile["height"][k], e["height"])
+        offsets = [float(t) for t in self.columns(page, "deviations")["offset"] if t != "-"]
+        self.assertEqual(len(offsets), len(said["deviations"]))
+        for text, one in zip(offsets, said["deviations"]):
+            self.close(text, one["offset"])
+        count, largest, tolerance, rms = re.findall(NUMBER, figures["points"])
+        self.assertEqual(int(count), len(offsets))
+        self.assertTrue(same(largest, max(map(abs, offsets))) and float(tolerance) == 0.008)
+        self.assertTrue(same(rms, math.sqrt(sum(o * o for o in offsets) / len(offsets))))
+        self.assertEqual(re.findall(NUMBER, figures["length"])[0], f"{said['length']:.1f}")
+        self.assertIn("--noise 0.008", figures["asked for"])
+
+    def test_outlines_that_are_cut(self):
+        (self.root / "d.svg").write_text(
+            '<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100">'
+            '<rect x="10" y="10" width="60" height="40"/><circle cx="40" cy="30" r="10"/></svg>')
+        said = json.loads(self.run_program("cut", "d.svg", "--diameter", "4", "--depth", "1", "-o", "r.html", "-o", "t.csv",
+                                           "--json"))
+        page = self.page()
+        rows = self.columns(page, "outlines")
+        # the hole first, from inside by the radius; the rectangle outside, its corners rounded by the tool
+        wanted = [2 * math.pi * (10 - 2), 2 * (60 + 40) + 2 * math.pi * 2]
+        for text, length in zip(rows["length"], wanted):
+            self.close(text, length, 1e-6)
+        self.assertEqual(rows["tool"], ["inside", "outside"])
+        self.assertEqual(rows["curve"], ["2", "1"])
+        figures = dict(page.tables["figures"])
+        blocks, arcs = re.findall(r"\d+", figures["program"])[:2]
+        self.assertEqual([int(blocks), int(arcs)], [said["report"]["blocks"], said["report"]["arc_blocks"]])
+        beyond, short = re.findall(NUMBER, figures["read back"])[:2]
+        self.assertTrue(same(beyond, said["report"]["beyond"]) and same(short, said["report"]["short_of"]))
+        self.assertEqual((self.root / "t.csv").read_text().splitlines()[0].split(","), list(rows))
+
+    def test_points_that_are_analysed(self):
+        # a circle of radius 5 at steps of 10 degrees
+        (self.root / "p.csv").write_text("x_m,y_m\n" + "".join(
+            f"{5 * math.cos(math.radians(10 * k)):.15f},{5 * math.sin(math.radians(10 * k)):.15f}\n" for k in range(13)))
+        self.run_program("analyse", "p.csv", "-o", "r.html", "-q")
+        text = (self.root / "r.html").read_text(encoding="utf-8")
+        page = Page(text)
+        self.assertEqual(page.faults + page.outside, [])
+        rows = self.columns(page, "points")
+        for k in range(12):
+            self.close(rows["chord"][k], 10 * math.sin(math.radians(5)))
+            if k > 0:
+                self.close(rows["adjacent_kappa"][k], 0.2)
+                self.close(rows["turning_deg"][k], 10.0)
+        self.assertEqual(dict(page.tables["figures"])["lengths in"], "m")
+
+    def test_a_drawing_that_is_analysed(self):
+        self.run_program("analyse", EXAMPLES / "plate.dxf", "-o", "r.html", "-q")
+        rows = self.columns(self.page(), "curves")
+        drawn = [line.strip() for line in (EXAMPLES / "plate.dxf").read_text().splitlines()]
+        radii = [float(drawn[drawn.index("40", k) + 1]) for k, line in enumerate(drawn) if line == "CIRCLE"]
+        lengths = [t for t, name in zip(rows["length"], rows["name"]) if name.startswith("CIRCLE")]
+        self.assertEqual(len(lengths), len(radii))
+        for text, radius in zip(lengths, radii):
+            self.close(text, 2 * math.pi * radius)
+
+    def test_carriers_that_are_compared(self):
+        said = json.loads(self.run_program("compare", EXAMPLES / "series10.csv", "-o", "r.html", "--json"))
+        page = self.page()
+        rows = self.columns(page, "carriers")
+        self.assertEqual(rows["carrier"], [c["carrier"] for c in said["carriers"]])
+        for name in ("pieces", "vertices", "inflections"):
+            self.assertEqual(list(map(int, rows[name])), [c[name] for c in said["carriers"]])
+        for text, one in zip(rows["error_bound"], said["carriers"]):
+            self.assertEqual(text == "-", one["error_bound"] is None)
+            if text != "-":
+                self.close(text, one["error_bound"])
+        proved, all_of_them = map(int, re.findall(r"\d+", page.texts["p"]))
+        self.assertEqual([proved, all_of_them], [rows["verdict"].count("proved"), len(said["carriers"])])
+
+    def test_curves_that_are_compared(self):
+        # circles of radius 10 and 10.5 about one centre: 0.5 apart everywhere
+        for name, radius in (("a.svg", 10), ("b.svg", 10.5)):
+            (self.root / name).write_text(
+                '<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100">'
+                f'<circle cx="40" cy="30" r="{radius}"/></svg>')
+        self.run_program("compare", "a.svg", "b.svg", "-o", "r.html", "-q")
+        figures = dict(self.page().tables["figures"])
+        self.assertEqual(abs(float(figures["deviation of b.svg, largest"])), 0.5)
+        self.assertEqual(float(figures["deviation of b.svg, root mean square"]), 0.5)
+
+    def test_a_region(self):
+        said = json.loads(self.run_program("region", EXAMPLES / "series10.csv", "-o", "r.html", "--json"))
+        page = self.page()
+        rows = self.columns(page, "region")
+        segments = [k for k, name in enumerate(rows["segment"]) if name != "-"]
+        self.assertEqual(len(segments), len(said["segments"]))
+        for k, one in zip(segments, said["segments"]):
+            for column, name in (("chord", "chord"), ("h", "lower_height"), ("delta", "width"), ("f", "spline_distance")):
+                self.close(rows[column][k], one[name])
+        self.assertTrue(same(re.findall(NUMBER, page.texts["p"])[0], max(s["width"] for s in said["segments"])))
+        self.assertIn("asked for", dict(page.tables["figures"]))
 
 
 if __name__ == "__main__":

@@ -115,11 +115,14 @@ TEST(MeshCut, ABoxHasItsRectangleCounterClockwise) {
 
 TEST(MeshCut, AFaceInThePlaneCountsOnceAndWhatIsBesideThePlaneNotAtAll) {
   const TriangleMesh mesh = box({2.0, 3.0, 5.0});
-  const auto at_top = cut_mesh(mesh, level(5.0));
-  ASSERT_TRUE(at_top);
-  ASSERT_EQ(at_top->size(), 1U);  // the corners of the top are above, those of the bottom below
-  EXPECT_NEAR(signed_area(at_top->front()), 6.0, 1e-15);
-  for (const double z : {-0.5, 0.0}) {
+  for (const double z : {0.0, 5.0}) {  // the lowest face and the highest
+    const auto cut = cut_mesh(mesh, level(z));
+    ASSERT_TRUE(cut);
+    ASSERT_EQ(cut->size(), 1U) << z;
+    EXPECT_TRUE(cut->front().closed);
+    EXPECT_NEAR(signed_area(cut->front()), 6.0, 1e-15);
+  }
+  for (const double z : {-0.5, 5.5}) {
     const auto cut = cut_mesh(mesh, level(z));
     ASSERT_TRUE(cut);
     EXPECT_EQ(cut->size(), 0U) << z;

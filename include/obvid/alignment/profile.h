@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <array>
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -18,6 +20,17 @@ enum class ProfileCurves {
   kParabolas,  ///< the grade is linear in the station, as most roads have it
   kArcs,       ///< arcs of circles over the station
 };
+
+inline constexpr std::array<std::string_view, 3> kProfileKindNames = {"grade", "crest", "sag"};
+inline constexpr std::array<std::string_view, 2> kProfileCurveNames = {"parabolas", "arcs"};
+/// "grade", "crest", "sag".
+[[nodiscard]] inline std::string_view name_of(ProfileKind kind) {
+  return kProfileKindNames[static_cast<std::size_t>(kind)];
+}
+/// "parabolas", "arcs".
+[[nodiscard]] inline std::string_view name_of(ProfileCurves curves) {
+  return kProfileCurveNames[static_cast<std::size_t>(curves)];
+}
 
 /// One element over [station, station + length].
 struct ProfileElement {
@@ -46,7 +59,8 @@ struct VerticalProfile {
 struct ProfileOptions {
   ProfileCurves curves = ProfileCurves::kParabolas;
   double least_length = 0.0;  ///< of each element, units (of arcs along the curve); 0: a quarter of
-                              ///< the mean distance of heights. A profile of one may be shorter
+                              ///< the mean distance of heights, but what rounds a sharp kink of
+                              ///< them is shorter. A profile of one may be shorter
   double lap = 0.0;           ///< of a loop: its length, units; 0: not closed
   double begin = 0.0;         ///< of a loop: the station at which the profile begins
 };
@@ -57,7 +71,8 @@ struct ProfileOptions {
 /// grades are preferred wherever the tolerance allows them.
 ///
 /// Guaranteed: every offset is at most its tolerance (else an error), grades are continuous but for
-/// rounding, elements are as long as asked for. Not guaranteed: that no fewer elements exist.
+/// rounding, elements are as long as asked for. Not guaranteed: that no fewer elements exist, nor
+/// that heights bear every grade between them (`unborne_grades`), where elements have to be long.
 /// Around a loop (`lap`; heights within one lap) height and grade at the end are those at the
 /// start; the element that passes `begin` is cut there. Deterministic; reentrant.
 ///

@@ -87,7 +87,7 @@ struct CutStep {
   double left_in_corners = 0.0;  ///< what the round tool leaves in inner corners, from the corner
 };
 
-enum class CutMoveKind { kRapid, kCut };
+enum class CutMoveKind { kRapid, kCut, kTab };  ///< kTab: over a bridge, which stays
 
 /// A stretch of the tool's axis seen from above, as printed.
 struct CutMove {

@@ -38,6 +38,8 @@ struct MeshSection {
 /// - Points lie where edges of triangles cross the plane, computed once for both neighbours: chains
 ///   close exactly. A corner in the plane counts as above it (on the side of its normal), so that
 ///   no chain is lost or there twice; a face in the plane has its border where the mesh goes down.
+///   Where no corner lies below the plane, those in it count as below: the lowest face has its
+///   border as the highest one has.
 /// - Seen from the plane's normal the body lies to the left: outer chains run counter-clockwise,
 ///   holes clockwise, when the triangles look outwards. Closed chains begin at their point of
 ///   largest x (of several: largest y).

@@ -24,6 +24,7 @@ struct CutJob {
 struct MadeCut {
   CutProgram program;
   std::vector<CutOutline> outlines;
+  std::vector<std::size_t> curves;  ///< of each outline: number in its drawing, from 0
   Units units;
   std::vector<std::string> remarks;  ///< what was taken from the drawings
   std::vector<std::string> warnings;
@@ -40,6 +41,9 @@ struct MadeCut {
 
 /// {"outlines": [...], "report": {...}, "warnings"}: docs/schema/cut.schema.json.
 [[nodiscard]] std::string cut_json(const MadeCut& made);
+
+/// A row for each outline that is cut, in the order of the program, with all digits.
+[[nodiscard]] std::string cut_csv(const MadeCut& made);
 
 /// Names as they are typed. Errors: E203.
 struct CutValues {

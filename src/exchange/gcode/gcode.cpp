@@ -98,7 +98,7 @@ class Program {
   Result<void> arcs(GcodePath& path, double within) const {
     const auto along = arcs_along(contour_, within, watch_);
     OBVID_TRY(along);
-    for (const Piece& piece : along->pieces) {
+    for (const Piece& piece : exchange::whole_arcs(along->pieces)) {
       if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
         path.follow_arc(*arc);
       } else {

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "obvid/core/internal/format_into.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/numeric/internal/wide.h"
 
 namespace obvid::exchange {
@@ -83,6 +84,30 @@ Centre centre_over(Wide x, Wide y, double above, int decimals) {
 }
 
 }  // namespace
+
+std::vector<Piece> whole_arcs(const std::vector<Piece>& pieces) {
+  constexpr double kSameCircle = 1e-12;  // of the curvature; rad: rounding
+  std::vector<Piece> out;
+  for (const Piece& piece : pieces) {
+    auto* before = out.empty() ? nullptr : std::get_if<ArcPiece>(&out.back());
+    const auto* behind = std::get_if<ArcPiece>(&piece);
+    const auto goes_on = [&] {
+      const double step = before->theta0 + before->kappa * before->length - behind->theta0;
+      const double turn = std::abs(before->kappa) * (before->length + behind->length);
+      return before->end == behind->start &&
+             std::abs(before->kappa - behind->kappa) <= kSameCircle * std::abs(before->kappa) &&
+             std::abs(std::remainder(step, kFullTurn)) <= kSameCircle &&
+             turn <= kFullTurn + kSameCircle;
+    };
+    if (before == nullptr || behind == nullptr || !goes_on()) {
+      out.push_back(piece);
+      continue;
+    }
+    before->end = behind->end;
+    before->length += behind->length;
+  }
+  return out;
+}
 
 std::string fixed(double value, int decimals) {
   return never_minus_zero(fmt::format("{:.{}f}", value, decimals));

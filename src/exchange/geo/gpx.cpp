@@ -32,6 +32,7 @@ class GpxReader {
       }
       if (kind == "wpt") place(node, waypoints);
     }
+    waypoints.heights.clear();
     if (!waypoints.places.empty()) all_.push_back(std::move(waypoints));
     Drawing out;
     out.name = file_.name();
@@ -63,6 +64,7 @@ class GpxReader {
     for (const pugi::xml_node child : node.children()) {
       if (local_name(child) == kind) place(child, series);
     }
+    drop_some_heights(series);
     if (series.places.empty()) {
       warnings_.add("a track segment or route without points left out", node);
     } else {
@@ -80,6 +82,13 @@ class GpxReader {
       return;
     }
     series.places.push_back({*longitude, *latitude});
+    const auto height = number_of(exchange::trimmed(exchange::child_of(node, "ele").child_value()));
+    if (height) series.heights.push_back(*height);
+  }
+
+  /// Heights of some places alone make no profile.
+  static void drop_some_heights(GeoSeries& series) {
+    if (series.heights.size() != series.places.size()) series.heights.clear();
   }
 
   const XmlFile& file_;

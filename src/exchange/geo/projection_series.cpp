@@ -42,6 +42,11 @@ PointSeries projected(GeoSeries series, const LocalProjection& projection) {
     latitude.add(place.latitude);
   }
   PointSeries out = plane_series(std::move(series.name), "m", points);
+  for (std::size_t i = 0; i < series.heights.size(); ++i) {
+    if (i > 0 && points[i] == points[i - 1]) continue;  // merged
+    out.fixed.push_back({});
+    out.fixed.back().height = series.heights[i];
+  }
   const double narrow =
       std::cos(projection.centre().latitude * std::numbers::pi / 180.0) * kMetresPerDegree;
   out.rounding = {narrow * longitude.half_unit(), kMetresPerDegree * latitude.half_unit()};
@@ -123,10 +128,13 @@ Result<void> project_series(std::vector<GeoSeries> all, std::string_view name, D
         .value(farthest);
   }
   drawing.units = "m";
-  drawing.warnings.push_back(
-      fmt::format("longitude and latitude became metres east and north of {:.6f}, {:.6f} "
-                  "(transverse Mercator on WGS84, scale 1 there); heights are not used",
-                  projection.centre().longitude, projection.centre().latitude));
+  const bool any_heights = std::any_of(
+      all.begin(), all.end(), [](const GeoSeries& series) { return !series.heights.empty(); });
+  drawing.warnings.push_back(fmt::format(
+      "longitude and latitude became metres east and north of {:.6f}, {:.6f} "
+      "(transverse Mercator on WGS84, scale 1 there); heights are {}",
+      projection.centre().longitude, projection.centre().latitude,
+      any_heights ? "those of profiles (obvid alignment), and else not used" : "not used"));
   if (const double scale = projection_scale(farthest) - 1.0; scale > kScaleWorthSaying) {
     drawing.warnings.push_back(fmt::format(
         "the places span so much that lengths are up to {:.2g} % too long", 100.0 * scale));

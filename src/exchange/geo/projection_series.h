@@ -17,12 +17,14 @@ struct GeoSeries {
   std::vector<GeoPoint> places;
   std::vector<std::string> warnings;
   SeriesKind kind = SeriesKind::kLine;
+  std::vector<double> heights{};  ///< of the places, m: one each, or none
 };
 
 /// All series in one plane: metres around the middle of them all. Consecutive repetitions are
-/// merged with a warning; series of one place are left out with one. `drawing` gets series and
-/// warnings. Errors: E304 when nothing is left, E309 when the places lie too far apart for one
-/// plane.
+/// merged with a warning; series of one place are left out with one. Heights become those of the
+/// points (`FixedData::height`), without a rounding: who measured them knows better. `drawing` gets
+/// series and warnings. Errors: E304 when nothing is left, E309 when the places lie too far apart
+/// for one plane.
 Result<void> project_series(std::vector<GeoSeries> all, std::string_view name, Drawing& drawing);
 
 /// Points of a file, in its own plane: half a unit of the last digit, repetitions merged.

@@ -113,7 +113,7 @@ void add_elements(JsonText& json, const std::vector<AlignmentElement>& elements,
 
 void add_profile(JsonText& json, const VerticalProfile& profile) {
   json.begin_object();
-  json.pair("curves", profile.curves == ProfileCurves::kArcs ? "arcs" : "parabolas");
+  json.pair("curves", name_of(profile.curves));
   pipeline_detail::add_profile_elements(json, profile);
   json.end_object();
 }
@@ -140,8 +140,7 @@ void add_profile_elements(JsonText& json, const VerticalProfile& profile) {
 }  // namespace pipeline_detail
 
 const char* to_string(ProfileKind kind) {
-  static constexpr std::array kNames = {"grade", "crest", "sag"};
-  return kNames[static_cast<std::size_t>(kind)];
+  return kProfileKindNames[static_cast<std::size_t>(kind)].data();
 }
 
 const char* to_string(AlignmentKind kind) {

@@ -8,9 +8,9 @@
 #include <numeric>
 #include <utility>
 
+#include "obvid/alignment/internal/borne_grades.h"
 #include "obvid/core/files.h"
 #include "obvid/core/internal/figures.h"
-#include "obvid/geom/internal/value_range.h"
 #include "obvid/io/read_points.h"
 #include "obvid/series/internal/scatter.h"
 
@@ -157,59 +157,23 @@ Result<void> cover(const std::vector<Vec2>& heights, double from, double length,
   return {};
 }
 
-/// Heights of a loop with those of the laps before and behind; without a lap as they are.
-std::vector<Vec2> around(const std::vector<Vec2>& heights, double lap) {
-  if (lap == 0.0) return heights;
-  std::vector<Vec2> out;
-  for (const double shift : {-lap, 0.0, lap}) {
-    for (const Vec2 at : heights) out.push_back({at.x + shift, at.y});
-  }
-  return out;
-}
-
-/// Grades that the heights around a station bear: of the chords around it and of those beside
-/// these, each end moved by the tolerance.
-ValueRange grades_around(const std::vector<Vec2>& heights, double tolerance, double station) {
-  const auto next = std::upper_bound(heights.begin(), heights.end(), station,
-                                     [](double s, const Vec2& at) { return s < at.x; });
-  const auto behind = static_cast<std::size_t>(next - heights.begin());
-  const std::size_t first = behind > 2 ? behind - 2 : 0;
-  const std::size_t last = std::min(behind + 1, heights.size() - 1);
-  ValueRange out{HUGE_VAL, -HUGE_VAL};
-  for (std::size_t k = first; k < last; ++k) {
-    const Vec2 chord = heights[k + 1] - heights[k];
-    out.low = std::min(out.low, (chord.y - 2.0 * tolerance) / chord.x);
-    out.high = std::max(out.high, (chord.y + 2.0 * tolerance) / chord.x);
-  }
-  return out;
-}
-
-/// Warns of a hump between heights that do not show it: the way of continuous grades past a corner
-/// that is sharper than the tolerance rounds.
-void tell_humps(const VerticalProfile& profile, const std::vector<Vec2>& heights, double tolerance,
-                const Units& units, std::vector<std::string>& remarks) {
-  double farthest = 0.0;
-  ProfileElement worst;
-  ValueRange borne;
-  std::size_t humps = 0;
-  for (const ProfileElement& e : profile.elements) {
-    const ValueRange room = grades_around(heights, tolerance, e.station);
-    const double off = std::max(room.low - e.grade0, e.grade0 - room.high);
-    if (!(off > 0.0)) continue;
-    ++humps;
-    if (off <= farthest) continue;
-    farthest = off;
-    worst = e;
-    borne = room;
-  }
-  if (humps == 0) return;
+/// Warns of a hump between heights that do not show it.
+void tell_humps(const std::vector<UnborneGrade>& humps, double tolerance, const Units& units,
+                std::vector<std::string>& remarks) {
+  if (humps.empty()) return;
+  const auto off = [](const UnborneGrade& g) {
+    return std::max(g.borne.low - g.grade, g.grade - g.borne.high);
+  };
+  const UnborneGrade& worst = *std::max_element(
+      humps.begin(), humps.end(),
+      [&](const UnborneGrade& a, const UnborneGrade& b) { return off(a) < off(b); });
   remarks.push_back(fmt::format(
       "the profile has a grade of {} % at station {} {}, where the heights bear {} to {} % ({} in "
-      "all): a corner of theirs is sharper than a vertical curve within the tolerance of {} {}; "
-      "allow more (--profile-noise), or give heights nearer to each other there",
-      significant(100.0 * worst.grade0, 3), significant(worst.station, 7), units.text(),
-      significant(100.0 * borne.low, 3), significant(100.0 * borne.high, 3),
-      counted(humps, "such joint", "such joints"), significant(tolerance, 3), units.text()));
+      "all): within {} {} none without was found; allow more (--profile-noise), or shorter "
+      "elements (--min-vertical-length), or give heights nearer to each other there",
+      significant(100.0 * worst.grade, 3), significant(worst.station, 7), units.text(),
+      significant(100.0 * worst.borne.low, 3), significant(100.0 * worst.borne.high, 3),
+      counted(humps.size(), "such joint", "such joints"), significant(tolerance, 3), units.text()));
 }
 
 }  // namespace
@@ -246,6 +210,14 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
     auto own = heights_of_points(series, alignment);
     OBVID_TRY(own);
     out = std::move(*own);
+    const bool no_tolerance =
+        rounding == 0.0 && !job.profile_noise && !job.profile_noise_from_scatter;
+    if (no_tolerance) {
+      remarks.emplace_back(
+          "the points have heights, but nothing says how exact they are: no profile "
+          "(--profile-noise makes one)");
+      return std::optional<ProfileReport>();
+    }
     // drawings fill a column that nobody measured
     if (std::all_of(out.heights.begin(), out.heights.end(),
                     [](const Vec2& at) { return at.y == 0.0; })) {
@@ -280,10 +252,11 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
       OBVID_TRY(close_around(ascending, alignment.length, *tolerance, out.of_points));
     }
   }
-  auto profile =
-      fit_profile(ascending, std::vector<double>(ascending.size(), *tolerance), options, run);
+  const std::vector<double> of_each(ascending.size(), *tolerance);
+  auto profile = fit_profile(ascending, of_each, options, run);
   OBVID_TRY(profile);
-  tell_humps(*profile, around(ascending, options.lap), *tolerance, series.units, remarks);
+  tell_humps(unborne_grades(*profile, BorneGrades(ascending, of_each, options.lap)), *tolerance,
+             series.units, remarks);
   std::vector<double> offsets(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) offsets[order[k]] = profile->offsets[k];
   if (again) offsets.push_back(offsets.front());

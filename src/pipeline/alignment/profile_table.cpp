@@ -27,7 +27,7 @@ namespace pipeline_detail {
 void add_profile(JsonText& json, const ProfileReport& report) {
   const VerticalProfile& profile = report.profile;
   json.begin_object();
-  json.pair("curves", profile.curves == ProfileCurves::kArcs ? "arcs" : "parabolas");
+  json.pair("curves", name_of(profile.curves));
   json.pair("tolerance", report.tolerance).pair("largest_share", profile.largest_share);
   json.pair("rms", profile.rms);
   add_profile_elements(json, profile);

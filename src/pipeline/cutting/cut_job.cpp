@@ -63,6 +63,7 @@ class Taken {
     std::string name = drawn->name.empty() ? fmt::format("curve {}", number + 1) : drawn->name;
     if (several_) name = drawing.name + ": " + name;
     made_.outlines.push_back({std::move(name), std::move(drawn->stored.contour), is_cut});
+    made_.curves.push_back(number);
     return {};
   }
 
@@ -91,6 +92,17 @@ void add_polyline(SketchLayer& layer, const Piece& piece) {
   add_chords(layer, piece, 0.0);
 }
 
+/// Outlines of one name, such as those of a block that is placed several times, get the numbers of
+/// their curves.
+void tell_apart(MadeCut& made) {
+  std::map<std::string, std::size_t> count;
+  for (const CutOutline& one : made.outlines) ++count[one.name];
+  for (std::size_t i = 0; i < made.outlines.size(); ++i) {
+    std::string& name = made.outlines[i].name;
+    if (count[name] > 1) name += fmt::format(" (curve {})", made.curves[i] + 1);
+  }
+}
+
 }  // namespace
 
 Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& options,
@@ -115,6 +127,7 @@ Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& opt
             "points");
   }
   for (CutOutline& one : made.outlines) one.contour.units = made.units;
+  tell_apart(made);
   CutOptions plan = job.plan;
   const auto millimetre = unit_ratio(made.units.name, "mm");
   plan.tolerance = job.tolerance.value_or(kDefaultTolerance / millimetre.value_or(1.0));
@@ -145,13 +158,17 @@ Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
   SketchLayer edge = sketch_layer("CUT", "edge of the cut", "#e9b48f", 40, 0.7);
   SketchLayer rapid = sketch_layer("RAPID", "rapid move", "#1b6ec2", 5, 0.8);
   rapid.dashed = true;
+  SketchLayer tabs = sketch_layer("TABS", "tab: stays below the tool", "#1a7f37", 3, 2.4);
   SketchLayer starts = sketch_layer("STARTS", "begins here, in this order", "#a3209b", 6, 1.0);
   for (const CutOutline& one : made.outlines) {
     for (const Piece& piece : one.contour.pieces) add_polyline(outlines, piece);
   }
   const double radius = 0.5 * job.plan.diameter;
   for (const CutMove& move : made.program.moves) {
-    add_polyline(move.kind == CutMoveKind::kRapid ? rapid : axis, move.piece);
+    SketchLayer& layer = move.kind == CutMoveKind::kRapid ? rapid
+                         : move.kind == CutMoveKind::kTab ? tabs
+                                                          : axis;
+    add_polyline(layer, move.piece);
     if (move.kind != CutMoveKind::kCut || radius == 0.0) continue;
     for (const double side : {radius, -radius}) {
       if (std::holds_alternative<RationalBezier>(move.piece)) add_chords(edge, move.piece, side);
@@ -162,8 +179,10 @@ Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
     starts.points.push_back(made.program.steps[k].start);
     out.words.push_back({made.program.steps[k].start, std::to_string(k + 1)});
   }
-  out.layers = {std::move(edge), std::move(outlines), std::move(axis), std::move(rapid),
-                std::move(starts)};
+  out.layers = {std::move(edge), std::move(outlines), std::move(axis), std::move(rapid)};
+  const bool any = !tabs.pieces.empty() || !tabs.polylines.empty();
+  if (any) out.layers.push_back(std::move(tabs));
+  out.layers.push_back(std::move(starts));
   return out;
 }
 
@@ -197,6 +216,20 @@ std::string cut_json(const MadeCut& made) {
   json.end_object();
   add_list(json, "warnings", made.warnings).end_object();
   return json.take();
+}
+
+std::string cut_csv(const MadeCut& made) {
+  std::string out = "order,curve,outline,tool,closed,start_x,start_y,length,left_in_corners\n";
+  std::size_t order = 0;
+  for (const CutStep& step : made.program.steps) {
+    std::string name = made.outlines[step.outline].name;
+    std::replace(name.begin(), name.end(), '"', '\'');
+    out += fmt::format("{},{},\"{}\",{},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", ++order,
+                       made.curves[step.outline] + 1, name, to_string(step.side),
+                       step.closed ? "yes" : "no", step.start.x, step.start.y, step.length,
+                       step.left_in_corners);
+  }
+  return out;
 }
 
 Result<void> set_cut(const CutValues& typed, CutJob& job) {

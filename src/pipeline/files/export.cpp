@@ -14,6 +14,7 @@
 #include "files/format_writers.h"
 #include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/core/internal/figures.h"
+#include "obvid/exchange/internal/gcode/path.h"
 #include "obvid/exchange/internal/points/solidworks.h"
 #include "obvid/exchange/internal/road/landxml.h"
 #include "obvid/exchange/internal/road/opendrive.h"
@@ -297,6 +298,7 @@ std::string points_text(const AirfoilPointFigures& f) {
 Result<Exported> airfoil_file(const ContourExport& e) {
   AirfoilOptions write = e.options.airfoil;
   write.name = e.options.picture.name.empty() ? e.options.name : e.options.picture.name;
+  if (!e.stored.name.empty()) write.name = e.stored.name;  // the file has it, not its own name
   if (e.options.samples.count) write.count = *e.options.samples.count;
   auto made = airfoil_text(e.contour, write);
   OBVID_TRY(made);
@@ -335,22 +337,35 @@ Result<Exported> airfoil_file(const ContourExport& e) {
   return out;
 }
 
-/// What an alignment loses in a contour file, and in all that is made of that.
-void tell_of_alignment(const ContourExport& e, std::vector<std::string>& remarks) {
-  std::size_t pieces = 0;
-  for (const PlacedTransition& one : e.options.transitions) pieces += one.pieces;
-  const std::size_t transitions = e.options.transitions.size();
-  if (transitions > 0) {
-    remarks.push_back(
-        fmt::format("{} {} in this file, and stay so in what is made of it; .xml keeps the kind",
-                    counted(transitions, "transition is", "transitions are"),
-                    counted(pieces, "clothoid", "clothoids")));
+/// Whether there is anything that a file of the curve alone would not say.
+bool is_said(const StoredAlignment& one) {
+  return one.first_station != 0.0 || !one.transitions.empty() || one.profile;
+}
+
+/// What the file of the contour says where nothing else was asked for.
+ExportOptions with_stored(const ExportOptions& asked, const StoredContour& stored) {
+  ExportOptions out = asked;
+  if (out.name == ExportOptions{}.name && !stored.name.empty()) out.name = stored.name;
+  if (!stored.alignment || is_said({out.first_station, out.transitions, out.profile})) return out;
+  out.first_station = stored.alignment->first_station;
+  out.transitions = stored.alignment->transitions;
+  out.profile = stored.alignment->profile;
+  return out;
+}
+
+/// Elements that LandXML has in parts.
+void tell_of_parts(const ContourExport& e, std::string_view text,
+                   std::vector<std::string>& remarks) {
+  std::size_t elements = exchange::whole_arcs(e.contour.pieces).size(), written = 0;
+  for (const PlacedTransition& one : e.options.transitions) elements -= one.pieces - 1;
+  for (const std::string_view tag : {"<Line ", "<Curve ", "<Spiral "}) {
+    for (auto at = text.find(tag); at != text.npos; at = text.find(tag, at + 1)) ++written;
   }
-  if (e.options.first_station != 0.0) {
-    remarks.push_back(
-        fmt::format("stations begin at 0 in this file, not at {:.10g}; .xml keeps them",
-                    e.options.first_station));
-  }
+  if (written <= elements) return;
+  remarks.push_back(fmt::format(
+      "{} for {} of the curve: what turns by more than a right angle or through an inflection is "
+      "in parts there",
+      counted(written, "element", "elements"), elements));
 }
 
 /// What is written flat.
@@ -362,7 +377,7 @@ std::string without_profile(const VerticalProfile& profile) {
   }
   return fmt::format(
       "flat: the profile of {} ({:.6g} to {:.6g} high at its joints and ends) is in "
-      ".xml and .xodr alone",
+      ".xml, .xodr and .json alone",
       counted(profile.elements.size(), "element", "elements"), low, high);
 }
 
@@ -379,9 +394,12 @@ Result<void> can_plot(const ContourExport& e) {
 }
 
 Result<Exported> contour_as_json(const ContourExport& e) {
-  auto out = as_it_is(e, contour_to_json(e.stored, e.watch));
-  if (out) tell_of_alignment(e, out->remarks);
-  return out;
+  StoredContour stored = e.stored;
+  if (e.options.name != ExportOptions{}.name) stored.name = e.options.name;
+  StoredAlignment own{e.options.first_station, e.options.transitions, e.options.profile};
+  stored.alignment.reset();
+  if (is_said(own)) stored.alignment = std::move(own);
+  return as_it_is(e, contour_to_json(stored, e.watch));
 }
 
 /// A picture for a report, or a drawing in true scale.
@@ -435,9 +453,11 @@ Result<Exported> contour_as_landxml(const ContourExport& e) {
   road.profile = e.options.profile;
   road.transitions = e.options.transitions;
   road.first_station = e.options.first_station;
-  return with_units(
-      notes_of(e, UnitRule::kRoad, "LandXML files", landxml_unit(e.contour.units.name)),
-      [&] { return one_text(landxml_text(e.contour, road)); });
+  auto out =
+      with_units(notes_of(e, UnitRule::kRoad, "LandXML files", landxml_unit(e.contour.units.name)),
+                 [&] { return one_text(landxml_text(e.contour, road)); });
+  if (out) tell_of_parts(e, out->files.front().text, out->remarks);
+  return out;
 }
 
 Result<Exported> contour_as_samples(const ContourExport& e) {
@@ -482,16 +502,18 @@ ContourWriter contour_writer_of(FileFormat format) {
 }  // namespace pipeline_detail
 
 Result<Exported> export_contour(const StoredContour& stored, FileFormat format,
-                                const ExportOptions& options, const RunContext& run) {
+                                const ExportOptions& asked, const RunContext& run) {
   using namespace pipeline_detail;
   OBVID_TRY(may_go_on(run));
   Watch watch(run);
   const double size = bounding_diagonal(places_of(stored.contour));
+  const ExportOptions options = with_stored(asked, stored);
   auto made = contour_writer_of(format)(
       {stored, stored.contour, options, size, options.tolerance.value_or(kExportTolerance * size),
        options.tolerance.value_or(kDefaultForArcs * size), &watch});
   if (watch.was_cancelled()) return fail(cancelled_error());
-  const bool has_heights = format == FileFormat::kLandXml || format == FileFormat::kOpenDrive;
+  const bool has_heights = format == FileFormat::kLandXml || format == FileFormat::kOpenDrive ||
+                           format == FileFormat::kContour;
   if (made && options.profile && !has_heights) {
     made->remarks.push_back(without_profile(*options.profile));
   }

@@ -253,10 +253,10 @@ std::string order_text(const PointSeries& series, const CurveOrder& found) {
       found.order.size(), significant(found.largest_step, 4), unit, significant(found.gap, 4));
   if (found.is_outline) {
     text +=
-        "; it is the shortest closed way that was found, opened at its longest step: look at it "
+        "; it is the shortest closed way that was found, begun behind its longest step: look at it "
         "before you rely on it";
   }
-  if (found.gap <= kMayClose * found.largest_step) text += ": --closed closes the contour";
+  if (found.gap <= kMayClose * found.largest_step) text += ", which --closed closes";
   return text;
 }
 
@@ -400,6 +400,7 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
     out.label = drawing.curves[chosen].label;
   } else {
     out = drawing.series[chosen - drawing.curves.size()];
+    if (!options.list.heights) out.fixed.clear();  // of maps: heights, which alignments take
     out.label = out.name;
     const bool edges = options.use == DrawnUse::kExact && out.kind == SeriesKind::kLine;
     if (edges) {

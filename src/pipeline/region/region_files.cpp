@@ -13,6 +13,7 @@
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/geom/internal/angle.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/region/internal/boundary_distance.h"
 #include "obvid/region/internal/convex_triangle.h"
@@ -368,12 +369,41 @@ std::string region_latex(const PointSeries& series, const RegionTable& table) {
   return out;
 }
 
+namespace {
+
+std::string drawn_wider(const RegionDrawing& drawing) {
+  return fmt::format("the region is drawn {:g} times wider across its chords", drawing.magnified);
+}
+
+RegionFile region_page(const PointSeries& series, const RegionTable& table,
+                       const std::string& asked) {
+  const RegionDrawing drawing = region_drawing(series, table);
+  double widest = 0.0;
+  for (const RegionRow& row : table.last().rows) widest = std::max(widest, row.width.value_or(0.0));
+  ReportPage page;
+  page.title = series.name;
+  page.verdict = fmt::format("largest known width of the region {} {}", significant(widest, 4),
+                             series.units.text());
+  page.pictures.push_back(sketch_svg(drawing.sketch));
+  if (!asked.empty()) page.figures.emplace_back("asked for", asked);
+  page.figures.emplace_back("lengths in", series.units.text());
+  page.figures.emplace_back("points", std::to_string(series.points.size()));
+  page.figures.emplace_back("picture", drawn_wider(drawing));
+  page.tables.push_back(
+      table_of_csv("region", "Points and the segments that begin there", region_csv(table)));
+  page.tables.push_back(table_of_csv("construction", "Construction", construction_csv(table)));
+  return {page_text(page), ""};
+}
+
+}  // namespace
+
 RegionDrawing region_drawing(const PointSeries& series, const RegionTable& table) {
   return WorksheetDrawing(series, table).run();
 }
 
 Result<RegionFile> region_file(const std::string& ending, const PointSeries& series,
-                               const RegionTable& table, const RunContext& run) {
+                               const RegionTable& table, const RunContext& run,
+                               const std::string& asked) {
   std::string kind = ending;
   std::transform(kind.begin(), kind.end(), kind.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -388,13 +418,13 @@ Result<RegionFile> region_file(const std::string& ending, const PointSeries& ser
   }
   if (kind == "svg" || kind == "dxf") {
     const RegionDrawing drawing = region_drawing(series, table);
-    return RegionFile{
-        kind == "svg" ? sketch_svg(drawing.sketch) : sketch_dxf(drawing.sketch),
-        fmt::format("the region is drawn {:g} times wider across its chords", drawing.magnified)};
+    return RegionFile{kind == "svg" ? sketch_svg(drawing.sketch) : sketch_dxf(drawing.sketch),
+                      drawn_wider(drawing)};
   }
+  if (kind == "html") return region_page(series, table, asked);
   return error(ErrorCode::kUnknownFormat, "region writes no such file")
       .where(ending)
-      .hint("possible are .csv, .tex, .json (tables), .svg and .dxf (drawings)");
+      .hint("possible are .csv, .tex, .json (tables), .svg and .dxf (drawings), .html (page)");
 }
 
 }  // namespace obvid

@@ -19,6 +19,7 @@ namespace {
 /// What the points of the chosen series say; a warning instead where they say nothing.
 std::optional<AnalysedSeries> analysed(Drawing& drawing, std::size_t number) {
   PointSeries series = drawing.series[number];
+  series.fixed.clear();  // of maps: heights, which alignments take
   series.units = drawing.units;
   auto analysis = analyse(series.points);
   if (!analysis) {

@@ -13,6 +13,7 @@
 #include "obvid/certify/internal/carrier_pieces.h"
 #include "obvid/certify/internal/limits.h"
 #include "obvid/curve/internal/nearest.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/series/analysis.h"
 #include "verify/report.h"
@@ -266,6 +267,26 @@ void compare_runs(const Contour& contour, const Certificate& found, ClaimCheck& 
   }
 }
 
+/// A transition that clothoids stand for leads from the start of the first one to the end of the
+/// last one.
+void compare_transitions(const StoredContour& stored, ClaimCheck& c) {
+  constexpr double kSameEnd = 1e-6;  // of the length, and rad
+  if (!stored.alignment) return;
+  std::size_t number = 0;
+  for (const PlacedTransition& one : stored.alignment->transitions) {
+    const auto& first = std::get<ClothoidPiece>(stored.contour.pieces[one.first_piece]);
+    const auto& last =
+        std::get<ClothoidPiece>(stored.contour.pieces[one.first_piece + one.pieces - 1]);
+    const Element end = transition_at(one.kind, {first.start, first.theta0, one.kappa0}, one.kappa1,
+                                      one.length, one.length);
+    const double turned = last.theta0 + 0.5 * (last.kappa0 + last.kappa1) * last.length;
+    const double off = std::max(norm(end.point - last.end) / one.length,
+                                std::abs(std::remainder(end.theta - turned, kFullTurn)));
+    if (!(off <= kSameEnd)) c.refuse("end of transition " + std::to_string(number), 0.0, off);
+    ++number;
+  }
+}
+
 /// What stands in the file and is taken as it stands.
 std::vector<std::string> not_checked(const StoredContour& stored) {
   std::vector<std::string> out = {"/units", "/units_source"};
@@ -278,6 +299,14 @@ std::vector<std::string> not_checked(const StoredContour& stored) {
   }
   if (steps_at_joints(stored.contour.carrier)) {
     out.emplace_back("/elements/*/kappa (only that it lies between both arcs)");
+  }
+  if (!stored.name.empty()) out.emplace_back("/name");
+  if (stored.alignment) {
+    out.emplace_back("/alignment/first_station");
+    if (stored.alignment->profile) out.emplace_back("/alignment/profile");
+    if (!stored.alignment->transitions.empty()) {
+      out.emplace_back("/alignment/transitions (only that each ends where its clothoids do)");
+    }
   }
   if (stored.report) {
     if (follows_spirals(stored.contour.carrier)) {  // the spirals are not in the file
@@ -351,6 +380,7 @@ Verification verified(const StoredContour& stored, Watch& watch) {
     }
   }
   if (out.certificate.through_points) compare_ends(stored.contour, comparison);
+  compare_transitions(stored, comparison);
   compare_runs(stored.contour, out.certificate, comparison);
   if (stored.certificate) compare_certificate(*stored.certificate, out.certificate, comparison);
   out.false_claim = comparison.refused();

@@ -45,8 +45,10 @@ struct RegionFile {
 };
 
 /// `ending`: of the file, without its dot: "csv" (with a construction its own table), "tex", "json"
-/// (tables), "svg", "dxf" (drawings); capitals do not matter. Errors: E202, another one; E103.
+/// (tables), "svg", "dxf" (drawings), "html" (page with both, which says what was `asked`);
+/// capitals do not matter. Errors: E202, another one; E103.
 [[nodiscard]] Result<RegionFile> region_file(const std::string& ending, const PointSeries& series,
-                                             const RegionTable& table, const RunContext& run = {});
+                                             const RegionTable& table, const RunContext& run = {},
+                                             const std::string& asked = {});
 
 }  // namespace obvid

@@ -13,8 +13,13 @@
 
 namespace obvid::exchange {
 
-/// Of one block, rad: well below half a turn. Arcs that turn by more are told in parts.
-inline constexpr double kMostBlockTurn = 2.8;
+/// Of one block, rad: half a turn and what rounding makes of it, so that a circle is two. Arcs that
+/// turn by more are told in parts: ends of one that nearly meet leave its centre to rounding.
+inline constexpr double kMostBlockTurn = 3.15;
+
+/// Neighbours on one circle as one arc, of a whole turn at most: circles are drawn in parts. What
+/// comes first stays first.
+[[nodiscard]] std::vector<Piece> whole_arcs(const std::vector<Piece>& pieces);
 
 /// Fixed decimals, never "-0.000".
 [[nodiscard]] std::string fixed(double value, int decimals);
