@@ -56,6 +56,19 @@ Rail between(const Rail& a, const Rail& b) {
   return out;
 }
 
+void append_kept(const std::vector<PassPoint>& piece, const std::vector<bool>& kept,
+                 std::vector<std::vector<PassPoint>>& out) {
+  bool open = false;
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    if (kept[k]) {
+      if (!open) out.emplace_back();
+      out.back().push_back(piece[k]);
+    }
+    open = kept[k];
+  }
+  std::erase_if(out, [](const auto& one) { return one.size() < 2; });
+}
+
 void keep_flat(Pass& pass, double flat_from, double beyond) {
   std::vector<std::vector<PassPoint>> pieces;
   for (const auto& piece : pass.pieces) {
@@ -75,16 +88,8 @@ void keep_flat(Pass& pass, double flat_from, double beyond) {
     };
     spread([](std::size_t k) { return k; });
     spread([n](std::size_t k) { return n - 1 - k; });
-    bool open = false;
-    for (std::size_t k = 0; k < n; ++k) {
-      if (kept[k]) {
-        if (!open) pieces.emplace_back();
-        pieces.back().push_back(piece[k]);
-      }
-      open = kept[k];
-    }
+    append_kept(piece, kept, pieces);
   }
-  std::erase_if(pieces, [](const auto& piece) { return piece.size() < 2; });
   pass.pieces = std::move(pieces);
 }
 

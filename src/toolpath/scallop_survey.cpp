@@ -32,7 +32,8 @@ void append_sweeps(const Pass& pass, double within, std::vector<Sweep>& sweeps) 
 }  // namespace
 
 ScallopSurvey::ScallopSurvey(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                             const SurfaceCells& cells, std::vector<Nearest>& reach, Walker& walker)
+                             const SurfaceCells& cells, std::vector<Nearest>& reach,
+                             const Leftover* left, Walker& walker)
     : part_(part),
       walker_(walker),
       of_parameters_(options.strategy == ToolpathStrategy::kIsoparametric),
@@ -43,7 +44,9 @@ ScallopSurvey::ScallopSurvey(const Part& part, const ToolpathOptions& options, c
       scallop_(options.scallop.value_or(0.0)),
       print_(print_within(options)),
       flat_from_(flat_from(options).value_or(-1.0)),
-      simulation_(part, cells, reach, options.threads) {}
+      simulation_(part, cells, reach, options.threads) {
+  simulation_.judge_only(left);
+}
 
 Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels, double share,
                                             const RunContext& run) {

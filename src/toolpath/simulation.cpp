@@ -12,7 +12,6 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr std::size_t kCellsBetweenQuestions = 16;
 constexpr double kNotThere = std::numeric_limits<double>::infinity();
 constexpr double kFarthest = 4.0;  // radii: rays are not followed any farther
 constexpr double kAbout = 1.5;     // as far as in the cell before: most likely enough
@@ -194,8 +193,7 @@ Result<void> Simulation::look_into_reach(double limit, const RunContext& run) {
     Questions questions(&watch, kCellsBetweenQuestions);
     const SurfaceCells::Tile& tile = cells_.tiles()[t];
     for (std::size_t i = tile.first; i < tile.first + tile.count && !questions.end(); ++i) {
-      if (nodes_[i].left > limit && !(cells_.cells()[i].normal == Vec3{}))
-        static_cast<void>(nearest(i));
+      if (nodes_[i].left > limit && counts(i)) static_cast<void>(nearest(i));
     }
   };
   return in_parallel(cells_.tiles().size(), threads_, run, look_into);
@@ -231,7 +229,7 @@ HighSpot Simulation::spot_at(const Piece& piece, Vec2 axis) const {
 bool Simulation::find_above(std::size_t node, double limit, double within, HighSpot& spot) {
   const CellBounds& b = nodes_[node];
   const Cell& cell = cells_.cells()[node];
-  if (!(b.left_most > limit + within) || cell.normal == Vec3{}) return false;
+  if (!(b.left_most > limit + within) || !counts(node)) return false;
   if (b.left > limit) {
     const Nearest& near = nearest(node);
     if (near.reach == Reach::kReached) {

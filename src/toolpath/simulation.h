@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "leftover.h"
 #include "reach.h"
 #include "surface_cells.h"
 #include "sweep.h"
@@ -75,6 +76,8 @@ class Simulation {
     flat_from_ = flat_from;
     flat_limit_ = limit;
   }
+  /// What stays counts only where an earlier cutter left something; null: everywhere.
+  void judge_only(const Leftover* left) { left_ = left; }
   [[nodiscard]] Result<void> cut(const std::vector<Sweep>& sweeps, const RunContext& run);
   /// Where more than `limit` stays though the cutter can touch the part: one place of each cell at
   /// most. Heights within `within` above the limit can stay unseen.
@@ -104,6 +107,9 @@ class Simulation {
     double least = 0.0;  ///< distance from the cell's middle at least
     std::uint32_t sweep = 0;
   };
+  [[nodiscard]] bool counts(std::size_t node) const {
+    return !(cells_.cells()[node].normal == Vec3{}) && (left_ == nullptr || left_->at(node));
+  }
   void look(const Looking& what, const Cell& cell, const Sweep& sweep, CellBounds& bounds) const;
   /// Takes sweeps in, the nearest first; `candidates`: those of them that are no farther from the
   /// cell's middle than `enough`.
@@ -145,6 +151,7 @@ class Simulation {
   std::size_t threads_;
   double sway_;
   double flat_from_ = 2.0, flat_limit_ = 0.0;
+  const Leftover* left_ = nullptr;
   std::vector<Sweep> sweeps_;
   std::vector<Numbers> of_tile_;
   std::vector<std::uint32_t> tile_of_;

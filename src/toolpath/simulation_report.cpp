@@ -76,7 +76,7 @@ Result<void> Simulation::report_reach(SimulationReport& out, const RunContext& r
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Cell& cell = cells_.cells()[i];
     out.area += cell.area;
-    if (!(nodes_[i].left > part_.tolerance())) continue;
+    if (!(nodes_[i].left > part_.tolerance()) || !counts(i)) continue;
     const Nearest& near = nearest_[i];
     if (near.reach == Reach::kHidden) out.hidden_area += cell.area;
     if (near.reach != Reach::kHeld) continue;
@@ -96,7 +96,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
   std::vector<std::size_t> high;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Cell& cell = cells_.cells()[i];
-    if (cell.normal == Vec3{}) continue;
+    if (!counts(i)) continue;
     const bool touched =
         nodes_[i].left <= part_.tolerance() || nearest_[i].reach == Reach::kReached;
     if (cell.normal.z > flat_from_) {
