@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "obvid/core/internal/parallel.h"
+#include "reach.h"
 
 namespace obvid::toolpath {
 namespace {
@@ -117,12 +118,10 @@ Walker::Station Walker::touching(const Rail& rail, double t) const {
   const SurfaceJet jet = evaluate(surface, place.u, place.v);
   const Vec3 n = unit(cross(jet.du, jet.dv));
   if (n == Vec3{}) return std::nullopt;
-  place.normal = n.z < 0.0 ? -n : n;
+  place.normal = open_side(part_, jet.point, n.z < 0.0 ? -n : n);
   place.contact = jet.point;
   const double tolerance = part_.tolerance();
-  const Vec3 beside = jet.point + tolerance * place.normal;  // walls do not hide themselves
-  const auto over = part_.surface_over({beside.x, beside.y});
-  if (over && over->contact.z > beside.z + tolerance) return std::nullopt;
+  if (hidden(part_, jet.point, place.normal)) return std::nullopt;
   place.tip = part_.tip(place.contact, place.normal);
   const auto rest = part_.drop({place.tip.x, place.tip.y});
   if (!rest) return out;  // a wall that the cutter just touches

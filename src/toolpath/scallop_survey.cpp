@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kMostRounds = 10;
 constexpr std::size_t kSpotsUnasked = 256;  // before whoever waits is asked whether to go on
+constexpr double kTakenOff = 0.9;           // of a height: more than that is nothing taken off
+constexpr int kMostInVain = 3;              // passes one after the other that took nothing off
 constexpr double kPassMargin = 3.0;         // cells that a pass goes beyond high places
 constexpr double kPassesTogether = 2.0;     // diameters: passes nearer to each other become one
 constexpr double kLeastPassStep = 0.002;    // of the level step: nearer passes help no more
@@ -67,6 +69,7 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels,
     sweeps.clear();
     auto high = simulation_.above(share * scallop_, kScallopWithin * scallop_, run);
     OBVID_TRY(high);
+    give_up(*high);
     if (levels != nullptr) {
       const auto wall = std::stable_partition(
           high->begin(), high->end(), [&](const HighSpot& s) { return s.normal.z > flat_from_; });
@@ -91,6 +94,18 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels,
     if (sweeps.empty()) break;
   }
   return count;
+}
+
+void ScallopSurvey::give_up(std::vector<HighSpot>& high) {
+  std::erase_if(high, [&](const HighSpot& spot) {
+    const auto [at, fresh] = tried_.try_emplace(spot.cell);
+    Tried& tried = at->second;
+    const bool vain =
+        !fresh && std::isfinite(spot.height) && spot.height > kTakenOff * tried.height;
+    tried.times = vain ? tried.times + 1 : 0;
+    tried.height = spot.height;
+    return tried.times >= kMostInVain;
+  });
 }
 
 ScallopSurvey::Across ScallopSurvey::across(const HighSpot& spot) const {
