@@ -25,8 +25,10 @@ using namespace toolpath;
 constexpr int kMostAttempts = 3;
 constexpr double kLowerShare = 0.96;
 constexpr double kCellOfRadius = 1.0 / 8.0, kCellOfStep = 0.25;
-constexpr double kDefaultSafe = 0.5;    // diameters above the highest point
-constexpr double kLeastSpindle = 0.5;   // revolutions a minute: printed as a whole number
+constexpr double kDefaultSafe = 0.5;   // diameters above the highest point
+constexpr double kLeastSpindle = 0.5;  // revolutions a minute: printed as a whole number
+constexpr double kLeastAcceleration =
+    1e-3;                               // mm/s^2: less is a typing error, and no time comes of it
 constexpr double kSteepestRamp = 90.0;  // degrees
 constexpr double kMostSteep = 90.0;     // degrees
 constexpr double kMostAngle = 1e6;      // degrees: beyond, the angle is lost in rounding
@@ -114,8 +116,8 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
     if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
   }
-  if (o.acceleration && !positive(*o.acceleration)) {
-    return refuse("the acceleration must be greater than 0", *o.acceleration);
+  if (o.acceleration && !(positive(*o.acceleration) && *o.acceleration >= kLeastAcceleration)) {
+    return refuse("the acceleration must be at least 0.001 mm/s^2", *o.acceleration);
   }
   if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {
     return refuse("the allowance must not be less than 0", o.allowance);
