@@ -103,7 +103,17 @@ std::string entries_text(const ToolpathEntries& e, bool rough) {
                      rough ? " beside the stock" : "");
 }
 
-std::string toolpath_text(const Made& made, const std::vector<std::string>& files) {
+std::string rest_text(const ToolpathReport& r, const std::string& unit) {
+  const std::string share = area_share(r.leftover_area, r.surface_area);
+  if (!(r.leftover_area > 0.0)) return share;
+  return fmt::format("{} of the surface, {} left there by the earlier cutter at {}", share,
+                     std::isfinite(r.leftover_depth)
+                         ? fmt::format("up to {} {}", significant(r.leftover_depth, 3), unit)
+                         : std::string("more than its diameter"),
+                     toolpath_place(r.leftover_place));
+}
+
+std::string toolpath_text(const Made& made, const std::vector<std::string>& files, bool earlier) {
   const ToolpathReport& r = made.job.path.report;
   const std::string& unit = made.job.path.units;
   Facts facts;
@@ -132,6 +142,7 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                         : std::string("unbounded"),
                     toolpath_place(r.scallop.place), bound("{} nowhere exceeded", r.scallop.most)));
   }
+  if (earlier) facts.add("rest", rest_text(r, unit));
   if (r.flat_left > 0.0) {
     facts.add("flatter",
               fmt::format("more than the scallop on {} of the surface, where levels are not meant "
@@ -199,7 +210,7 @@ int run(const ToolpathCommand& command) {
     made->job.warnings = made->warnings;
     text = toolpath_report_json(made->job, {files, made->remarks});
   } else if (!command.quiet) {
-    text = toolpath_text(*made, files);
+    text = toolpath_text(*made, files, command.job.rest_of.has_value());
   }
   if (auto done = put(text); !done) return report(done.error());
   return judge_toolpath(*made);

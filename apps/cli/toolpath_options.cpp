@@ -39,6 +39,20 @@ void add_cutter(CLI::App& app, RawToolpath& raw) {
       ->group(group);
 }
 
+void add_earlier(CLI::App& app, ToolpathCommand& command) {
+  const char* group = "Rest material";
+  app.add_option("--rest-of", command.job.rest_of,
+                 "Passes only where an earlier cutter of this diameter left more than the "
+                 "tolerance, units [everywhere]")
+      ->type_name("D")
+      ->group(group);
+  app.add_option("--rest-corner", command.job.rest_corner,
+                 "Corner radius of the earlier cutter, units; 0: flat, half its diameter: a ball "
+                 "[of this cutter's kind]")
+      ->type_name("R")
+      ->group(group);
+}
+
 void add_passes(CLI::App& app, RawToolpath& raw) {
   const char* group = "Passes";
   ToolpathOptions& plan = raw.command.job.plan;
@@ -169,6 +183,7 @@ Result<Command> parse_toolpath(int argc, const char* const* argv) {
   app.add_option("INPUT", raw.command.input, "Surface (.json, STEP, IGES, BREP, control points)");
   add_output(app, raw.command.outputs, raw.format, kOutputHelp, "nc");
   add_cutter(app, raw);
+  add_earlier(app, raw.command);
   add_passes(app, raw);
   add_roughing(app, raw);
   add_entries(app, raw);

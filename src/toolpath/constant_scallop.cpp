@@ -94,12 +94,13 @@ class Front {
 }  // namespace
 
 Result<Family> constant_scallop(const Part& part, const ToolpathOptions& options,
-                                const StepRule& rule, Walker& walker, const RunContext& run) {
+                                const StepRule& rule, Walker& walker, const Leftover* left,
+                                const RunContext& run) {
   PassFrame frame = pass_frame(part, options.angle_deg);
   Front front(part, rule, frame, walker.threads());
   Family family;
   while (front.lowest() <= frame.b1) {
-    auto pass = walker.walk(front.rail());
+    auto pass = walk_where_left(walker, front.rail(), left);
     OBVID_TRY(pass);
     if (!pass->empty()) family.push_back(std::move(*pass));
     front.advance();

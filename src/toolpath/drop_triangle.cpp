@@ -11,7 +11,11 @@ namespace {
 
 /// Triangles that stand upright within this (z of the unit normal) touch with edges only.
 constexpr double kUprightTriangle = 1e-9;
-constexpr int kMostEdgeSteps = 40;        // along an edge: below rounding
+constexpr double kLeaning = 1e-4;         // z of the unit normal
+constexpr double kSurelyIn = 1e-6;        // weight of a place on the inner side of a side
+constexpr int kMostEdgeSteps = 60;        // along an edge: below rounding
+constexpr int kHalvedEach = 3;            // of these steps one halves what is left
+constexpr double kSecantOnEdge = 0.02;    // of what is left: others keep that far from its ends
 constexpr double kSettledOnEdge = 1e-12;  // of the radius
 
 double level_length(double x, double y) { return std::sqrt(x * x + y * y); }
@@ -56,12 +60,21 @@ bool touching(const CutterShape& cutter, const EdgeLine& edge, double from, doub
     s = std::clamp(std::sqrt(r2) * edge.slope / std::sqrt(1.0 + edge.slope * edge.slope), from, to);
     return true;
   }
+  // the tip's height is concave: its change falls from end to end, tangents lie above it
   const double settled = kSettledOnEdge * cutter.radius;
+  double rises = std::numeric_limits<double>::infinity(), falls = -rises;  // changes at the ends
   for (int k = 0; k < kMostEdgeSteps && to - from > settled; ++k) {
-    s = 0.5 * (from + to);
+    const double part =
+        k % kHalvedEach != 0 && std::isfinite(rises - falls)
+            ? std::clamp(rises / (rises - falls), kSecantOnEdge, 1.0 - kSecantOnEdge)
+            : 0.5;
+    s = from + part * (to - from);
     const EdgeLine::Tip at = edge.tip(cutter, s);
-    if (at.z + std::abs(at.change) * 0.5 * (to - from) <= enough) return false;
+    const double left = at.change > 0.0 ? to - s : s - from;
+    if (at.z + std::abs(at.change) * left <= enough) return false;
+    if (std::abs(at.change) * left <= settled) return true;
     (at.change > 0.0 ? from : to) = s;
+    (at.change > 0.0 ? rises : falls) = at.change;
   }
   s = 0.5 * (from + to);
   return true;
@@ -86,6 +99,7 @@ bool on_edge(const CutterShape& cutter, Vec2 axis, Vec3 a, Vec3 b, int feature, 
   return raise_rest(rest, p.z - cutter.height(level_length(s, e)), p, feature);
 }
 
+/// The weights of a place; false: it lies outside.
 bool inside(const Triangle& t, Vec2 p, std::array<double, 3>& w) {
   const Vec2 a{t[0].x, t[0].y}, b{t[1].x, t[1].y}, c{t[2].x, t[2].y};
   const double area = cross(b - a, c - a);
@@ -100,6 +114,7 @@ bool inside(const Triangle& t, Vec2 p, std::array<double, 3>& w) {
 struct PlaneRest {
   double tip_z;  ///< no feature of the triangle holds the tip any higher
   Vec2 touch;    ///< from the axis
+  bool leans;    ///< so far from upright that weights of its places are known
 };
 
 std::optional<PlaneRest> on_plane(const CutterShape& cutter, Vec2 axis, const Triangle& t) {
@@ -110,27 +125,32 @@ std::optional<PlaneRest> on_plane(const CutterShape& cutter, Vec2 axis, const Tr
   const double plane = t[0].z - (n.x * (axis.x - t[0].x) + n.y * (axis.y - t[0].y)) / n.z;
   const double lift = cutter.corner * (size / up - 1.0) + cutter.flat() * level / up;
   const double out = cutter.corner / size + (level > 0.0 ? cutter.flat() / level : 0.0);
-  return PlaneRest{plane + lift, -side * out * Vec2{n.x, n.y}};
+  return PlaneRest{plane + lift, -side * out * Vec2{n.x, n.y}, up > kLeaning * size};
 }
 
 }  // namespace
 
+// Over a plane the height of the tip that touches at a place is concave, with its greatest value
+// where the plane would be touched. From the highest place of the triangle it grows on the way
+// there, so that way leads out at once: sides that it does not cross need not be looked at.
 bool drop_on(const CutterShape& cutter, Vec2 axis, const Triangle& t, unsigned skipped,
              Rest& rest) {
+  std::array<bool, 3> beyond = {true, true, true};  // the sides t[k], t[k + 1]
   if (const auto plane = on_plane(cutter, axis, t)) {
     if (plane->tip_z <= rest.tip_z) return false;
     std::array<double, 3> w{};
     if (inside(t, axis + plane->touch, w)) {
       return raise_rest(rest, plane->tip_z, w[0] * t[0] + w[1] * t[1] + w[2] * t[2], 0);
     }
+    for (std::size_t k = 0; plane->leans && k < 3; ++k) beyond[k] = !(w[(k + 2) % 3] > kSurelyIn);
   }
   bool raised = false;
   for (std::size_t k = 0; k < 3; ++k) {
     const int edge = static_cast<int>(k) + 1;
-    if (((skipped >> edge) & 1U) == 0) {
+    if (beyond[k] && ((skipped >> edge) & 1U) == 0) {
       raised = on_edge(cutter, axis, t[k], t[(k + 1) % 3], edge, rest) || raised;
     }
-    if (((skipped >> (edge + 3)) & 1U) == 0) {
+    if ((beyond[k] || beyond[(k + 2) % 3]) && ((skipped >> (edge + 3)) & 1U) == 0) {
       raised = on_corner(cutter, axis, t[k], edge + 3, rest) || raised;
     }
   }

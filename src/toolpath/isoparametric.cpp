@@ -30,7 +30,7 @@ double step_of(const Part& part, const StepRule& rule, const Pass& pass, double 
 }  // namespace
 
 Result<Family> isoparametric(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                             Walker& walker, const RunContext& run) {
+                             Walker& walker, const Leftover* left, const RunContext& run) {
   Family family;
   const auto& patches = part.model().patches;
   for (std::size_t k = 0; k < patches.size(); ++k) {
@@ -45,6 +45,7 @@ Result<Family> isoparametric(const Part& part, const ToolpathOptions& options, c
       auto pass = walker.walk(rail);
       OBVID_TRY(pass);
       const double step = step_of(part, rule, *pass, range.length());
+      if (left != nullptr) left->keep(*pass);
       family.push_back(std::move(*pass));
       if (at >= range.to) break;
       at = std::min(at + step, range.to);

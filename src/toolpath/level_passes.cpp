@@ -30,9 +30,11 @@ std::optional<double> flat_from(const ToolpathOptions& options) {
   return std::cos(options.steep_deg.value_or(kSteepDeg) * std::numbers::pi / 180.0);
 }
 
-LevelPasses::LevelPasses(const Part& part, const ToolpathOptions& options, const StepRule& rule)
+LevelPasses::LevelPasses(const Part& part, const ToolpathOptions& options, const StepRule& rule,
+                         const Leftover* left)
     : part_(part),
       rule_(rule),
+      left_(left),
       most_points_(options.most_points),
       threads_(options.threads),
       flat_from_(*flat_from(options)),
@@ -90,6 +92,7 @@ Result<std::optional<LevelPasses::Heights>> LevelPasses::wall_heights(const Surf
     for (std::size_t i = tiles[t].first; i < tiles[t].first + tiles[t].count; ++i) {
       const Cell& cell = cells.cells()[i];
       if (cell.normal == Vec3{} || cell.normal.z > flat_from_) continue;
+      if (left_ != nullptr && !left_->at(i)) continue;
       if (hidden(part_, cell.point, cell.normal)) continue;
       const double z = part_.cutter().tip(cell.point, cell.normal).z;
       found[t].low = std::min(found[t].low, z - cell.reach);
@@ -287,6 +290,9 @@ void LevelPasses::append_pieces(const Line& line, const std::vector<Station>& st
   if (only_steep_) {
     spread([](std::size_t k) { return k; });
     spread([n](std::size_t k) { return n - 1 - k; });
+  }
+  for (std::size_t i = 0; left_ != nullptr && i < n; ++i) {
+    taken[i] = taken[i] && left_->wants(stations[i].point.place.tip);
   }
   std::size_t first = 0;  // of a closed line: begin behind a gap
   if (line.closed) {

@@ -18,7 +18,9 @@ namespace obvid::toolpath {
 class LevelPasses {
  public:
   /// With `zigzag` passes are kept where the part is steep, and a step beyond; else everywhere.
-  LevelPasses(const Part& part, const ToolpathOptions& options, const StepRule& rule);
+  /// Likewise where an earlier cutter left something, unless `left` is null.
+  LevelPasses(const Part& part, const ToolpathOptions& options, const StepRule& rule,
+              const Leftover* left);
 
   /// From the highest to the lowest place of the tip at a wall. Errors: E203 more than 20,000
   /// levels; E502 more places than allowed.
@@ -78,6 +80,7 @@ class LevelPasses {
 
   const Part& part_;
   const StepRule& rule_;
+  const Leftover* left_;
   std::size_t most_points_, threads_;
   double flat_from_, most_down_;
   bool only_steep_;

@@ -74,15 +74,24 @@ Result<Part> Part::make(const SurfaceModel& model, const CutterShape& cutter, do
 Part::Part(const SurfaceModel& model, CutterShape cutter, double tolerance, double allowance,
            std::vector<Mesh> meshes)
     : model_(model),
-      cutter_(cutter),
-      wide_{cutter.radius + allowance, cutter.corner + allowance},
-      slim_(wide_),
       tolerance_(tolerance),
       allowance_(allowance),
       meshes_(std::move(meshes)),
       field_(meshes_) {
-  slim_.radius -= std::min(kWallShare * tolerance, 0.5 * cutter.radius);
+  take(cutter);
+}
+
+void Part::take(const CutterShape& cutter) {
+  cutter_ = cutter;
+  wide_ = slim_ = {cutter.radius + allowance_, cutter.corner + allowance_};
+  slim_.radius -= std::min(kWallShare * tolerance_, 0.5 * cutter.radius);
   slim_.corner = std::min(slim_.corner, slim_.radius);
+}
+
+Part Part::with(const CutterShape& cutter) const {
+  Part out = *this;
+  out.take(cutter);
+  return out;
 }
 
 Place Part::on_triangle(std::uint32_t triangle, const std::array<double, 3>& w) const {

@@ -45,6 +45,9 @@ class Part {
   static Result<Part> make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
                            double allowance, const RunContext& run);
 
+  /// The same for another cutter.
+  [[nodiscard]] Part with(const CutterShape& cutter) const;
+
   [[nodiscard]] const CutterShape& cutter() const { return cutter_; }
   /// What stays on the part everywhere: a cutter rests where its body, wider by that all around,
   /// touches the part.
@@ -70,6 +73,7 @@ class Part {
  private:
   Part(const SurfaceModel& model, CutterShape cutter, double tolerance, double allowance,
        std::vector<Mesh> meshes);
+  void take(const CutterShape& cutter);
   void polish(Vec2 axis, Place& place) const;
 
   const SurfaceModel& model_;

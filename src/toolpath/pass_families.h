@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "leftover.h"
 #include "obvid/core/run_context.h"
 #include "passes.h"
 #include "steps.h"
@@ -23,14 +24,16 @@ using Family = std::vector<Pass>;
 /// levels; nothing: no levels are asked for.
 [[nodiscard]] std::optional<double> flat_from(const ToolpathOptions& options);
 
+/// `left`: passes only where an earlier cutter left something; null: everywhere.
 [[nodiscard]] Result<Family> zigzag(const Part& part, const ToolpathOptions& options,
-                                    const StepRule& rule, Walker& walker, const RunContext& run);
+                                    const StepRule& rule, Walker& walker, const Leftover* left,
+                                    const RunContext& run);
 [[nodiscard]] Result<Family> isoparametric(const Part& part, const ToolpathOptions& options,
                                            const StepRule& rule, Walker& walker,
-                                           const RunContext& run);
+                                           const Leftover* left, const RunContext& run);
 [[nodiscard]] Result<Family> constant_scallop(const Part& part, const ToolpathOptions& options,
                                               const StepRule& rule, Walker& walker,
-                                              const RunContext& run);
+                                              const Leftover* left, const RunContext& run);
 
 /// The field of the axis in the directions of the passes: a along them, b across.
 struct PassFrame {

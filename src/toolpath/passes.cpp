@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "obvid/core/internal/parallel.h"
+#include "reach.h"
 
 namespace obvid::toolpath {
 namespace {
@@ -56,6 +57,19 @@ Rail between(const Rail& a, const Rail& b) {
   return out;
 }
 
+void append_kept(const std::vector<PassPoint>& piece, const std::vector<bool>& kept,
+                 std::vector<std::vector<PassPoint>>& out) {
+  bool open = false;
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    if (kept[k]) {
+      if (!open) out.emplace_back();
+      out.back().push_back(piece[k]);
+    }
+    open = kept[k];
+  }
+  std::erase_if(out, [](const auto& one) { return one.size() < 2; });
+}
+
 void keep_flat(Pass& pass, double flat_from, double beyond) {
   std::vector<std::vector<PassPoint>> pieces;
   for (const auto& piece : pass.pieces) {
@@ -75,16 +89,8 @@ void keep_flat(Pass& pass, double flat_from, double beyond) {
     };
     spread([](std::size_t k) { return k; });
     spread([n](std::size_t k) { return n - 1 - k; });
-    bool open = false;
-    for (std::size_t k = 0; k < n; ++k) {
-      if (kept[k]) {
-        if (!open) pieces.emplace_back();
-        pieces.back().push_back(piece[k]);
-      }
-      open = kept[k];
-    }
+    append_kept(piece, kept, pieces);
   }
-  std::erase_if(pieces, [](const auto& piece) { return piece.size() < 2; });
   pass.pieces = std::move(pieces);
 }
 
@@ -112,12 +118,10 @@ Walker::Station Walker::touching(const Rail& rail, double t) const {
   const SurfaceJet jet = evaluate(surface, place.u, place.v);
   const Vec3 n = unit(cross(jet.du, jet.dv));
   if (n == Vec3{}) return std::nullopt;
-  place.normal = n.z < 0.0 ? -n : n;
+  place.normal = open_side(part_, jet.point, n.z < 0.0 ? -n : n);
   place.contact = jet.point;
   const double tolerance = part_.tolerance();
-  const Vec3 beside = jet.point + tolerance * place.normal;  // walls do not hide themselves
-  const auto over = part_.surface_over({beside.x, beside.y});
-  if (over && over->contact.z > beside.z + tolerance) return std::nullopt;
+  if (hidden(part_, jet.point, place.normal)) return std::nullopt;
   place.tip = part_.tip(place.contact, place.normal);
   const auto rest = part_.drop({place.tip.x, place.tip.y});
   if (!rest) return out;  // a wall that the cutter just touches

@@ -45,6 +45,10 @@ struct Pass {
   [[nodiscard]] bool empty() const { return pieces.empty(); }
 };
 
+/// Of a piece of a pass the points that are kept, as pieces of their own; single points are none.
+void append_kept(const std::vector<PassPoint>& piece, const std::vector<bool>& kept,
+                 std::vector<std::vector<PassPoint>>& out);
+
 /// Leaves of a pass what lies within `beyond` of places whose normal's z is larger than
 /// `flat_from`.
 void keep_flat(Pass& pass, double flat_from, double beyond);

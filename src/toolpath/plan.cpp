@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "entry.h"
+#include "leftover.h"
 #include "machine_units.h"
 #include "moves.h"
 #include "obvid/toolpath/toolpath.h"
@@ -24,8 +25,10 @@ using namespace toolpath;
 constexpr int kMostAttempts = 3;
 constexpr double kLowerShare = 0.96;
 constexpr double kCellOfRadius = 1.0 / 8.0, kCellOfStep = 0.25;
-constexpr double kDefaultSafe = 0.5;    // diameters above the highest point
-constexpr double kLeastSpindle = 0.5;   // revolutions a minute: printed as a whole number
+constexpr double kDefaultSafe = 0.5;   // diameters above the highest point
+constexpr double kLeastSpindle = 0.5;  // revolutions a minute: printed as a whole number
+constexpr double kLeastAcceleration =
+    1e-3;                               // mm/s^2: less is a typing error, and no time comes of it
 constexpr double kSteepestRamp = 90.0;  // degrees
 constexpr double kMostSteep = 90.0;     // degrees
 constexpr double kMostAngle = 1e6;      // degrees: beyond, the angle is lost in rounding
@@ -90,6 +93,20 @@ Result<void> check_levels(const ToolpathOptions& o) {
   return {};
 }
 
+Result<void> check_earlier(const ToolpathOptions& o) {
+  if (!o.earlier) return {};
+  if (o.strategy == ToolpathStrategy::kRough) {
+    return refuse("what an earlier cutter left is for other strategies than roughing", 0.0,
+                  "leave the earlier cutter out, or choose zigzag, scallop or z-level");
+  }
+  if (!(o.earlier->diameter > o.cutter.diameter)) {
+    return refuse("the earlier cutter must be larger than this one", o.earlier->diameter,
+                  "what it left is milled by a smaller one");
+  }
+  OBVID_TRY(shape_of(*o.earlier));
+  return {};
+}
+
 Result<void> check_sizes(const ToolpathOptions& o) {
   if (!positive(o.tolerance)) return refuse("the tolerance must be greater than 0", o.tolerance);
   const double radius = 0.5 * o.cutter.diameter;
@@ -99,8 +116,8 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
     if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
   }
-  if (o.acceleration && !positive(*o.acceleration)) {
-    return refuse("the acceleration must be greater than 0", *o.acceleration);
+  if (o.acceleration && !(positive(*o.acceleration) && *o.acceleration >= kLeastAcceleration)) {
+    return refuse("the acceleration must be at least 0.001 mm/s^2", *o.acceleration);
   }
   if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {
     return refuse("the allowance must not be less than 0", o.allowance);
@@ -115,6 +132,7 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   OBVID_TRY(check_roughing(o));
   OBVID_TRY(check_levels(o));
   OBVID_TRY(check_entry(o));
+  OBVID_TRY(check_earlier(o));
   const bool by_steps = o.strategy == ToolpathStrategy::kZLevel && o.step_down;
   if (!o.scallop && !o.step_over && !by_steps) {
     return refuse("neither scallop nor step over is given", 0.0, "give one of them or both");
@@ -136,19 +154,19 @@ Result<void> check_sizes(const ToolpathOptions& o) {
 }
 
 Result<Family> family_of(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                         Walker& walker, const RunContext& run) {
+                         Walker& walker, const Leftover* left, const RunContext& run) {
   switch (options.strategy) {
     case ToolpathStrategy::kZigzag:
-      return zigzag(part, options, rule, walker, run);
+      return zigzag(part, options, rule, walker, left, run);
     case ToolpathStrategy::kIsoparametric:
-      return isoparametric(part, options, rule, walker, run);
+      return isoparametric(part, options, rule, walker, left, run);
     case ToolpathStrategy::kZLevel:
       return Family{};
     case ToolpathStrategy::kConstantScallop:
     case ToolpathStrategy::kRough:
       break;
   }
-  return constant_scallop(part, options, rule, walker, run);
+  return constant_scallop(part, options, rule, walker, left, run);
 }
 
 std::size_t lifted_points(const Family& family) {
@@ -184,7 +202,13 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
     out.not_kept.push_back(
         error(ErrorCode::kToleranceNotReached, std::move(what)).hint(std::move(hint)).value(value));
   };
-  if (r.passes == 0) add("no pass: the cutter meets nothing", 0.0, "");
+  if (options.earlier && r.leftover_area == 0.0) {
+    out.warnings.push_back(
+        "the earlier cutter comes to every place that is seen from above: nothing "
+        "is left for this one");
+  } else if (r.passes == 0) {
+    add("no pass: the cutter meets nothing", 0.0, "");
+  }
   if (r.gouge.found > out.tolerance) {
     add(fmt::format("the program cuts {:.3g} {} into the surface at {}, {:.3g} are allowed",
                     r.gouge.found, out.units, place_text(r.gouge.place), out.tolerance),
@@ -238,13 +262,14 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
 
 /// Prints the program, reads it back and reports on that.
 Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
-                    const ToolpathOptions& options, const RunContext& run, Toolpath& out) {
+                    const Leftover* left, const ToolpathOptions& options, const RunContext& run,
+                    Toolpath& out) {
   auto program = toolpath_gcode(out, options.gcode);
   OBVID_TRY(program);
   out.program = std::move(*program);
   out.report.minutes = out.program.minutes;
-  const auto seen =
-      check_program(part, cells, reach, out.program.text, machine_scale(out.units), options, run);
+  const auto seen = check_program(part, cells, reach, left, out.program.text,
+                                  machine_scale(out.units), options, run);
   OBVID_TRY(seen);
   take_over(*seen, cells.spacing(), out.report);
   return {};
@@ -257,6 +282,24 @@ Result<SurfaceCells> cells_of(const Part& part, const StepRule& rule,
   SurfaceCells out(part, spacing, radius, options.threads, run);
   OBVID_TRY(may_go_on(run));
   return out;
+}
+
+Result<std::optional<Leftover>> leftover_of(const Part& part, const ToolpathOptions& options,
+                                            const StepRule& rule, const SurfaceCells& cells,
+                                            std::vector<Nearest>& reach, const RunContext& run) {
+  if (!options.earlier) return std::optional<Leftover>{};
+  const auto earlier = shape_of(*options.earlier);
+  OBVID_TRY(earlier);
+  auto found = Leftover::find(part, *earlier, cells, reach, rule.level() + cells.spacing(),
+                              options.threads, run);
+  OBVID_TRY(found);
+  return std::optional(std::move(*found));
+}
+
+void tell_leftover(const Leftover& left, ToolpathReport& out) {
+  out.leftover_area = left.area();
+  out.leftover_depth = left.depth();
+  out.leftover_place = left.place();
 }
 
 Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
@@ -294,25 +337,29 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
     OBVID_TRY(cells);
     std::vector<Nearest> reach(cells->cells().size());
     OBVID_TRY(lay_rough(*part, options, run, out));
-    OBVID_TRY(finish(*part, *cells, reach, options, run, out));
+    OBVID_TRY(finish(*part, *cells, reach, nullptr, options, run, out));
     judge(out, options);
     return out;
   }
   const bool straight = options.strategy == ToolpathStrategy::kZigzag;
   const PassFrame frame = pass_frame(*part, options.angle_deg);
   Walker walker(*part, rule.level(), straight ? std::optional(frame.along) : std::nullopt, options);
-  auto family = family_of(*part, options, rule, walker, run);
-  OBVID_TRY(family);
   const auto made = cells_of(*part, rule, options, run);
   OBVID_TRY(made);
   const SurfaceCells& cells = *made;
   std::vector<Nearest> reach(cells.cells().size());
+  const auto leftover = leftover_of(*part, options, rule, cells, reach, run);
+  OBVID_TRY(leftover);
+  const Leftover* left = *leftover ? &**leftover : nullptr;
+  if (left != nullptr) tell_leftover(*left, out.report);
+  auto family = family_of(*part, options, rule, walker, left, run);
+  OBVID_TRY(family);
   std::optional<LevelPasses> levels;
   if (flat_from(options)) {
-    levels.emplace(*part, options, rule);
+    levels.emplace(*part, options, rule, left);
     OBVID_TRY(levels->lay(cells, run));
   }
-  ScallopSurvey survey(*part, options, rule, cells, reach, walker);
+  ScallopSurvey survey(*part, options, rule, cells, reach, left, walker);
   const ToolpathReport fresh = out.report;
   std::size_t all_added = 0;
   double share = kScallopLimit;
@@ -328,9 +375,10 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
       all = levels->in_order();
       out.report.levels = levels->levels();
     }
-    all.insert(all.end(), family->begin(), family->end());
+    const Family rest = left != nullptr ? in_short_order(*family, !options.one_way) : *family;
+    all.insert(all.end(), rest.begin(), rest.end());
     lay_moves(all, options, rule.level(), walker, out);
-    OBVID_TRY(finish(*part, cells, reach, options, run, out));
+    OBVID_TRY(finish(*part, cells, reach, left, options, run, out));
     const bool high = options.scallop && out.report.scallop.found > *options.scallop &&
                       std::isfinite(out.report.scallop.found);  // else more passes help no more
     const bool stuck = levels && *added == 0 && attempt > 1;

@@ -32,9 +32,9 @@ std::vector<Sweep> sweeps_of(const exchange::NcProgram& program, double scale, d
 }  // namespace
 
 Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cells,
-                                       std::vector<Nearest>& reach, const std::string& text,
-                                       double scale, const ToolpathOptions& options,
-                                       const RunContext& run) {
+                                       std::vector<Nearest>& reach, const Leftover* left,
+                                       const std::string& text, double scale,
+                                       const ToolpathOptions& options, const RunContext& run) {
   const double within =
       options.scallop ? kScallopWithin * *options.scallop : kWithin * options.tolerance;
   const double chord = std::min(kChordDepth * options.tolerance, kChordOfWithin * within);
@@ -42,6 +42,7 @@ Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cel
   OBVID_TRY(program);
   OBVID_TRY(tell(run, "checking", 0.0));
   Simulation simulation(part, cells, reach, options.threads, chord);
+  simulation.judge_only(left);
   OBVID_TRY(simulation.cut(sweeps_of(*program, scale, part.field().high().z), run));
   if (options.strategy == ToolpathStrategy::kZLevel) {
     simulation.judge_flat_apart(*flat_from(options), options.scallop.value_or(options.tolerance));

@@ -12,8 +12,8 @@ namespace obvid::toolpath {
 /// understand.
 [[nodiscard]] Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cells,
                                                      std::vector<Nearest>& reach,
-                                                     const std::string& text, double scale,
-                                                     const ToolpathOptions& options,
+                                                     const Leftover* left, const std::string& text,
+                                                     double scale, const ToolpathOptions& options,
                                                      const RunContext& run);
 
 }  // namespace obvid::toolpath

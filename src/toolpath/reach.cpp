@@ -19,6 +19,7 @@ constexpr double kNextStep = 0.125;                   // likewise, beside a plac
 constexpr double kLevel = 1e-6;   // size of x and y of normals: any place of a flat bottom touches
 constexpr double kBottom = 0.99;  // of a flat bottom's radius: the farthest such place
 constexpr int kDirections = 8;
+constexpr double kUprightCell = 1e-3;  // z of normals of walls: which side is open is looked up
 
 class Search {
  public:
@@ -70,6 +71,11 @@ class Search {
 };
 
 }  // namespace
+
+Vec3 open_side(const Part& part, Vec3 point, Vec3 normal) {
+  if (std::abs(normal.z) > kUprightCell) return normal;
+  return hidden(part, point, normal) && !hidden(part, point, -normal) ? -normal : normal;
+}
 
 bool hidden(const Part& part, Vec3 point, Vec3 normal) {
   const double tolerance = part.tolerance();

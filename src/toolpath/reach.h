@@ -21,6 +21,10 @@ struct Nearest {
   Vec2 axis;            ///< of that place of the cutter
 };
 
+/// The normal, turned round where it stands up too little to say which side of a wall is open and
+/// the other one has nothing over it.
+[[nodiscard]] Vec3 open_side(const Part& part, Vec3 point, Vec3 normal);
+
 /// Something of the part stands over it.
 [[nodiscard]] bool hidden(const Part& part, Vec3 point, Vec3 normal);
 

@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kMostRounds = 10;
 constexpr std::size_t kSpotsUnasked = 256;  // before whoever waits is asked whether to go on
+constexpr double kTakenOff = 0.9;           // of a height: more than that is nothing taken off
+constexpr int kMostInVain = 3;              // passes one after the other that took nothing off
 constexpr double kPassMargin = 3.0;         // cells that a pass goes beyond high places
 constexpr double kPassesTogether = 2.0;     // diameters: passes nearer to each other become one
 constexpr double kLeastPassStep = 0.002;    // of the level step: nearer passes help no more
@@ -32,7 +34,8 @@ void append_sweeps(const Pass& pass, double within, std::vector<Sweep>& sweeps) 
 }  // namespace
 
 ScallopSurvey::ScallopSurvey(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                             const SurfaceCells& cells, std::vector<Nearest>& reach, Walker& walker)
+                             const SurfaceCells& cells, std::vector<Nearest>& reach,
+                             const Leftover* left, Walker& walker)
     : part_(part),
       walker_(walker),
       of_parameters_(options.strategy == ToolpathStrategy::kIsoparametric),
@@ -43,7 +46,9 @@ ScallopSurvey::ScallopSurvey(const Part& part, const ToolpathOptions& options, c
       scallop_(options.scallop.value_or(0.0)),
       print_(print_within(options)),
       flat_from_(flat_from(options).value_or(-1.0)),
-      simulation_(part, cells, reach, options.threads) {}
+      simulation_(part, cells, reach, options.threads) {
+  simulation_.judge_only(left);
+}
 
 Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels, double share,
                                             const RunContext& run) {
@@ -64,6 +69,7 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels,
     sweeps.clear();
     auto high = simulation_.above(share * scallop_, kScallopWithin * scallop_, run);
     OBVID_TRY(high);
+    give_up(*high);
     if (levels != nullptr) {
       const auto wall = std::stable_partition(
           high->begin(), high->end(), [&](const HighSpot& s) { return s.normal.z > flat_from_; });
@@ -88,6 +94,18 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels,
     if (sweeps.empty()) break;
   }
   return count;
+}
+
+void ScallopSurvey::give_up(std::vector<HighSpot>& high) {
+  std::erase_if(high, [&](const HighSpot& spot) {
+    const auto [at, fresh] = tried_.try_emplace(spot.cell);
+    Tried& tried = at->second;
+    const bool vain =
+        !fresh && std::isfinite(spot.height) && spot.height > kTakenOff * tried.height;
+    tried.times = vain ? tried.times + 1 : 0;
+    tried.height = spot.height;
+    return tried.times >= kMostInVain;
+  });
 }
 
 ScallopSurvey::Across ScallopSurvey::across(const HighSpot& spot) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <unordered_map>
+
 #include "level_passes.h"
 #include "pass_families.h"
 #include "simulation.h"
@@ -12,7 +14,8 @@ namespace obvid::toolpath {
 class ScallopSurvey {
  public:
   ScallopSurvey(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                const SurfaceCells& cells, std::vector<Nearest>& reach, Walker& walker);
+                const SurfaceCells& cells, std::vector<Nearest>& reach, const Leftover* left,
+                Walker& walker);
 
   /// Adds passes to the family where more stays than `share` of the scallop that is asked for;
   /// their number.
@@ -36,6 +39,8 @@ class ScallopSurvey {
     }
   };
 
+  /// Leaves those out where passes were added some times and took nothing off.
+  void give_up(std::vector<HighSpot>& high);
   [[nodiscard]] Result<std::vector<Wanted>> wanted(const Family& family,
                                                    const std::vector<HighSpot>& high,
                                                    const RunContext& run);
@@ -52,6 +57,11 @@ class ScallopSurvey {
   PassFrame frame_;
   double level_, spacing_, scallop_, print_;
   double flat_from_;  ///< z of normals, where there are levels
+  struct Tried {
+    double height = 0.0;  ///< at last
+    int times = 0;        ///< in vain, one after the other
+  };
+  std::unordered_map<std::size_t, Tried> tried_;  ///< by cells
   bool begun_ = false;
   Simulation simulation_;
 };

@@ -12,13 +12,22 @@
 namespace obvid::toolpath {
 namespace {
 
-constexpr std::size_t kCellsBetweenQuestions = 16;
 constexpr double kNotThere = std::numeric_limits<double>::infinity();
 constexpr double kFarthest = 4.0;  // radii: rays are not followed any farther
 constexpr double kAbout = 1.5;     // as far as in the cell before: most likely enough
+constexpr double kRising = 1e-3;   // z of a normal
 constexpr double kGrazing = 1e-3;  // cosine of rays that hardly come nearer
 /// Round bodies bend by this much more than the corner where a place is lifted a little.
 constexpr double kMoreBent = 1.1;
+constexpr std::size_t kMostPlanes = 8;  // of entries, compared with each other
+/// Pieces that are quartered in a cell, to find a place above a limit, by round and by sharp
+/// corners: few round ones take more than some tens. What they do not tell the report does.
+constexpr std::size_t kQuarteredRound = 64, kQuarteredSharp = 5;
+
+/// Heights of sharp corners over a cell whose normal rises.
+bool in_closed_form(const CutterShape& cutter, const Cell& cell) {
+  return cutter.corner <= 0.0 && cell.normal.z > kRising;
+}
 
 /// The body is convex: it lies where its distance grows by the gradient, at least.
 double deepest_by_gradient(const Cell& cell, const SweepDistance& d) {
@@ -47,6 +56,7 @@ Simulation::Simulation(const Part& part, const SurfaceCells& cells, std::vector<
       of_tile_(cells.tiles().size()),
       tile_of_(cells.cells().size()),
       nodes_(cells.cells().size(), CellBounds{kNotThere, kNotThere, -kNotThere, -kNotThere}),
+      searched_(cells.cells().size(), kNotThere),
       nearest_(reach) {
   for (std::size_t t = 0; t < cells.tiles().size(); ++t) {
     const SurfaceCells::Tile& tile = cells.tiles()[t];
@@ -55,32 +65,59 @@ Simulation::Simulation(const Part& part, const SurfaceCells& cells, std::vector<
 }
 
 // The body is convex: beside the entry its surface falls away by the gradient and, where it is
-// round, by the bend of its corner. Derivation: docs/methods/toolpath.md.
-double Simulation::highest_entry(const Cell& cell, const Sweep& sweep, const SweepEntry& entry,
-                                 double most) const {
+// round, by the bend of its corner. Where one falls and another one rises, no place lies higher
+// than a mean of both that is level. Derivation: docs/methods/toolpath.md.
+void Simulation::bound_by_bend(const Cell& cell, const SweepEntry& entry, double& most,
+                               std::vector<EntryPlane>& planes) const {
   const CutterShape& cutter = part_.cutter();
-  const double beside = cell.reach + entry.height * cell.turn;
   const double towards = -dot(entry.gradient, cell.normal);
-  double highest = kNotThere;
-  if (cutter.corner > 0.0 && towards > kGrazing) {
-    const double along = norm(entry.gradient + towards * cell.normal);
-    const double falls = along * beside + kMoreBent * 0.5 * beside * beside / cutter.corner;
-    highest = entry.height + falls / towards + cell.rise;
+  if (!(cutter.corner > 0.0 && towards > kGrazing)) return;
+  const double beside = cell.reach + entry.height * cell.turn;
+  const double bend = kMoreBent * 0.5 * beside * beside / cutter.corner;
+  const EntryPlane own{entry.height + bend / towards + cell.rise, entry.height,
+                       (1.0 / towards) * (entry.gradient + towards * cell.normal)};
+  most = std::min(most, own.top + norm(own.lean) * beside);
+  for (const EntryPlane& other : planes) {
+    const Vec3 apart = own.lean - other.lean;
+    const double apart2 = dot(apart, apart);
+    if (!(apart2 > 0.0)) continue;
+    const double part = std::clamp(-dot(other.lean, apart) / apart2, 0.0, 1.0), rest = 1.0 - part;
+    const double level = norm(part * own.lean + rest * other.lean) * cell.reach;
+    // normals beside the middle differ: entries at other heights lie elsewhere on them
+    const double turned =
+        norm(part * own.height * own.lean + rest * other.height * other.lean) * cell.turn;
+    most = std::min(most, part * own.top + rest * other.top + level + turned);
   }
+  if (own.top < most && planes.size() < kMostPlanes) planes.push_back(own);
+}
+
+/// What a narrower, higher cutter reaches from here, the whole one reaches from all of the cell.
+double Simulation::bound_by_bottom(const Cell& cell, const Sweep& sweep, double height,
+                                   double most) const {
+  const CutterShape& cutter = part_.cutter();
+  const double beside = cell.reach + height * cell.turn;
   const double in = beside + cell.rise;
-  if (cutter.flat() <= in) return highest;
-  // what a narrower, higher cutter reaches from here, the whole one reaches from all of the cell
+  if (cutter.flat() <= in) return most;
+  const double farthest = std::min(most, kFarthest * cutter.radius);
   const double lean = std::sqrt(cell.normal.x * cell.normal.x + cell.normal.y * cell.normal.y);
   const CutterShape narrow{cutter.radius - in, cutter.corner};
   const Vec3 up{0.0, 0.0, lean * beside + cell.rise};
-  return std::min(highest, entry_into(narrow, {sweep.from + up, sweep.to + up}, cell.point,
-                                      cell.normal, std::min(highest, most))
-                               .height);
+  const Sweep higher{sweep.from + up, sweep.to + up};
+  return std::min(most, in_closed_form(cutter, cell)
+                            ? height_into_sharp(narrow, higher, cell.point, cell.normal, farthest)
+                            : entry_into(narrow, higher, cell.point, cell.normal, farthest).height);
 }
 
-void Simulation::look(const Looking& what, const Cell& cell, const Sweep& sweep,
-                      CellBounds& b) const {
+void Simulation::look(const Looking& what, const Cell& cell, const Sweep& sweep, CellBounds& b,
+                      std::vector<EntryPlane>& planes) const {
   const CutterShape& cutter = part_.cutter();
+  if (!what.for_depth && in_closed_form(cutter, cell)) {
+    const double most = std::min(b.left_most, kFarthest * cutter.radius);
+    const double height = height_into_sharp(cutter, sweep, cell.point, cell.normal, most);
+    b.left = std::min(b.left, height);
+    if (height < kNotThere) b.left_most = bound_by_bottom(cell, sweep, height, b.left_most);
+    return;
+  }
   const SweepDistance d = distance_from(cutter, sweep, cell.point);
   if (what.for_depth) {
     b.depth = std::max(b.depth, -d.value);
@@ -94,7 +131,8 @@ void Simulation::look(const Looking& what, const Cell& cell, const Sweep& sweep,
                                : entry_into(cutter, sweep, cell.point, cell.normal, most);
   if (!(entry.height < kNotThere)) return;
   b.left = std::min(b.left, entry.height);
-  b.left_most = std::min(b.left_most, highest_entry(cell, sweep, entry, most));
+  bound_by_bend(cell, entry, b.left_most, planes);
+  b.left_most = bound_by_bottom(cell, sweep, entry.height, b.left_most);
 }
 
 double Simulation::radius_of(const Looking& what, const Cell& cell,
@@ -117,11 +155,12 @@ void Simulation::look(const Looking& what, const Cell& cell, std::span<const std
       std::min_element(candidates.begin(), candidates.end(),
                        [](const Candidate& x, const Candidate& y) { return x.least < y.least; });
   std::swap(*nearest, candidates.front());
+  std::vector<EntryPlane> planes;
   for (const Candidate& c : candidates) {
     const double left_matters = what.for_left ? b.left_most : 0.0;
     const double depth_matters = what.for_depth ? cell.reach + cell.rise : 0.0;
     if (c.least > std::max(left_matters, depth_matters)) continue;
-    look(what, cell, sweeps_[c.sweep], b);
+    look(what, cell, sweeps_[c.sweep], b, planes);
     if (what.settled(b)) return;
   }
 }
@@ -194,8 +233,7 @@ Result<void> Simulation::look_into_reach(double limit, const RunContext& run) {
     Questions questions(&watch, kCellsBetweenQuestions);
     const SurfaceCells::Tile& tile = cells_.tiles()[t];
     for (std::size_t i = tile.first; i < tile.first + tile.count && !questions.end(); ++i) {
-      if (nodes_[i].left > limit && !(cells_.cells()[i].normal == Vec3{}))
-        static_cast<void>(nearest(i));
+      if (nodes_[i].left > limit && counts(i)) static_cast<void>(nearest(i));
     }
   };
   return in_parallel(cells_.tiles().size(), threads_, run, look_into);
@@ -217,13 +255,10 @@ Nearest Simulation::nearest(std::size_t node, const Piece& piece) {
   return nearest_to(part_, piece.cell.point, piece.cell.normal, first);
 }
 
-HighSpot Simulation::spot_at(const Piece& piece, Vec2 axis) const {
+HighSpot Simulation::spot_at(std::size_t node, const Piece& piece, Vec2 axis) const {
   const Cell& cell = piece.cell;
-  return {piece.bounds.left,
-          piece.place,
-          cell.point,
-          cell.normal,
-          part_.cutter().tip(cell.point, cell.normal),
+  return {node,       piece.bounds.left, piece.place,
+          cell.point, cell.normal,       part_.cutter().tip(cell.point, cell.normal),
           axis};
 }
 
@@ -231,11 +266,11 @@ HighSpot Simulation::spot_at(const Piece& piece, Vec2 axis) const {
 bool Simulation::find_above(std::size_t node, double limit, double within, HighSpot& spot) {
   const CellBounds& b = nodes_[node];
   const Cell& cell = cells_.cells()[node];
-  if (!(b.left_most > limit + within) || cell.normal == Vec3{}) return false;
+  if (!(b.left_most > limit + within) || !counts(node) || searched_[node] <= limit) return false;
   if (b.left > limit) {
     const Nearest& near = nearest(node);
     if (near.reach == Reach::kReached) {
-      spot = spot_at({cells_.place(node), cell, b}, near.axis);
+      spot = spot_at(node, {cells_.place(node), cell, b}, near.axis);
       return true;
     }
     if (!at_edge(node, limit)) return false;
@@ -245,6 +280,8 @@ bool Simulation::find_above(std::size_t node, double limit, double within, HighS
 
 bool Simulation::find_inside(std::size_t node, double limit, double within, HighSpot& spot) {
   double most = 0.0;
+  const std::size_t all = part_.cutter().corner > 0.0 ? kQuarteredRound : kQuarteredSharp;
+  std::size_t quartered = 1;
   spot.height = 0.0;
   quarter(for_left(limit, within), node, [&](const Piece& part, int levels) {
     const double left = part.bounds.left;
@@ -252,16 +289,19 @@ bool Simulation::find_inside(std::size_t node, double limit, double within, High
     if (left > std::max(limit, spot.height)) {
       const Nearest near = nearest(node, part);
       held = near.reach != Reach::kReached;
-      if (!held) spot = spot_at(part, near.axis);
+      if (!held) spot = spot_at(node, part, near.axis);
     }
     const int least = held ? kMostLevels - kEdgeLevels : 0;
     if (spot.height > 0.0) return false;  // one is enough
     const bool deeper = part.bounds.left_most > limit + within;
-    if ((!deeper || levels <= least) && !held) most = std::max(most, part.bounds.left_most);
-    return deeper && levels > least;
+    const bool ends = quartered >= all || levels <= least;
+    if ((!deeper || ends) && !held) most = std::max(most, part.bounds.left_most);
+    if (deeper && !ends) ++quartered;
+    return deeper && !ends;
   });
   if (spot.height > 0.0) return true;
   nodes_[node].left_most = std::min(nodes_[node].left_most, most);  // for the next round
+  searched_[node] = limit;
   return false;
 }
 

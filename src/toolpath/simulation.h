@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
+#include "leftover.h"
 #include "reach.h"
 #include "surface_cells.h"
 #include "sweep.h"
@@ -20,6 +22,7 @@ struct CellBounds {
 
 /// A place of the part over which too much stays.
 struct HighSpot {
+  std::size_t cell = 0;
   double height = 0.0;  ///< along the normal
   CellPlace place;
   Vec3 point;
@@ -75,6 +78,8 @@ class Simulation {
     flat_from_ = flat_from;
     flat_limit_ = limit;
   }
+  /// What stays counts only where an earlier cutter left something; null: everywhere.
+  void judge_only(const Leftover* left) { left_ = left; }
   [[nodiscard]] Result<void> cut(const std::vector<Sweep>& sweeps, const RunContext& run);
   /// Where more than `limit` stays though the cutter can touch the part: one place of each cell at
   /// most. Heights within `within` above the limit can stay unseen.
@@ -100,11 +105,21 @@ class Simulation {
     CellBounds bounds;
   };
 
+  /// A sweep's entry from a place beside the cell's middle lies no higher than top + lean * way.
+  struct EntryPlane {
+    double top = 0.0, height = 0.0;
+    Vec3 lean;
+  };
   struct Candidate {
     double least = 0.0;  ///< distance from the cell's middle at least
     std::uint32_t sweep = 0;
   };
-  void look(const Looking& what, const Cell& cell, const Sweep& sweep, CellBounds& bounds) const;
+  [[nodiscard]] bool counts(std::size_t node) const {
+    return !(cells_.cells()[node].normal == Vec3{}) && (left_ == nullptr || left_->at(node));
+  }
+  /// `planes`: of the sweeps that were looked at before.
+  void look(const Looking& what, const Cell& cell, const Sweep& sweep, CellBounds& bounds,
+            std::vector<EntryPlane>& planes) const;
   /// Takes sweeps in, the nearest first; `candidates`: those of them that are no farther from the
   /// cell's middle than `enough`.
   void look(const Looking& what, const Cell& cell, std::span<const std::uint32_t> sweeps,
@@ -112,8 +127,10 @@ class Simulation {
   /// What matters to a cell by its bounds, from its middle.
   [[nodiscard]] double radius_of(const Looking& what, const Cell& cell,
                                  const CellBounds& bounds) const;
-  [[nodiscard]] double highest_entry(const Cell& cell, const Sweep& sweep, const SweepEntry& entry,
-                                     double most) const;
+  void bound_by_bend(const Cell& cell, const SweepEntry& entry, double& most,
+                     std::vector<EntryPlane>& planes) const;
+  [[nodiscard]] double bound_by_bottom(const Cell& cell, const Sweep& sweep, double height,
+                                       double most) const;
   /// Bounds of a cell by these sweeps; `near` gets those that matter to any part of it. They lie
   /// within `about` of the middle most likely, within `most` in any case.
   [[nodiscard]] CellBounds bounds(const Looking& what, const Cell& cell,
@@ -132,7 +149,7 @@ class Simulation {
   [[nodiscard]] bool at_edge(std::size_t node, double limit) const;
   [[nodiscard]] Result<void> look_into_reach(double limit,
                                              const RunContext& run);  ///< nodes with more than that
-  [[nodiscard]] HighSpot spot_at(const Piece& piece, Vec2 axis) const;
+  [[nodiscard]] HighSpot spot_at(std::size_t node, const Piece& piece, Vec2 axis) const;
   [[nodiscard]] bool find_above(std::size_t node, double limit, double within, HighSpot& spot);
   [[nodiscard]] bool find_inside(std::size_t node, double limit, double within, HighSpot& spot);
   [[nodiscard]] Result<void> report_depth(double allowed, SimulationReport& out,
@@ -145,10 +162,12 @@ class Simulation {
   std::size_t threads_;
   double sway_;
   double flat_from_ = 2.0, flat_limit_ = 0.0;
+  const Leftover* left_ = nullptr;
   std::vector<Sweep> sweeps_;
   std::vector<Numbers> of_tile_;
   std::vector<std::uint32_t> tile_of_;
   std::vector<CellBounds> nodes_;
+  std::vector<double> searched_;  ///< no more was found in a cell: it becomes no more
   std::vector<Nearest>& nearest_;
 };
 
@@ -156,24 +175,29 @@ template <class Look>
 void Simulation::quarter(const Looking& what, const Piece& whole,
                          std::span<const std::uint32_t> sweeps, int levels,
                          const Look& look) const {
-  struct Deeper {
+  struct Waiting {
     Piece part;
     Numbers near;
+    int levels;
   };
-  std::vector<Deeper> deeper;  // after all four were looked at: they may show that it is not needed
-  const double du = 0.5 * whole.place.du, dv = 0.5 * whole.place.dv;
-  for (const double v : {whole.place.v - dv, whole.place.v + dv}) {
-    for (const double u : {whole.place.u - du, whole.place.u + du}) {
-      Deeper one;
-      one.part.place = {whole.place.patch, u, v, du, dv};
-      one.part.cell = cell_at(part_.model(), one.part.place, whole.cell.normal, part_.allowance());
-      if (one.part.cell.normal == Vec3{}) continue;
-      const double most = radius_of(what, one.part.cell, whole.bounds);
-      one.part.bounds = bounds(what, one.part.cell, sweeps, most, most, one.near);
-      if (look(one.part, levels - 1) && levels > 1) deeper.push_back(std::move(one));
+  std::deque<Waiting> waiting;  // large pieces first: they may show that small ones are not needed
+  waiting.push_back({whole, {sweeps.begin(), sweeps.end()}, levels});
+  for (; !waiting.empty(); waiting.pop_front()) {
+    const Waiting& one = waiting.front();
+    const CellPlace& at = one.part.place;
+    const double du = 0.5 * at.du, dv = 0.5 * at.dv;
+    for (const double v : {at.v - dv, at.v + dv}) {
+      for (const double u : {at.u - du, at.u + du}) {
+        Waiting next{{{at.patch, u, v, du, dv}, {}, {}}, {}, one.levels - 1};
+        next.part.cell =
+            cell_at(part_.model(), next.part.place, one.part.cell.normal, part_.allowance());
+        if (next.part.cell.normal == Vec3{}) continue;
+        const double most = radius_of(what, next.part.cell, one.part.bounds);
+        next.part.bounds = bounds(what, next.part.cell, one.near, most, most, next.near);
+        if (look(next.part, next.levels) && next.levels > 0) waiting.push_back(std::move(next));
+      }
     }
   }
-  for (const Deeper& one : deeper) quarter(what, one.part, one.near, levels - 1, look);
 }
 
 template <class Look>

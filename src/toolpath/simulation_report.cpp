@@ -15,8 +15,11 @@ constexpr std::size_t kCellsTogether = 2048;  // cells looked into before bounds
 // Pieces of cells that are looked at for what stays, in all: some 20 a cell do on domes, 50 on
 // cones with walls of 79 degrees. Upright walls ask for thousands; then the bound stays above what
 // was found.
-constexpr std::size_t kPiecesOfCell = 64, kPiecesBesides = 200'000;
-constexpr std::size_t kUneven = 4;  // a cell may ask for so many times its share of what is left
+constexpr std::size_t kPiecesOfCell = 16, kPiecesBesides = 200'000;
+/// Where cutters only graze borders no quartering leads to a bound: a few cells show whether it is
+/// so, and for the others it is enough to look for what is highest.
+constexpr std::size_t kCellsFirst = 64;
+constexpr std::size_t kMostPieces = 512;  // of one cell
 
 void raise_extreme(Extreme& extreme, double found, Vec3 place) {
   if (!(found > extreme.found)) return;
@@ -76,7 +79,7 @@ Result<void> Simulation::report_reach(SimulationReport& out, const RunContext& r
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Cell& cell = cells_.cells()[i];
     out.area += cell.area;
-    if (!(nodes_[i].left > part_.tolerance())) continue;
+    if (!(nodes_[i].left > part_.tolerance()) || !counts(i)) continue;
     const Nearest& near = nearest_[i];
     if (near.reach == Reach::kHidden) out.hidden_area += cell.area;
     if (near.reach != Reach::kHeld) continue;
@@ -96,7 +99,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
   std::vector<std::size_t> high;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Cell& cell = cells_.cells()[i];
-    if (cell.normal == Vec3{}) continue;
+    if (!counts(i)) continue;
     const bool touched =
         nodes_[i].left <= part_.tolerance() || nearest_[i].reach == Reach::kReached;
     if (cell.normal.z > flat_from_) {
@@ -112,13 +115,14 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
     return nodes_[a].left_most != nodes_[b].left_most ? nodes_[a].left_most > nodes_[b].left_most
                                                       : a < b;
   });
-  std::size_t begin = 0;
+  std::size_t begin = 0, together = kCellsFirst;
   std::size_t pieces_left = kPiecesOfCell * high.size() + kPiecesBesides;
-  for (; begin < high.size() && pieces_left > 0; begin += kCellsTogether) {
+  while (begin < high.size() && pieces_left > 0) {
     const double limit = out.left.found;
     if (nodes_[high[begin]].left_most <= limit + within) break;
-    const std::size_t count = std::min(kCellsTogether, high.size() - begin);
-    const std::size_t most_pieces = kUneven * pieces_left / count;
+    const std::size_t count = std::min(together, high.size() - begin);
+    const bool bounded = std::isfinite(out.left.most);
+    const std::size_t most_pieces = bounded ? kMostPieces : kPiecesOfCell;
     std::vector<Extreme> found(count, {limit, 0.0, {}});
     std::vector<std::size_t> pieces(count, 0);
     const auto looked = in_parallel(count, threads_, run, [&](std::size_t k) {
@@ -147,6 +151,8 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
     }
     const double share = static_cast<double>(begin) / static_cast<double>(high.size());
     OBVID_TRY(tell(run, "checking", share));
+    begin += count;
+    together = kCellsTogether;
   }
   if (begin < high.size()) out.left.most = std::max(out.left.most, nodes_[high[begin]].left_most);
   out.left.most = std::max(out.left.most, out.left.found);

@@ -7,16 +7,16 @@
 #include <numeric>
 
 #include "obvid/core/internal/parallel.h"
+#include "reach.h"
 
 namespace obvid::toolpath {
 namespace {
 
 constexpr double kMostCells = 1e6;  // some 120 MB; larger parts get larger cells
 constexpr double kMostTiles = 1e6;
-constexpr double kCellMargin = 1.25;   // for what the derivatives in the middle do not say
-constexpr double kUprightCell = 1e-3;  // z of normals of walls: which side is open is looked up
-constexpr std::size_t kLines = 9;      // across, that lengths are measured on
-constexpr std::size_t kParts = 4;      // of a span, likewise
+constexpr double kCellMargin = 1.25;  // for what the derivatives in the middle do not say
+constexpr std::size_t kLines = 9;     // across, that lengths are measured on
+constexpr std::size_t kParts = 4;     // of a span, likewise
 
 /// Knots inside the domain where the surface may have an edge, with the domain's ends.
 std::vector<double> stretches(const std::vector<double>& knots, int degree, Range domain) {
@@ -73,19 +73,6 @@ std::vector<double> divided(const NurbsSurface& s, bool along_u, double spacing)
     divide_stretch(s, along_u, ends[k], ends[k + 1], spacing, out);
   }
   return out;
-}
-
-bool roofed(const Part& part, Vec3 p) {
-  const auto over = part.surface_over({p.x, p.y});
-  return over && over->contact.z > p.z + part.tolerance();
-}
-
-/// Where the normal stands up too little to say which side is open: the one without a roof.
-Vec3 open_side(const Part& part, const Cell& cell) {
-  if (std::abs(cell.normal.z) > kUprightCell) return cell.normal;
-  const Vec3 out = part.tolerance() * cell.normal;
-  return roofed(part, cell.point + out) && !roofed(part, cell.point - out) ? -cell.normal
-                                                                           : cell.normal;
 }
 
 }  // namespace
@@ -174,7 +161,7 @@ Result<void> SurfaceCells::fill(const Part& part, std::size_t threads, const Run
       Cell& cell = cells_[row.first + i];
       // the allowance lies on the open side, which is looked for from the surface itself
       cell = cell_at(part.model(), place(origin), {0.0, 0.0, 1.0}, 0.0);
-      const Vec3 side = open_side(part, cell);
+      const Vec3 side = open_side(part, cell.point, cell.normal);
       cell = cell_at(part.model(), place(origin), side, part.allowance());
       origins_[row.first + i] = origin;
     }

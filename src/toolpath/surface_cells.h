@@ -8,6 +8,8 @@
 
 namespace obvid::toolpath {
 
+inline constexpr std::size_t kCellsBetweenQuestions = 16;  ///< whether to go on
+
 /// A rectangle of a patch's parameters: its middle and half its sides.
 struct CellPlace {
   std::uint32_t patch = 0;

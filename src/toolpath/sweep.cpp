@@ -11,7 +11,8 @@ namespace {
 constexpr double kSettledOnWay = 1e-6;  // of the radius
 constexpr int kMostWaySteps = 60;       // a bracket of the way is halved at least every third step
 constexpr int kMostRaySteps = 50;       // of Newton's method, from outside
-constexpr double kSecantInside = 0.05;  // of the bracket: a secant keeps that far from its ends
+constexpr double kInsideRim = 1.0 - 1e-9;  // of half a chord across the rim
+constexpr double kSecantInside = 0.05;     // of the bracket: a secant keeps that far from its ends
 
 /// Distance from the body at a place on the way, by the way and by the point.
 struct AtPlace {
@@ -108,6 +109,57 @@ SweepEntry entry_into(const CutterShape& cutter, const Sweep& sweep, Vec3 from, 
     if (!(height <= most)) return {kNever, d.gradient};
   }
   return {kNever, {}};  // it grazes the body
+}
+
+// In the plane of the height h and the place s on the way the body is where the ray lies within the
+// radius of the axis, a conic, and over the disc, a half plane: the least height lies at an end of
+// the way, where the conic is lowest, or where both borders meet. Every place that is tried is one
+// of the ray in the body, so the height is never too low.
+double height_into_sharp(const CutterShape& cutter, const Sweep& sweep, Vec3 from, Vec3 direction,
+                         double most) {
+  const Vec3 way = sweep.to - sweep.from;
+  const Vec2 a{from.x - sweep.from.x, from.y - sweep.from.y}, w{way.x, way.y},
+      n{direction.x, direction.y};
+  const double r2 = cutter.radius * cutter.radius, n2 = dot(n, n), w2 = dot(w, w);
+  const double first = (sweep.from.z - from.z) / direction.z, more = way.z / direction.z;
+  double best = std::numeric_limits<double>::infinity();
+  const auto look = [&](double place) {
+    const double s = std::clamp(place, 0.0, 1.0);
+    const Vec2 b = a - s * w;
+    const double out = dot(b, b) - r2, towards = dot(b, n);
+    double height = std::max(0.0, first + s * more);
+    if (n2 > 0.0) {
+      const double root2 = towards * towards - n2 * out;
+      if (!(root2 >= 0.0)) return;
+      const double root = std::sqrt(root2);
+      height = std::max(height, (-towards - root) / n2);
+      if (height > (-towards + root) / n2) return;
+    } else if (out > 0.0) {
+      return;
+    }
+    best = std::min(best, height);
+  };
+  look(0.0);
+  look(1.0);
+  if (more != 0.0) look(-first / more);
+  if (w2 > 0.0) {
+    const double length = std::sqrt(w2), beside = cross(w, a) / length,
+                 turns = cross(w, n) / length;
+    look(dot(a, w) / w2);
+    for (const double side : {-cutter.radius, cutter.radius}) {
+      const double h = turns != 0.0 ? (side - beside) / turns : 0.0;
+      if (h > 0.0) look(dot(a + h * n, w) / w2);
+    }
+  }
+  const Vec2 c = a + first * n, d = more * n - w;
+  const double d2 = dot(d, d), half = dot(c, d), root2 = half * half - d2 * (dot(c, c) - r2);
+  if (d2 > 0.0 && root2 >= 0.0) {
+    // a hair inside of the border, where rounding does not lose the place
+    const double root = kInsideRim * std::sqrt(root2);
+    look((-half - root) / d2);
+    look((-half + root) / d2);
+  }
+  return best <= most ? best : std::numeric_limits<double>::infinity();
 }
 
 double distance_at_least(const CutterShape& cutter, const Sweep& sweep, Vec3 p, double enough) {

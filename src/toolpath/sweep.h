@@ -30,6 +30,10 @@ struct SweepEntry {
 [[nodiscard]] SweepEntry entry_into(const CutterShape& cutter, const Sweep& sweep, Vec3 from,
                                     Vec3 direction, double most);
 
+/// The height alone, of cutters with sharp corners and directions that rise, in a closed form.
+[[nodiscard]] double height_into_sharp(const CutterShape& cutter, const Sweep& sweep, Vec3 from,
+                                       Vec3 direction, double most);
+
 /// At most the distance from a sweep, quickly: by what a box says, then by the plane of value and
 /// slope half way. Where the first exceeds `enough` it is the answer.
 [[nodiscard]] double distance_at_least(const CutterShape& cutter, const Sweep& sweep, Vec3 p,

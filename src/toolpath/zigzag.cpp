@@ -42,7 +42,7 @@ PassFrame pass_frame(const Part& part, double angle_deg) {
 }
 
 Result<Family> zigzag(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                      Walker& walker, const RunContext& run) {
+                      Walker& walker, const Leftover* left, const RunContext& run) {
   const PassFrame frame = pass_frame(part, options.angle_deg);
   Family family;
   const double flat = flat_from(options).value_or(-1.0);
@@ -50,7 +50,7 @@ Result<Family> zigzag(const Part& part, const ToolpathOptions& options, const St
     Rail rail;
     rail.axis = {frame.at(frame.a0, b), frame.at(frame.a1, b)};
     rail.plane = frame.plane;
-    auto pass = walker.walk(rail);
+    auto pass = walk_where_left(walker, rail, left);
     OBVID_TRY(pass);
     double step = rule.level();
     for (const auto& piece : pass->pieces) {

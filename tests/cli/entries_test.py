@@ -233,7 +233,7 @@ def main():
         report, _, said = program(binary, folder, "--scallop", 0.1, "--one-way", "--ramp", 0.05, "--ramp-height", 3)
         straight, all_of = report["entries"]["straight"], sum(report["entries"].values())
         assert straight > 0 and f"{straight} of {all_of} entries go straight down" in said, said
-        for wrong in (["--ramp", "0"], ["--ramp", "90"], ["--entry", "spiral"], ["--ramp-height", "2"],
+        for wrong in (["--acceleration", "1e-300"], ["--ramp", "0"], ["--ramp", "90"], ["--entry", "spiral"], ["--ramp-height", "2"],
                       ["--ramp", "5", "--ramp-height", "0"], ["--strategy", "rough", "--ramp-height", "2"]):
             refused(binary, folder, *wrong)
 

@@ -233,5 +233,48 @@ TEST(SweptCutter, IsAsFarAwayAsItsNearestPlaceOnTheWay) {
   }
 }
 
+/// A point in the body of a flat mill at any of many places of its way, some more wide.
+bool in_sharp(const CutterShape& cutter, const Sweep& sweep, Vec3 p, double more) {
+  constexpr int kPlaces = 2000;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const Vec3 tip = sweep.from + (static_cast<double>(k) / kPlaces) * (sweep.to - sweep.from);
+    const bool over = std::hypot(p.x - tip.x, p.y - tip.y) <= cutter.radius + more;
+    if (over && p.z >= tip.z - more) return true;
+  }
+  return false;
+}
+
+TEST(SharpCorners, AreEnteredWhereARayFirstComesIntoTheBody) {
+  const CutterShape cutter{2.0, 0.0};
+  const Sweep disc{{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}};
+  EXPECT_DOUBLE_EQ(height_into_sharp(cutter, disc, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 9.0), 1.0);
+  EXPECT_DOUBLE_EQ(height_into_sharp(cutter, disc, {1.0, 0.0, 0.0}, {0.6, 0.0, 0.8}, 9.0), 1.25);
+  EXPECT_DOUBLE_EQ(height_into_sharp(cutter, disc, {3.0, 0.0, 0.0}, {-0.6, 0.0, 0.8}, 9.0),
+                   1.0 / 0.6);
+  EXPECT_EQ(height_into_sharp(cutter, disc, {3.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 9.0),
+            std::numeric_limits<double>::infinity());
+  CutterDraw draw{std::mt19937_64(11)};
+  constexpr int kRays = 25;
+  int entered = 0;
+  for (int k = 0; k < kRays; ++k) {
+    const Sweep sweep{draw.point(2.0), draw.point(2.0)};
+    const Vec3 from = draw.point(4.0);
+    const Vec3 up =
+        unit(Vec3{draw.between(-1.0, 1.0), draw.between(-1.0, 1.0), draw.between(0.05, 1.0)});
+    const double height = height_into_sharp(cutter, sweep, from, up, 9.0);
+    constexpr double kNear = 2e-3,
+                     kStep = 0.02;  // places of the way lie up to 1e-3 from each other
+    if (height < 9.0) {
+      ++entered;
+      EXPECT_TRUE(in_sharp(cutter, sweep, from + height * up, kNear)) << k;
+    }
+    for (double h = 0.0; h < std::min(height - kNear, 9.0); h += kStep) {
+      ASSERT_FALSE(in_sharp(cutter, sweep, from + h * up, -1e-9))
+          << k << " at " << h << " of " << height;
+    }
+  }
+  EXPECT_GT(entered, kRays / 4);
+}
+
 }  // namespace
 }  // namespace obvid::toolpath

@@ -25,6 +25,7 @@ HULL_LENGTH = 300.0
 ALLOWANCE, LEVEL, LADDER, LADDER_STEP = 0.3, 2.0, 40, 1.1
 STEEP = "12"  # degrees: from there on levels keep the scallop; what is flatter is told
 SECONDS_AT_MOST = 300
+UPRIGHT = 0.03  # z of normals
 
 
 def net(wide, deep, height, count=13):
@@ -116,6 +117,16 @@ def places_of(path):
     return np.concatenate(points), np.concatenate(normals)
 
 
+def open_sides(sweep, points, normals):
+    """The normal's z does not say which side of an upright wall is open: the one to which the cutter comes nearer."""
+    upright = np.flatnonzero(abs(normals[:, 2]) < UPRIGHT)
+    out = normals.copy()
+    aside = sweep.radius * normals[upright]
+    other = sweep.distance(points[upright] - aside) < sweep.distance(points[upright] + aside)
+    out[upright[other]] *= -1.0
+    return out
+
+
 def run_case(case, program, work):
     cutter, strategy, scallop = case.truth
     output = work / "part.nc"
@@ -139,9 +150,10 @@ def run_case(case, program, work):
     rough = strategy == "rough"
     points, normals = places_of(case.path)
     stock = points.min(axis=0) - [ALLOWANCE, ALLOWANCE, 0.0], points.max(axis=0) + ALLOWANCE
-    points = points + (ALLOWANCE if rough else 0.0) * normals
     rapid, feed = mill_judge.ways_of(output.read_text(), 1e-3 * case.tolerance)
     sweep = mill_judge.Sweep(0.5 * diameter, corner, feed)
+    normals = open_sides(sweep, points, normals)
+    points = points + (ALLOWANCE if rough else 0.0) * normals
     outcome["gouge"] = float(max(0.0, -sweep.distance(points).min()))
     level = np.linalg.norm(rapid[:, 1, :2] - rapid[:, 0, :2], axis=1) > 0.0
     outcome["rapid_low"] = int((rapid[level][:, :, 2].min(axis=1) < told["safe_z"] - 1e-3).sum())
@@ -172,7 +184,7 @@ def what_stays(sweep, points, normals, told, tolerance, scallop, strategy, cutte
     """Places with more than the scallop, the most there, and whether the report says that much."""
     allowed = (1.0 + SPARE) * scallop
     if strategy == "z-level" and cutter == "flat":
-        allowed = (1.0 + SPARE) * max(scallop, number(told["scallop"]["found"]))
+        allowed = (1.0 + SPARE) * max(scallop, min(number(told["scallop"]["found"]), 2.0 * sweep.radius))
     high = np.flatnonzero(sweep.distance(points + allowed * normals) > 0.0)
     count, most, height = len(high), 0.0, allowed
     while len(high):

@@ -21,6 +21,9 @@ struct ToolpathJob {
   std::optional<double> diameter;       ///< [6 mm]
   std::optional<double> corner_radius;  ///< of bull noses [a quarter of the diameter]
   std::optional<double> tolerance;      ///< [0.01 mm]
+  std::optional<double> rest_of;        ///< diameter of an earlier cutter [none]
+  /// Rounding of its corner, up to half its diameter (a ball) [of this one's kind]
+  std::optional<double> rest_corner;
 };
 
 struct MadeToolpath {

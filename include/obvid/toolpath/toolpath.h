@@ -57,6 +57,10 @@ struct ToolpathOptions {
   bool along_v = false;             ///< isoparametric: passes run along v, else along u
   bool one_way = false;             ///< all passes in the same direction
   double allowance = 0.0;           ///< along normals, what stays everywhere for later passes
+  /// Not roughing: passes only where this larger cutter, resting on every place of the part with
+  /// the same allowance, came no nearer to it than the tolerance [none: everywhere]. Scallop and
+  /// what is not reached are told of these places alone.
+  std::optional<Cutter> earlier{};
   /// Roughing: most of a level [half the diameter]; levels of walls: likewise [by the scallop].
   std::optional<double> step_down{};
   /// Walls that lean from the level by at least so many degrees are cut on levels. With zigzag
@@ -141,6 +145,11 @@ struct ToolpathReport {
   double unreached_area = 0.0;
   double unreached_depth = 0.0;  ///< how far from the surface the cutter stays there at most, units
   Vec3 unreached_place;
+  /// After an earlier cutter: what it did not come to within the tolerance, by the middles of
+  /// places `spacing` apart, and the most that it left there along normals (infinite: more than its
+  /// diameter).
+  double leftover_area = 0.0, leftover_depth = 0.0;
+  Vec3 leftover_place;
   /// With levels alone: the most that stays where the part is flatter than they are for, over the
   /// middles of places `spacing` apart, and the area of those places where that is more than the
   /// scallop (the tolerance, where none is given). The scallop is that of the walls then.

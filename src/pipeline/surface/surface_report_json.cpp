@@ -267,6 +267,7 @@ std::string toolpath_report_json(const MadeToolpath& made, const Written& writte
   json.pair("lifted_points", r.lifted_points).pair("surface_area", r.surface_area);
   json.pair("hidden_area", r.hidden_area).pair("unreached_area", r.unreached_area);
   json.pair("unreached_depth", r.unreached_depth);
+  json.pair("leftover_area", r.leftover_area).pair("leftover_depth", r.leftover_depth);
   json.pair("flat_area", r.flat_area).pair("flat_left", r.flat_left).pair("safe_z", r.safe_z);
   json.key("entries").begin_object().pair("helical", r.entries.helical);
   json.pair("ramped", r.entries.ramped).pair("straight", r.entries.straight).end_object();

@@ -23,10 +23,21 @@ double level_step(const ToolpathOptions& plan) {
   return 2.0 * std::sqrt(2.0 * r * plan.scallop.value_or(r));
 }
 
+constexpr double kCorner = 0.25;  // diameters, of a bull nose
+
+/// Of what it is known by: diameter and corner.
+Cutter earlier_cutter(double diameter, std::optional<double> corner, CutterKind kind) {
+  if (kind == CutterKind::kBullNose) corner = corner.value_or(kCorner * diameter);
+  if (!corner) return {kind, diameter, 0.0};
+  if (*corner == 0.0) return {CutterKind::kFlat, diameter, 0.0};
+  if (*corner == 0.5 * diameter) return {CutterKind::kBall, diameter, 0.0};
+  return {CutterKind::kBullNose, diameter, *corner};
+}
+
 /// What is not typed, in the units of the surface.
 ToolpathOptions options_for(const ToolpathJob& job, const std::string& units) {
   constexpr double kDiameter = 6.0, kTolerance = 0.01;  // mm
-  constexpr double kScallop = 0.01, kCorner = 0.25;     // diameters
+  constexpr double kScallop = 0.01;                     // diameters
   ToolpathOptions plan = job.plan;
   const double mm = millimetres_of(units);
   const double unit = mm > 0.0 ? mm : 1.0;  // units that machines do not know are refused
@@ -41,6 +52,7 @@ ToolpathOptions options_for(const ToolpathJob& job, const std::string& units) {
   if (plan.cutter.kind == CutterKind::kBullNose) {
     plan.cutter.corner_radius = job.corner_radius.value_or(kCorner * plan.cutter.diameter);
   }
+  if (job.rest_of) plan.earlier = earlier_cutter(*job.rest_of, job.rest_corner, plan.cutter.kind);
   return plan;
 }
 
@@ -66,6 +78,11 @@ Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob&
     auto made = make_toolpath(whole, job, run);
     if (made) made->warnings.insert(made->warnings.begin(), told.begin(), told.end());
     return made;
+  }
+  if (job.rest_corner && !job.rest_of) {
+    return error(ErrorCode::kBadOption, "the earlier cutter has a corner and no diameter")
+        .hint("give --rest-of")
+        .value(*job.rest_corner);
   }
   const ToolpathOptions options = options_for(job, model.units.name);
   OBVID_TRY(check_effort(model, options));
