@@ -390,8 +390,9 @@ Result<void> can_plot(const ContourExport& e) {
   if (!e.options.plots.deviations || e.options.plots.allowed > 0.0 || any) return {};
   return error(ErrorCode::kBadOption, "no point has a tolerance that it could deviate by")
       .where("--plot")
-      .hint("measured points have one with --noise; for others take --plot curvature, or say what "
-            "they may deviate by: --plot deviations:LENGTH");
+      .hint(
+          "measured points have one with --noise; for others take --plot curvature, or say what "
+          "they may deviate by: --plot deviations:LENGTH");
 }
 
 Result<Exported> contour_as_json(const ContourExport& e) {
