@@ -179,7 +179,8 @@ void add_plot(CLI::App& command, FormatValues& values, const std::string& group)
           "--plot", values.plot,
           "What a picture shows over arc length beside the radius: curvature; slope: "
           "d kappa/ds too; deviations: how far measured points are off, in three colours, in "
-          "place of the comb, with the largest and the root mean square [curvature]")
+          "place of the comb, with the largest and the root mean square; deviations:LENGTH: held "
+          "against this length in place of their tolerances [curvature]")
       ->type_name("NAME")
       ->group(group);
   add_shown(command, values)->group(group);

@@ -30,7 +30,9 @@ struct ShownCurvatures {
 struct PicturePlots {
   bool slope = false;       ///< d kappa/ds over arc length, below the curvature
   bool deviations = false;  ///< of the points from the contour, in three colours in place of the
-                            ///< curvature comb; without effect where no point has a tolerance
+                            ///< curvature comb; without effect where no point has a tolerance and
+                            ///< `allowed` is 0
+  double allowed = 0.0;     ///< units: what deviations are held against; 0: each point's tolerance
   ShownCurvatures curvatures{};
 };
 

@@ -114,15 +114,15 @@ void legend_comb(PictureCanvas& canvas, LegendRow& legend, const PictureLegend& 
 }
 
 void legend_deviations(PictureCanvas& canvas, LegendRow& legend, const PictureMoves& moves) {
-  static constexpr std::array<const char*, 3> kTexts = {
-      "within half their tolerance", "up to their tolerance", "beyond it"};
+  const std::array<std::string, 3> kinds = {"within half " + moves.limit, "up to " + moves.limit,
+                                            "beyond it"};
   for (std::size_t k = 0; k < kMoveClasses.size(); ++k) {
     const auto count =
         std::count_if(moves.points.begin(), moves.points.end(),
                       [&](const PictureMove& m) { return class_of(m) == kMoveClasses[k]; });
     if (count == 0) continue;
     const std::string text =
-        fmt::format("{} {} {}", count, count == 1 ? "point" : "points", kTexts[k]);
+        fmt::format("{} {} {}", count, count == 1 ? "point" : "points", kinds[k]);
     const Vec2 at = legend.entry(text, text.size(), 14.0);
     canvas.add("<path class=\"deviation {}\" d=\"M{} {}v-10m5 10v-8m5 8v-11\"/>\n",
                move_css(kMoveClasses[k]), px(at.x - 5.0), px(at.y + 5.0));

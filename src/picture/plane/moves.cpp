@@ -164,10 +164,11 @@ void add_teeth(PictureCanvas& canvas, const PictureFrame& frame,
 
 }  // namespace
 
-PictureMoves make_moves(const PictureTrack& track, const StoredContour& stored) {
+PictureMoves make_moves(const PictureTrack& track, const StoredContour& stored, double allowed) {
   PictureMoves moves;
   const Contour& contour = stored.contour;
-  if (track.samples.empty() || !any_tolerance(contour)) return moves;
+  if (allowed > 0.0) moves.limit = fmt::format("{} {}", allowed, contour.units.text());
+  if (track.samples.empty() || !(allowed > 0.0 || any_tolerance(contour))) return moves;
   const auto joints = samples_of_joints(track, contour);
   const std::size_t count = track.points.size();
   const bool known = stored.report && stored.report->moves.size() == count;
@@ -183,7 +184,8 @@ PictureMoves make_moves(const PictureTrack& track, const StoredContour& stored) 
     const std::size_t at = joints[i] ? *joints[i] : walk.next(point);
     const double distance =
         known ? stored.report->moves[i] : distance_from(track.samples[at], point);
-    moves.points[i] = move_at(track, at, point, distance, contour.point_tolerance[i]);
+    moves.points[i] =
+        move_at(track, at, point, distance, allowed > 0.0 ? allowed : contour.point_tolerance[i]);
     moves.largest = std::max(moves.largest, distance);
     squares += distance * distance;
   }
@@ -196,11 +198,11 @@ void draw_moves(PictureCanvas& canvas, PictureFrame frame, const PictureTrack& t
   frame.y.low = -kBeyond;
   frame.y.high = kBeyond;
   frame.y.ticks = {{0.0, "0"}};
-  canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title",
-               "Points beside the contour, in units of their tolerance (left +), at most " +
-                   readable_number(moves.largest, 2) + " " + units +
-                   (coloured ? ", RMS " + readable_number(moves.root_mean_square, 2) + " " + units
-                             : ""));
+  canvas.label(
+      {kPictureMargin, frame.top - 11.0}, "start", "axis-title",
+      "Points beside the contour, in units of " + moves.limit + " (left +), at most " +
+          readable_number(moves.largest, 2) + " " + units +
+          (coloured ? ", RMS " + readable_number(moves.root_mean_square, 2) + " " + units : ""));
   draw_grid(canvas, frame, false);
   draw_joints(canvas, frame, track);
   for (const double limit : {-1.0, 1.0}) {

@@ -18,13 +18,15 @@ struct PictureFrame;
 
 /// How far the contour passes from one input point.
 struct PictureMove {
-  double s = 0.0;     ///< arc length where it passes
-  double part = 0.0;  ///< distance in units of the point's tolerance, positive where the point lies
-                      ///< left of the contour; 0 for points without one
+  double s = 0.0;  ///< arc length where it passes
+  double part =
+      0.0;  ///< distance in units of the point's tolerance, or of what is allowed, positive
+            ///< where the point lies left of the contour; 0 for points without either
   std::size_t sample = 0;  ///< of the track, where it passes
 };
 
-/// How far a point is off, in its tolerance: the colours of a map of deviations.
+/// How far a point is off, in its tolerance or in what is allowed: the colours of a map of
+/// deviations.
 enum class MoveClass : std::uint8_t { kHalf, kWithin, kBeyond };
 [[nodiscard]] MoveClass class_of(const PictureMove& move);
 inline constexpr std::array kMoveClasses = {MoveClass::kHalf, MoveClass::kWithin,
@@ -33,14 +35,16 @@ inline constexpr std::array kMoveClasses = {MoveClass::kHalf, MoveClass::kWithin
 [[nodiscard]] const char* move_css(MoveClass kind);
 
 struct PictureMoves {
-  std::vector<PictureMove> points;  ///< empty when no point has a tolerance
-  double largest = 0.0;             ///< distance, units
-  double root_mean_square = 0.0;    ///< of the distances of all points, units
+  std::vector<PictureMove> points;  ///< empty when nothing is allowed and no point has a tolerance
+  std::string limit = "their tolerance";  ///< what `part` is a part of, in words
+  double largest = 0.0;                   ///< distance, units
+  double root_mean_square = 0.0;          ///< of the distances of all points, units
 };
 
-/// Distances are those of the report where it has them, else from the nearest sample. Cost
-/// O(points + samples) for points in the order of the contour.
-[[nodiscard]] PictureMoves make_moves(const PictureTrack& track, const StoredContour& stored);
+/// Distances are those of the report where it has them, else from the nearest sample. `allowed`
+/// (units): as in `PicturePlots`. Cost O(points + samples) for points in the order of the contour.
+[[nodiscard]] PictureMoves make_moves(const PictureTrack& track, const StoredContour& stored,
+                                      double allowed);
 
 /// Strip with one tooth per point between the lines of the tolerance, in the colours of their
 /// classes or in one.

@@ -148,7 +148,7 @@ std::string picture_svg(const StoredContour& stored, const PictureTitles& titles
   if (!titles.name.empty()) more = kind + (more.empty() ? "" : " · " + more);
   if (!more.empty()) body.label({kPictureMargin, 85.0}, "start", "fact", more);
   const double top = more.empty() ? 78.0 : 99.0;
-  const PictureMoves moves = make_moves(track, stored);
+  const PictureMoves moves = make_moves(track, stored, plots.allowed);
   const bool deviations = plots.deviations && !moves.points.empty();
   const std::array<const PictureTrack*, 1> alone{&track};
   const PictureScale scale = curvature_scale(alone, plots.curvatures);

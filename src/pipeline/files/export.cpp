@@ -387,10 +387,12 @@ Result<void> can_plot(const ContourExport& e) {
   const std::vector<double>& tolerance = e.contour.point_tolerance;
   const bool any =
       std::any_of(tolerance.begin(), tolerance.end(), [](double t) { return t > 0.0; });
-  if (!e.options.plots.deviations || any) return {};
+  if (!e.options.plots.deviations || e.options.plots.allowed > 0.0 || any) return {};
   return error(ErrorCode::kBadOption, "no point has a tolerance that it could deviate by")
       .where("--plot")
-      .hint("measured points have one with --noise; for others take --plot curvature");
+      .hint(
+          "measured points have one with --noise; for others take --plot curvature, or say what "
+          "they may deviate by: --plot deviations:LENGTH");
 }
 
 Result<Exported> contour_as_json(const ContourExport& e) {

@@ -181,6 +181,17 @@ Result<void> set_shown(const FormatValues& typed, ShownCurvatures& shown) {
 }
 
 Result<void> set_plots(const FormatValues& typed, PicturePlots& plots) {
+  constexpr std::string_view kHeldAgainst = "deviations:";
+  if (typed.plot && typed.plot->starts_with(kHeldAgainst)) {
+    const auto length = typed_number(std::string_view(*typed.plot).substr(kHeldAgainst.size()));
+    if (!length || !(*length > 0.0) || !std::isfinite(*length)) {
+      return fail(bad_option("a positive length is expected behind 'deviations:'", "--plot",
+                             "for example deviations:0.01, in the unit of the points"));
+    }
+    plots.deviations = true;
+    plots.allowed = *length;
+    return set_shown(typed, plots.curvatures);
+  }
   return choose(typed.plot, kPlots, "--plot", plots).and_then([&] {
     return set_shown(typed, plots.curvatures);
   });
