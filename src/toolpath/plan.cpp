@@ -279,9 +279,7 @@ Result<SurfaceCells> cells_of(const Part& part, const StepRule& rule,
                               const ToolpathOptions& options, const RunContext& run) {
   const double radius = part.cutter().radius;
   const double spacing = std::min(kCellOfRadius * radius, kCellOfStep * rule.level());
-  SurfaceCells out(part, spacing, radius, options.threads, run);
-  OBVID_TRY(may_go_on(run));
-  return out;
+  return SurfaceCells::make(part, spacing, radius, options.threads, run);
 }
 
 Result<std::optional<Leftover>> leftover_of(const Part& part, const ToolpathOptions& options,

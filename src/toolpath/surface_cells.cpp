@@ -105,12 +105,13 @@ Cell cell_at(const SurfaceModel& model, const CellPlace& at, Vec3 side, double a
   return cell;
 }
 
-SurfaceCells::SurfaceCells(const Part& part, double spacing, double tile, std::size_t threads,
-                           const RunContext& run)
-    : spacing_(spacing) {
-  divide(part.model());
-  if (!fill(part, threads, run)) return;
-  sort_into_tiles(tile);
+Result<SurfaceCells> SurfaceCells::make(const Part& part, double spacing, double tile,
+                                        std::size_t threads, const RunContext& run) {
+  SurfaceCells out(spacing);
+  out.divide(part.model());
+  OBVID_TRY(out.fill(part, threads, run));
+  out.sort_into_tiles(tile);
+  return out;
 }
 
 void SurfaceCells::divide(const SurfaceModel& model) {

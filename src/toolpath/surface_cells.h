@@ -35,9 +35,9 @@ struct Cell {
 /// `most_cells`), put together in tiles as seen from above.
 class SurfaceCells {
  public:
-  /// Cancelled, it is worth nothing.
-  SurfaceCells(const Part& part, double spacing, double tile, std::size_t threads,
-               const RunContext& run = {});
+  /// An error only when cancelled.
+  static Result<SurfaceCells> make(const Part& part, double spacing, double tile,
+                                   std::size_t threads, const RunContext& run = {});
 
   struct Tile {
     std::uint32_t first = 0, count = 0;  ///< cells
@@ -66,6 +66,7 @@ class SurfaceCells {
   [[nodiscard]] double spacing() const { return spacing_; }
 
  private:
+  explicit SurfaceCells(double spacing) : spacing_(spacing) {}
   struct Grid {  ///< of a patch: borders of its cells
     std::vector<double> us, vs;
     std::size_t first = 0;  ///< of its numbers

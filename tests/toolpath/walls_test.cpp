@@ -34,7 +34,9 @@ SimulationReport report_of(const SurfaceModel& model, const std::vector<Sweep>& 
   const CutterShape cutter{1.5, 0.0};
   const auto part = Part::make(model, cutter, kWallTolerance, kAllowance, {});
   EXPECT_TRUE(part);
-  const SurfaceCells cells(*part, 0.2, cutter.radius, 1);
+  const auto made = SurfaceCells::make(*part, 0.2, cutter.radius, 1);
+  EXPECT_TRUE(made);
+  const SurfaceCells& cells = *made;
   std::vector<Nearest> reach(cells.cells().size());
   Simulation simulation(*part, cells, reach, 1);
   EXPECT_TRUE(simulation.cut(sweeps, {}));

@@ -44,7 +44,7 @@ struct PictureMoves {
 /// Distances are those of the report where it has them, else from the nearest sample. `allowed`
 /// (units): as in `PicturePlots`. Cost O(points + samples) for points in the order of the contour.
 [[nodiscard]] PictureMoves make_moves(const PictureTrack& track, const StoredContour& stored,
-                                      double allowed);
+                                      double allowed = 0.0);
 
 /// Strip with one tooth per point between the lines of the tolerance, in the colours of their
 /// classes or in one.
