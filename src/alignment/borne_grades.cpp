@@ -40,7 +40,7 @@ ValueRange BorneGrades::at(double station) const {
 }
 
 std::vector<UnborneGrade> unborne_grades(const VerticalProfile& profile, const BorneGrades& borne) {
-  constexpr double kOfGrades = 1e-9;  // of the range of grades, and of a grade
+  constexpr double kOfGrades = 1e-4;  // of the range of grades, and of a grade: as five digits tell
   std::vector<UnborneGrade> out;
   const auto look = [&](double station, double grade) {
     const ValueRange there = borne.at(station);

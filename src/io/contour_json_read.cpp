@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -353,6 +354,10 @@ PlacedTransition ContourReader::transition(const Node& node, std::size_t from) {
   }
   out.kind = *named;
   if (!(out.length > 0.0)) refuse(length, "the length of a transition is above 0");
+  constexpr double kMostTurn = 200.0 * std::numbers::pi;  // rad; of curves that are built, a few
+  if (!(std::max(std::abs(out.kappa0), std::abs(out.kappa1)) * out.length <= kMostTurn)) {
+    refuse(length, "a transition turns by a hundred turns at most");
+  }
   const std::size_t end = out.first_piece + out.pieces;
   bool fits = out.first_piece >= from && end <= pieces.size();
   for (std::size_t i = out.first_piece; fits && i < end; ++i) {
@@ -360,6 +365,19 @@ PlacedTransition ContourReader::transition(const Node& node, std::size_t from) {
   }
   if (!fits) refuse(first, "clothoids stand for a transition, one after the other");
   return out;
+}
+
+/// Whether an element ends at the station and height where the next one begins.
+bool goes_on(const ProfileElement& e, const ProfileElement& next, ProfileCurves curves) {
+  constexpr double kSamePlace = 1e-6;  // of a length, and of the numbers themselves
+  // chord of an arc: half way between its ends' slopes; of a parabola: between its grades
+  const double grade = curves == ProfileCurves::kArcs
+                           ? std::tan(0.5 * (std::atan(e.grade0) + std::atan(e.grade1)))
+                           : 0.5 * (e.grade0 + e.grade1);
+  const double slack =
+      kSamePlace * (e.length + std::abs(next.station) + std::abs(next.height) + std::abs(e.height));
+  return std::abs(e.station + e.length - next.station) <= slack &&
+         std::abs(e.height + grade * e.length - next.height) <= slack;
 }
 
 VerticalProfile ContourReader::profile(const Node& node) {
@@ -382,14 +400,19 @@ VerticalProfile ContourReader::profile(const Node& node) {
     e.grade0 = number(field(one, "grade_start"));
     e.grade1 = number(field(one, "grade_end"));
     e.radius = number(field(one, "radius"));
-    if (!out.elements.empty() && !(e.station > out.elements.back().station)) {
-      refuse(one, "stations of a profile ascend");
+    if (!failed() && !out.elements.empty() && !goes_on(out.elements.back(), e, out.curves)) {
+      refuse(one, "an element begins where the one before it ends");
     }
     out.elements.push_back(e);
   });
   if (out.elements.empty()) refuse(elements, "a profile has at least one element");
-  out.end_station = number(field(node, "end_station"));
-  out.end_height = number(field(node, "end_height"));
+  ProfileElement end;
+  const Node last = field(node, "end_station");
+  end.station = out.end_station = number(last);
+  end.height = out.end_height = number(field(node, "end_height"));
+  if (!failed() && !goes_on(out.elements.back(), end, out.curves)) {
+    refuse(last, "a profile ends where its last element does");
+  }
   return out;
 }
 

@@ -28,10 +28,11 @@ constexpr double kCellOfRadius = 1.0 / 8.0, kCellOfStep = 0.25;
 constexpr double kDefaultSafe = 0.5;   // diameters above the highest point
 constexpr double kLeastSpindle = 0.5;  // revolutions a minute: printed as a whole number
 constexpr double kLeastAcceleration =
-    1e-3;                               // mm/s^2: less is a typing error, and no time comes of it
-constexpr double kSteepestRamp = 90.0;  // degrees
-constexpr double kMostSteep = 90.0;     // degrees
-constexpr double kMostAngle = 1e6;      // degrees: beyond, the angle is lost in rounding
+    1e-3;  // mm/s^2: less is a typing error, and no time comes of it
+constexpr double kLargestEarlier = 100.0;  // sizes of the part: all that is seen is flat to it
+constexpr double kSteepestRamp = 90.0;     // degrees
+constexpr double kMostSteep = 90.0;        // degrees
+constexpr double kMostAngle = 1e6;         // degrees: beyond, the angle is lost in rounding
 
 Result<void> refuse(std::string what, double value, std::string hint = "") {
   return error(ErrorCode::kBadOption, std::move(what)).hint(std::move(hint)).value(value);
@@ -319,6 +320,13 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
                          const CutterShape& cutter, const RunContext& run) {
   const auto part = Part::make(model, cutter, options.tolerance, options.allowance, run);
   OBVID_TRY(part);
+  const double size = norm(part->field().high() - part->field().low());
+  if (options.earlier && !(options.earlier->diameter <= kLargestEarlier * size)) {
+    return error(ErrorCode::kBadOption,
+                 "the earlier cutter is more than a hundred times as large as the part")
+        .hint("give its diameter in units of the surface")
+        .value(options.earlier->diameter);
+  }
   Toolpath out = begun(model, options);
   const bool rough = options.strategy == ToolpathStrategy::kRough;
   double top = part->field().high().z + options.allowance;

@@ -184,10 +184,42 @@ class Profile(unittest.TestCase):
             code, said = verified(lambda t: t.update({name: value}))
             self.assertEqual(code, 5, name)
             self.assertIn("E503", said)
-        for name, value in (("pieces", 1000), ("first_piece", 0), ("kind", "curl"), ("length", -1.0)):
+        for name, value in (("pieces", 1000), ("first_piece", 0), ("kind", "curl"), ("length", -1.0),
+                            ("length", 1e300), ("kappa_end", 1e6)):
             code, said = verified(lambda t: t.update({name: value}))
             self.assertEqual(code, 3, name)
             self.assertIn("/alignment/transitions/0", said)
+
+    def test_a_contour_file_that_is_placed_anew_keeps_its_profile(self):
+        self.run_alignment("survey.csv", "--units", "m", "--noise", 0.001, "--profile-noise", 0.008, "--station", 1000,
+                           "-o", "r.json", "-q")
+        subprocess.run([PROGRAM, "convert", "r.json", "--scale", "2", "-o", "twice.xodr"], cwd=self.folder.name,
+                       check=True, capture_output=True)
+        stored = json.loads(self.at("r.json").read_text())["alignment"]["profile"]
+        twice = list(xml.etree.ElementTree.parse(self.at("twice.xodr")).iter("elevation"))
+        self.assertEqual(len(twice), len(stored["elements"]))
+        for written, element in zip(twice, stored["elements"]):
+            self.assertAlmostEqual(float(written.get("s")), 2 * (element["station"] - 1000), delta=1e-6)
+            self.assertAlmostEqual(float(written.get("a")), 2 * element["height"], delta=1e-6)
+
+    def test_a_profile_with_gaps_is_refused(self):
+        self.run_alignment("survey.csv", "--units", "m", "--noise", 0.001, "--profile-noise", 0.008, "-o", "r.json", "-q")
+        stored = json.loads(self.at("r.json").read_text())
+
+        def refused(change):
+            changed = json.loads(json.dumps(stored))
+            change(changed["alignment"]["profile"])
+            self.at("c.json").write_text(json.dumps(changed))
+            for how in (["verify", "c.json"], ["convert", "c.json", "-o", "c.xml"]):
+                done = subprocess.run([PROGRAM, *how], capture_output=True, text=True, cwd=self.folder.name, check=False)
+                self.assertEqual(done.returncode, 3, done.stdout)
+                self.assertIn("/alignment/profile", done.stderr)
+            self.assertFalse(self.at("c.xml").exists())
+
+        refused(lambda p: p["elements"].pop(1))
+        refused(lambda p: p["elements"][1].update(height=p["elements"][1]["height"] + 1))
+        refused(lambda p: p["elements"][0].update(length=1e300))
+        refused(lambda p: p.update(end_station=-5))
 
     def test_what_is_no_profile_is_refused(self):
         self.at("back.csv").write_text("0,1\n10,2\n5,3\n")

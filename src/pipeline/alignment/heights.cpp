@@ -157,6 +157,8 @@ Result<void> cover(const std::vector<Vec2>& heights, double from, double length,
   return {};
 }
 
+constexpr int kGradeDigits = 5;  // tell grades apart that are not borne
+
 /// Warns of a hump between heights that do not show it.
 void tell_humps(const std::vector<UnborneGrade>& humps, double tolerance, const Units& units,
                 std::vector<std::string>& remarks) {
@@ -171,8 +173,9 @@ void tell_humps(const std::vector<UnborneGrade>& humps, double tolerance, const 
       "the profile has a grade of {} % at station {} {}, where the heights bear {} to {} % ({} in "
       "all): within {} {} none without was found; allow more (--profile-noise), or shorter "
       "elements (--min-vertical-length), or give heights nearer to each other there",
-      significant(100.0 * worst.grade, 3), significant(worst.station, 7), units.text(),
-      significant(100.0 * worst.borne.low, 3), significant(100.0 * worst.borne.high, 3),
+      significant(100.0 * worst.grade, kGradeDigits), significant(worst.station, 7), units.text(),
+      significant(100.0 * worst.borne.low, kGradeDigits),
+      significant(100.0 * worst.borne.high, kGradeDigits),
       counted(humps.size(), "such joint", "such joints"), significant(tolerance, 3), units.text()));
 }
 

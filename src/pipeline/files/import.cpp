@@ -58,7 +58,13 @@ Result<Drawing> drawing_of_contour(const std::string& text, const std::string& p
   Drawing out;
   out.name = name_of(path);
   out.units = contour.units;
-  out.curves.push_back({"contour", std::move(contour.pieces), contour.closed});
+  DrawnCurve curve{"contour", std::move(contour.pieces), contour.closed};
+  if (stored->alignment) {
+    curve.station = stored->alignment->first_station;
+    curve.transitions = std::move(stored->alignment->transitions);
+    curve.profile = std::move(stored->alignment->profile);
+  }
+  out.curves.push_back(std::move(curve));
   return out;
 }
 

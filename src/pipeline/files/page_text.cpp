@@ -44,8 +44,11 @@ std::string figure_row(const std::string& label, const std::string& value) {
 std::vector<std::string> cells_of(std::string_view line) {
   std::vector<std::string> out = {""};
   bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') {
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const char c = line[k];
+    if (c == '"' && quoted && k + 1 < line.size() && line[k + 1] == '"') {
+      out.back() += line[++k];
+    } else if (c == '"') {
       quoted = !quoted;
     } else if (c == ',' && !quoted) {
       out.emplace_back();
@@ -58,8 +61,9 @@ std::vector<std::string> cells_of(std::string_view line) {
 
 std::string cell_text(const std::string& cell) {
   if (cell.empty()) return "-";
-  // what is short is as it was meant, names such as 9.10 too
-  const auto number = cell.size() > kPageDigits ? obvid::typed_number(cell) : std::nullopt;
+  // what is short, or has no fraction, is as it was meant: names such as 9.10 and 20240131
+  const bool figure = cell.size() > kPageDigits && cell.find_first_of(".eE") != std::string::npos;
+  const auto number = figure ? obvid::typed_number(cell) : std::nullopt;
   if (!number || !std::isfinite(*number)) return escaped_xml(cell);
   return fmt::format("{:.{}g}", *number, kPageDigits);
 }
