@@ -145,6 +145,37 @@ std::string compared_text(const CurveComparison& compared) {
   return out;
 }
 
+/// The same figures as in `deviations_table`, a line each.
+void add_deviation_figures(const CurveComparison& compared,
+                           const std::vector<CurveDeviation>& deviations, const std::string& how,
+                           double unit, ReportPage& page) {
+  for (const CurveDeviation& one : deviations) {
+    const std::string label = "deviation of " + compared.curves[one.curve].name + ", " + how;
+    const std::string part = " (" + percent(one.measured, 1) + " % of the curve measured)";
+    page.figures.emplace_back(
+        label + ", root mean square",
+        (one.largest ? significant(unit * one.root_mean_square, kCurveDigits) : "-") + part);
+    page.figures.emplace_back(
+        label + ", largest",
+        one.largest ? significant(unit * *one.largest->deviation, kCurveDigits) : "-");
+  }
+}
+
+/// Of airfoils: what `curves_table` says of each.
+void add_airfoil_figures(const CurveComparison& compared, ReportPage& page) {
+  if (!compared.airfoils) return;
+  for (const ComparedCurve& curve : compared.curves) {
+    const AirfoilFigures& f = *curve.airfoil;
+    page.figures.emplace_back(
+        curve.name,
+        fmt::format("chord {}; in % of it: thickness {} at {}, camber {} at {}, nose radius {}, "
+                    "trailing edge {}",
+                    significant(f.chord, kCurveDigits), percent(f.thickness, 3),
+                    percent(f.thickness_at, 3), percent(f.camber, 3), percent(f.camber_at, 3),
+                    percent(f.nose_radius, 3), percent(f.trailing_thickness, 3)));
+  }
+}
+
 using CurvesMaker = std::function<std::string(const CurveComparison&)>;
 
 std::string curves_page(const CurveComparison& compared, const CompareOptions& options) {
@@ -156,14 +187,11 @@ std::string curves_page(const CurveComparison& compared, const CompareOptions& o
                              compared.outward ? "outward" : "to the left");
   page.pictures.push_back(curves_svg(compared, options.enlarge));
   page.figures = {{"asked for", options.asked}, {"lengths in", compared.units.text()}};
-  for (const CurveDeviation& one : compared.as_they_lie) {
-    const std::string label = "deviation of " + compared.curves[one.curve].name;
-    page.figures.emplace_back(label + ", root mean square",
-                              significant(one.root_mean_square, kCurveDigits));
-    if (one.largest) {
-      page.figures.emplace_back(label + ", largest",
-                                significant(*one.largest->deviation, kCurveDigits));
-    }
+  add_airfoil_figures(compared, page);
+  add_deviation_figures(compared, compared.as_they_lie, "as it lies", 1.0, page);
+  if (!compared.on_one_chord.empty()) {
+    add_deviation_figures(compared, compared.on_one_chord, "on one chord, % of it",
+                          100.0 / compared.curves.front().airfoil->chord, page);
   }
   page.tables.push_back(table_of_csv("places", "Deviations at places", curves_csv(compared)));
   return page_text(page);

@@ -975,7 +975,7 @@ constexpr std::array kAttempts = {Attempt{1.0, 0.0},  Attempt{1.0, 0.5},  Attemp
                                   Attempt{0.1, 0.5}};
 
 /// Points beyond which there is one search: another one of that many takes a minute, and chords are
-/// short. Not of profiles: that of as many heights takes a second.
+/// short. Not of profiles: that of as many heights takes some seconds.
 constexpr std::size_t kMostSearchedAgain = 400;
 
 /// Other elements than those that left the tolerance: less is asked of them, or more of what no

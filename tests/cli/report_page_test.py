@@ -293,8 +293,24 @@ class PagesOfOtherCommands(PageCase):
                 f'<circle cx="40" cy="30" r="{radius}"/></svg>')
         self.run_program("compare", "a.svg", "b.svg", "-o", "r.html", "-q")
         figures = dict(self.page().tables["figures"])
-        self.assertEqual(abs(float(figures["deviation of b.svg, largest"])), 0.5)
-        self.assertEqual(float(figures["deviation of b.svg, root mean square"]), 0.5)
+        self.assertEqual(abs(float(figures["deviation of b.svg, as it lies, largest"])), 0.5)
+        self.assertEqual(figures["deviation of b.svg, as it lies, root mean square"],
+                         "0.50000 (100.0 % of the curve measured)")
+
+    def test_airfoils_that_are_laid_on_one_chord(self):
+        # the same shape a hundred times as large: on one chord they are one, as they lie hardly any place meets
+        rows = (EXAMPLES / "naca2412.dat").read_text().splitlines()
+        large = [" ".join(f"{100 * float(value):.17g}" for value in row.split()) for row in rows[1:] if row.split()]
+        (self.root / "large.dat").write_text("\n".join([rows[0], *large]) + "\n")
+        self.run_program("compare", EXAMPLES / "naca2412.dat", "large.dat", "--align", "chord", "-o", "r.html", "-q")
+        figures = dict(self.page().tables["figures"])
+        self.assertLess(abs(float(figures["deviation of large.dat, on one chord, % of it, largest"])), 1e-3)
+        self.assertIn("(100.0 % of the curve measured)",
+                      figures["deviation of large.dat, on one chord, % of it, root mean square"])
+        measured = figures["deviation of large.dat, as it lies, root mean square"]
+        self.assertLess(float(measured.split("(")[1].split(" %")[0]), 10.0)
+        thickness = figures["large.dat"].split("thickness ")[1].split(" at")[0]
+        self.assertAlmostEqual(float(thickness), 12.0, delta=0.02)  # NACA 2412
 
     def test_a_region(self):
         said = json.loads(self.run_program("region", EXAMPLES / "series10.csv", "-o", "r.html", "--json"))

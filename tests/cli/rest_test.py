@@ -110,7 +110,7 @@ def main():
         told, rest = program(binary, folder, "--diameter", SMALL, "--rest-of", 3.0)
         assert told["leftover_area"] == 0.0 and told["passes"] == 0 and len(rest) == 0, told
         assert any("nothing is left" in w for w in told["warnings"]), told["warnings"]
-        for wrong in (["--diameter", "2", "--rest-of", "2"], ["--diameter", "2", "--rest-corner", "1"],
+        for wrong in (["--diameter", "2", "--rest-of", "2"], ["--diameter", "2", "--rest-of", "1e9"], ["--diameter", "2", "--rest-corner", "1"],
                       ["--diameter", "2", "--rest-of", "6", "--rest-corner", "4"],
                       ["--diameter", "2", "--rest-of", "6", "--strategy", "rough"]):
             refused(binary, folder, *wrong)

@@ -64,7 +64,7 @@ class GpxReader {
     for (const pugi::xml_node child : node.children()) {
       if (local_name(child) == kind) place(child, series);
     }
-    drop_some_heights(series);
+    drop_some_heights(series, node);
     if (series.places.empty()) {
       warnings_.add("a track segment or route without points left out", node);
     } else {
@@ -87,8 +87,13 @@ class GpxReader {
   }
 
   /// Heights of some places alone make no profile.
-  static void drop_some_heights(GeoSeries& series) {
-    if (series.heights.size() != series.places.size()) series.heights.clear();
+  void drop_some_heights(GeoSeries& series, pugi::xml_node node) {
+    if (series.heights.size() == series.places.size()) return;
+    if (!series.heights.empty()) {
+      warnings_.add("a track segment or route some places of which have no height: none is used",
+                    node);
+    }
+    series.heights.clear();
   }
 
   const XmlFile& file_;

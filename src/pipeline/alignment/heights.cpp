@@ -203,7 +203,12 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
                                                     const RunContext& run) {
   const bool any = std::any_of(series.fixed.begin(), series.fixed.end(),
                                [](const FixedData& f) { return f.height.has_value(); });
-  if (!job.heights && !any) return std::optional<ProfileReport>();
+  if (!job.heights && !any) {
+    if (job.profile_noise || job.profile_noise_from_scatter) {
+      remarks.emplace_back("--profile-noise has nothing to do: the points have no heights");
+    }
+    return std::optional<ProfileReport>();
+  }
   ProfileReport out;
   double rounding = series.height_rounding;
   if (job.heights) {
@@ -218,7 +223,7 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
     if (no_tolerance) {
       remarks.emplace_back(
           "the points have heights, but nothing says how exact they are: no profile "
-          "(--profile-noise makes one)");
+          "(--profile-noise with a length or auto makes one)");
       return std::optional<ProfileReport>();
     }
     // drawings fill a column that nobody measured
