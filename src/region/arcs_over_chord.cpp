@@ -26,6 +26,11 @@ bool meets_beyond_joint(const ChordFrame& f, const Boundary& b, Vec2 foot, Vec2 
 
 }  // namespace
 
+double half_turn_sine_squared(const ChordFrame& f) {
+  const Vec2 turn = complex_product(f.start_tangent, f.end_tangent);  // e^{i sigma}
+  return turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
+}
+
 Vec2 joint_tangent(const ChordFrame& f, double k0, double k1) {
   const double a = 0.5 * k0 * f.h, b = 0.5 * k1 * f.h;
   if (std::isinf(a)) return b == 0.0 ? f.end_tangent : Vec2{f.end_tangent.x, -f.end_tangent.y};

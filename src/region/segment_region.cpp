@@ -135,9 +135,7 @@ ChordFrame chord_frame(const Element& start, const Element& end) {
 
 std::optional<SegmentRegion> segment_region(const ChordFrame& f, int direction) {
   const double d = direction;
-  const Vec2 turn = complex_product(f.start_tangent, f.end_tangent);  // e^{i sigma}
-  const double half_sine_squared =
-      turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
+  const double half_sine_squared = half_turn_sine_squared(f);
   const double a = d * 0.5 * f.kappa_start * f.h, b = d * 0.5 * f.kappa_end * f.h;
   const double sa = d * f.start_tangent.y, sb = d * f.end_tangent.y;
   const double noise_a = kCancellation * (std::abs(a) + std::abs(sa));

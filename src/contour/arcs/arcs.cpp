@@ -29,12 +29,6 @@ ArcTurn arc_turn(Vec2 from, Vec2 to) {
   return {2.0 * std::atan(half_tangent), half_tangent};
 }
 
-/// sin^2(sigma/2) without cancellation.
-double half_turn_sine_squared(const ChordFrame& f) {
-  const Vec2 turn = complex_product(f.start_tangent, f.end_tangent);
-  return turn.x > 0.0 ? turn.y * turn.y / (2.0 * (1.0 + turn.x)) : 0.5 * (1.0 - turn.x);
-}
-
 /// First curvature of the biarc through p: p lies on its first arc, or on its second.
 double first_through(const ChordFrame& f, Vec2 p) {
   const double on_first = 2.0 * cross(f.start_tangent, p) / dot(p, p);

@@ -180,19 +180,26 @@ Result<void> set_shown(const FormatValues& typed, ShownCurvatures& shown) {
   return {};
 }
 
-Result<void> set_plots(const FormatValues& typed, PicturePlots& plots) {
+namespace {
+
+/// One of the names, or deviations and what they are held against.
+Result<void> choose_plot(const std::optional<std::string>& typed, PicturePlots& plots) {
   constexpr std::string_view kHeldAgainst = "deviations:";
-  if (typed.plot && typed.plot->starts_with(kHeldAgainst)) {
-    const auto length = typed_number(std::string_view(*typed.plot).substr(kHeldAgainst.size()));
-    if (!length || !(*length > 0.0) || !std::isfinite(*length)) {
-      return fail(bad_option("a positive length is expected behind 'deviations:'", "--plot",
-                             "for example deviations:0.01, in the unit of the points"));
-    }
-    plots.deviations = true;
-    plots.allowed = *length;
-    return set_shown(typed, plots.curvatures);
+  if (!typed || !typed->starts_with(kHeldAgainst)) return choose(typed, kPlots, "--plot", plots);
+  const auto length = obvid::typed_number(std::string_view(*typed).substr(kHeldAgainst.size()));
+  if (!length || !(*length > 0.0) || !std::isfinite(*length)) {
+    return fail(bad_option("a positive length is expected behind 'deviations:'", "--plot",
+                           "for example deviations:0.01, in the unit of the points"));
   }
-  return choose(typed.plot, kPlots, "--plot", plots).and_then([&] {
+  plots.deviations = true;
+  plots.allowed = *length;
+  return {};
+}
+
+}  // namespace
+
+Result<void> set_plots(const FormatValues& typed, PicturePlots& plots) {
+  return choose_plot(typed.plot, plots).and_then([&] {
     return set_shown(typed, plots.curvatures);
   });
 }

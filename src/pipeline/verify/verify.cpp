@@ -282,10 +282,11 @@ void compare_transitions(const StoredContour& stored, ClaimCheck& c) {
     const double turned = last.theta0 + 0.5 * (last.kappa0 + last.kappa1) * last.length;
     const double off = std::max(norm(end.point - last.end) / one.length,
                                 std::abs(std::remainder(end.theta - turned, kFullTurn)));
-    if (!(off <= kSameEnd))
+    if (!(off <= kSameEnd)) {
       c.refuse("distance of the end of transition " + std::to_string(number) +
                    " from its clothoids, of its length or rad",
                0.0, off);
+    }
     ++number;
   }
 }

@@ -7,6 +7,9 @@
 
 namespace obvid {
 
+/// sin^2 of half the turn between the end tangents, without cancellation.
+[[nodiscard]] double half_turn_sine_squared(const ChordFrame& frame);
+
 /// Unit tangent where two arcs with these curvatures meet that keep the end tangents of a chord, by
 /// closing the chord ([Kurnosenko 2013]). An infinite curvature stands for an arc that is a point.
 [[nodiscard]] Vec2 joint_tangent(const ChordFrame& frame, double first, double second);
