@@ -324,6 +324,15 @@ double stored_curvature(const RationalBezier& piece, bool at_start) {
   return curvature_of(end_of(piece, at_start));
 }
 
+double accurate_curvature(const Piece& piece, double t) {
+  const auto* bezier = std::get_if<RationalBezier>(&piece);
+  const bool at_end = t == 0.0 || t == 1.0;
+  if (bezier != nullptr && bezier->degree > 1 && at_end && !is_singular_end(piece, t)) {
+    return stored_curvature(*bezier, t == 0.0);
+  }
+  return curvature(evaluate(piece, t));
+}
+
 void keep_end_curvatures(RationalBezier& piece, WantedCurvatures wanted, InnerWeights weights) {
   Keeper(piece, wanted, weights).run();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/curve/internal/end_curvatures.h"
 #include "obvid/series/analysis.h"
 
 namespace obvid {
@@ -25,7 +26,7 @@ struct Sample {
 
 Sample sample(const Piece& piece, double t) {
   const Jet jet = evaluate(piece, t);
-  return {jet.point, jet.d1, curvature(jet)};
+  return {jet.point, jet.d1, accurate_curvature(piece, t)};
 }
 
 /// Width of the region between two samples; the bilens where rounding hides the region.

@@ -5,8 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+
+#include "obvid/curve/internal/end_curvatures.h"
 
 namespace obvid {
 namespace {
@@ -23,6 +27,26 @@ RationalBezier flat_quartic(double turn, double growth) {
     out.weight[j] = 1.0;
   }
   return out;
+}
+
+TEST(EndCurvatures, OfANearlyStraightPieceKeepTheDigitsThatItsJetLoses) {
+  RationalBezier piece;
+  piece.degree = 4;
+  const std::array<Vec2, 5> offsets = {{{0.0, 0.0},
+                                        {-6.785865843862946, 3.0621529006305988},
+                                        {-6.858570176569697, 3.0949610646575487},
+                                        {-13.644376630798591, 6.157028996081226},
+                                        {-13.716999999999999, 6.189799999999998}}};
+  const std::array<double, 5> weights = {1.0, 0.002459198659400196, 0.33333736510324796,
+                                         0.002459198677577104, 1.0};
+  std::copy(offsets.begin(), offsets.end(), piece.offset.begin());
+  std::copy(weights.begin(), weights.end(), piece.weight.begin());
+  // 3/4 w0 w2 / w1^2 times the area of the legs over the first one's cube, in rational numbers
+  constexpr double kStart = -1.6414240508003943e-06, kEnd = 4.779600094892164e-07;
+  EXPECT_NEAR(accurate_curvature(piece, 0.0) / kStart, 1.0, 1e-14);
+  EXPECT_NEAR(accurate_curvature(piece, 1.0) / kEnd, 1.0, 1e-14);
+  const double of_jet = curvature(evaluate(Piece{piece}, 1.0));
+  EXPECT_GT(std::abs(of_jet / kEnd - 1.0), 1e-6) << "no test of what it is for";
 }
 
 TEST(EndSlopes, AreTheDerivativeOfTheCurvature) {

@@ -2,6 +2,7 @@
 #include "obvid/pipeline/internal/end_curvatures.h"
 
 #include "fit/parts.h"
+#include "obvid/curve/internal/end_curvatures.h"
 
 namespace obvid {
 
@@ -13,10 +14,10 @@ std::vector<EndCurvatures> end_curvatures(const Contour& contour) {
     EndCurvatures& row = out.emplace_back();
     row.start = part.t0 == 0.0 && before.source
                     ? before.leaving.value_or(before.element).kappa
-                    : curvature(evaluate(contour.pieces[part.first_piece], part.t0));
+                    : accurate_curvature(contour.pieces[part.first_piece], part.t0);
     row.end = part.t1 == 1.0 && behind.source
                   ? behind.element.kappa
-                  : curvature(evaluate(contour.pieces[part.last_piece], part.t1));
+                  : accurate_curvature(contour.pieces[part.last_piece], part.t1);
   }
   return out;
 }

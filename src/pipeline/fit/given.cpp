@@ -31,16 +31,6 @@ struct Side {
   double t;
 };
 
-/// With all digits at an end: nearly straight pieces lose them on the way to their curvature.
-double curvature_at(const Side& side) {
-  const auto* bezier = std::get_if<RationalBezier>(side.piece);
-  const bool at_end = side.t == 0.0 || side.t == 1.0;
-  if (bezier != nullptr && bezier->degree > 1 && at_end) {
-    return stored_curvature(*bezier, side.t == 0.0);
-  }
-  return curvature(evaluate(*side.piece, side.t));
-}
-
 /// How far a value is beyond the ends of a range; 0 inside.
 double beyond(const ValueRange& range, double value) {
   return std::max({0.0, range.low - value, value - range.high});
@@ -167,8 +157,9 @@ class GivenCheck {
     const auto at_end = [&](double here) { return std::abs(here - end) <= within; };
     // the point of arcs has all curvatures between both
     if (steps_at_joints(contour_.carrier)) return at_end(nearest_curvature(sides, kappas));
-    return std::any_of(sides.begin(), sides.end(),
-                       [&](const Side& side) { return at_end(curvature_at(side)); });
+    return std::any_of(sides.begin(), sides.end(), [&](const Side& side) {
+      return at_end(accurate_curvature(*side.piece, side.t));
+    });
   }
 
   /// At the place of the contour nearest to a point that is no joint.
@@ -200,7 +191,7 @@ class GivenCheck {
                                          const ValueRange& kappas) const {
     AtPoint at;
     for (const Side& side : sides) {
-      const double here = curvature_at(side);
+      const double here = accurate_curvature(*side.piece, side.t);
       at.low = std::min(at.low, here);
       at.high = std::max(at.high, here);
     }
@@ -218,7 +209,7 @@ class GivenCheck {
     double scale = std::abs(end);
     for (const Side& side : sides) {
       for (const double t : {0.0, 1.0}) {
-        if (end == 0.0) scale = std::max(scale, std::abs(curvature(evaluate(*side.piece, t))));
+        if (end == 0.0) scale = std::max(scale, std::abs(accurate_curvature(*side.piece, t)));
       }
     }
     return scale;
@@ -227,13 +218,13 @@ class GivenCheck {
   [[nodiscard]] double curvature_miss(const std::vector<Side>& sides, double kappa) const {
     double low = HUGE_VAL, high = -HUGE_VAL, scale = std::abs(kappa);
     for (const Side& side : sides) {
-      const double here = curvature_at(side);
+      const double here = accurate_curvature(*side.piece, side.t);
       low = std::min(low, here);
       high = std::max(high, here);
       if (kappa != 0.0) continue;
       // a given 0 has no size of its own: against what turns beside it
       for (const double end : {0.0, 1.0}) {
-        scale = std::max(scale, std::abs(curvature(evaluate(*side.piece, end))));
+        scale = std::max(scale, std::abs(accurate_curvature(*side.piece, end)));
       }
     }
     const bool between = steps_at_joints(contour_.carrier);

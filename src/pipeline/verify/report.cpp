@@ -11,6 +11,7 @@
 #include "fit/given.h"
 #include "fit/parts.h"
 #include "obvid/certify/certify.h"
+#include "obvid/curve/internal/end_curvatures.h"
 #include "obvid/curve/internal/runs.h"
 #include "obvid/region/internal/farther_boundary.h"
 #include "obvid/region/internal/refine.h"
@@ -254,8 +255,12 @@ class PartMeasure {
   /// Both ends as the pieces have them; arcs leave a joint's curvature to its element.
   [[nodiscard]] ChordFrame frame_of(const Stretch& s, const Ends& e) const {
     const bool arcs = steps_at_joints(contour_.carrier);
-    const double start = arcs ? start_element(contour_, s.first).kappa : curvature(e.start);
-    const double end = arcs ? end_element(contour_, s.last).kappa : curvature(e.end);
+    const auto curvature_of = [&](std::size_t k, double t) {
+      return accurate_curvature(contour_.pieces[k], t);
+    };
+    const double start =
+        arcs ? start_element(contour_, s.first).kappa : curvature_of(s.first, s.t0);
+    const double end = arcs ? end_element(contour_, s.last).kappa : curvature_of(s.last, s.t1);
     return chord_frame(e.start.point, e.start.d1, start, e.end.point, e.end.d1, end);
   }
 

@@ -19,6 +19,11 @@ enum class InnerWeights { kFixed, kFree };
 /// control points are computed without rounding.
 [[nodiscard]] double stored_curvature(const RationalBezier& piece, bool at_start);
 
+/// Signed curvature of a piece at t in [0, 1], per unit of length: at an end of a Bezier piece with
+/// all digits that its numbers have (`stored_curvature`), else that of its jet, which in nearly
+/// straight pieces has lost those that cancel.
+[[nodiscard]] double accurate_curvature(const Piece& piece, double t);
+
 /// Moves inner control points so that the stored curvatures are the wanted ones (degree 2, 4 or 5,
 /// positive weights). In a nearly straight piece half a unit of the last bit of a control point is
 /// a large part of its distance from the tangent. The doubles around it lie at many other distances
