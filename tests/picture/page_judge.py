@@ -11,11 +11,12 @@ usage: page_judge.py html FILE                     structure; one line for each 
 import html.parser
 import pathlib
 import re
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
+
+import numpy
+import PIL.Image
 
 VOID = {"meta", "input", "br", "img", "link", "hr"}
 WIDTH, HEIGHT = 900, 560
@@ -102,61 +103,29 @@ def dom(name, fragment, script, flags):
 
 
 def png(name):
-    """Rows of (r, g, b) of an 8-bit picture."""
-    data = pathlib.Path(name).read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n", "no PNG"
-    at, packed, width, height, kind = 8, b"", 0, 0, 0
-    while at < len(data):
-        length, tag = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        if tag == b"IHDR":
-            width, height, depth, kind = struct.unpack(">IIBB", body[:10])
-            assert depth == 8 and kind in (2, 6) and body[12] == 0, "an unusual PNG"
-        if tag == b"IDAT":
-            packed += body
-        at += length + 12
-    step = 3 if kind == 2 else 4
-    raw, size, rows, last = zlib.decompress(packed), width * step, [], bytearray(width * step)
-    for y in range(height):
-        way, row = raw[y * (size + 1)], bytearray(raw[y * (size + 1) + 1:(y + 1) * (size + 1)])
-        if way == 1:
-            for i in range(step, size):
-                row[i] = (row[i] + row[i - step]) & 255
-        elif way == 2:
-            row = bytearray((a + b) & 255 for a, b in zip(row, last))
-        elif way == 3:
-            for i in range(size):
-                left = row[i - step] if i >= step else 0
-                row[i] = (row[i] + (left + last[i]) // 2) & 255
-        elif way == 4:
-            for i in range(size):
-                a, b, c = (row[i - step], last[i], last[i - step]) if i >= step else (0, last[i], 0)
-                p, q, r = abs(b - c), abs(a - c), abs(a + b - 2 * c)
-                row[i] = (row[i] + (a if p <= q and p <= r else b if q <= r else c)) & 255
-        rows.append([tuple(row[i:i + 3]) for i in range(0, size, step)])
-        last = row
-    return rows
+    """Height x width x 3 numbers of a picture, 0 to 255."""
+    return numpy.asarray(PIL.Image.open(name).convert("RGB"), dtype=int)
 
 
+# of red, green and blue, each height x width
 KINDS = {
-    "green": lambda r, g, b: g > r + 40 and g > b,
-    "blue": lambda r, g, b: b > r + 50 and b > g,
-    "red": lambda r, g, b: r > b + 40 and r > g,
-    "brown": lambda r, g, b: r > b + 15 and r > g,
+    "green": lambda r, g, b: (g > r + 40) & (g > b),
+    "blue": lambda r, g, b: (b > r + 50) & (b > g),
+    "red": lambda r, g, b: (r > b + 40) & (r > g),
+    "brown": lambda r, g, b: (r > b + 15) & (r > g),
     "dark": lambda r, g, b: r + g + b < 240,
     "ink": lambda r, g, b: r + g + b < 700,
 }
 
 
-def measures(rows, kind, box):
+def measures(picture, kind, box):
     """count, left, top, right, bottom of the pixels of a kind within left,top,right,bottom."""
     left, top, right, bottom = box
-    found = [(x, y) for y in range(top, min(bottom, len(rows)))
-             for x in range(left, min(right, len(rows[0]))) if KINDS[kind](*rows[y][x])]
-    if not found:
+    inside = picture[top:bottom, left:right]
+    ys, xs = numpy.nonzero(KINDS[kind](*numpy.moveaxis(inside, 2, 0)))
+    if len(xs) == 0:
         return (0, 0, 0, 0, 0)
-    xs, ys = [p[0] for p in found], [p[1] for p in found]
-    return (len(found), min(xs), min(ys), max(xs) + 1, max(ys) + 1)
+    return (len(xs), left + xs.min(), top + ys.min(), left + xs.max() + 1, top + ys.max() + 1)
 
 
 def main(task, *rest):
@@ -167,18 +136,14 @@ def main(task, *rest):
     elif task == "dom":
         dom(rest[0], rest[1], rest[2], rest[3:])
     elif task == "pixels":
-        rows = png(rest[0])
+        picture = png(rest[0])
         for question in rest[1:]:  # KIND,LEFT,TOP,RIGHT,BOTTOM
             kind, *box = question.split(",")
-            print(*measures(rows, kind, [int(n) for n in box]))
+            print(*measures(picture, kind, [int(n) for n in box]))
     elif task == "difference":
-        pictures = [[p for row in png(name) for p in row] for name in rest]
-        parts = []
-        for k, a in enumerate(pictures):
-            for b in pictures[:k]:
-                differ = sum(p != q and max(abs(m - n) for m, n in zip(p, q)) > 24
-                             for p, q in zip(a, b))
-                parts.append(differ / len(a))
+        pictures = [png(name) for name in rest]
+        parts = [(abs(a - b).max(axis=2) > 24).mean()
+                 for k, a in enumerate(pictures) for b in pictures[:k]]
         print(min(parts))
     else:
         sys.exit(__doc__)
