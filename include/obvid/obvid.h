@@ -241,7 +241,7 @@ typedef struct obvid_surface obvid_surface;
 /* A surface of `count` inputs, and of `crossing` ones that cross them (kind "gordon"; else NULL,
  * 0). Kinds: "skin" (sections), "ruled", "revolve", "coons", "gordon" (curves), "grid", "id" (one
  * grid; of obvid_space_points with the option "row"), "scatter" (points in any order), "offset",
- * "convert" (a surface). Inputs are those of obvid_read_file, obvid_read_text, obvid_space_points
+ * "trim", "fillet", "match", "convert" (a surface). Inputs are those of obvid_read_file, obvid_read_text, obvid_space_points
  * and, with z = 0, obvid_points. Where a skin has contours that are not proved, the call fails with
  * OBVID_NOT_PROVED and surface and report are there. */
 OBVID_API int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_t count,

@@ -120,7 +120,7 @@ void SmallProgram::shuffle() {
   auto& rows = std::get<kUnknowns>(rows_);
   std::uint64_t state = 0x9E3779B97F4A7C15ULL;
   for (std::size_t i = rows.size(); i > 1; --i) {
-    state = state * 6364136223846793005ULL + 1442695040888963407ULL;  // Knuth's generator
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;  // [Knuth 1997]
     std::swap(rows[i - 1], rows[(state >> 33) % i]);
   }
 }

@@ -89,7 +89,7 @@ PieceEnds ends_of(const ArcPiece& arc) {
   return ends;
 }
 
-// Gauss-Legendre nodes and weights on [-1, 1], 8 points (Abramowitz and Stegun, table 25.4).
+// Gauss-Legendre nodes and weights on [-1, 1], 8 points ([Abramowitz, Stegun 1964], table 25.4).
 constexpr std::array<double, 4> kGaussNode = {0.1834346424956498, 0.5255324099163290,
                                               0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kGaussWeight = {0.3626837833783620, 0.3137066458778873,

@@ -9,7 +9,7 @@
 
 namespace obvid::idspline {
 
-/// Sum with the rounding of each addition kept (Neumaier).
+/// Sum with the rounding of each addition kept ([Neumaier 1974]).
 class ExactSum {
  public:
   void add(double x) {

@@ -46,7 +46,7 @@ struct TessellationOptions {
                                       const TessellationOptions& options);
 /// All patches, of trimmed ones what is there; vertices of borders that two whole patches share are
 /// the same points (trimmed ones have points of their own): borders are shared
-/// when they are the same curve from corner to corner (either way, at any pace) within 1e-7 of the
+/// when they are the same curve from corner to corner (either way, whatever their parameters) within 1e-7 of the
 /// model's size and a tenth of the chord tolerance. `Error::index`: the patch.
 [[nodiscard]] Result<std::vector<Mesh>> tessellate(const SurfaceModel& model,
                                                    const TessellationOptions& options,

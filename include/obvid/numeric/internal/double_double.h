@@ -18,7 +18,7 @@ struct DoubleDouble {
 /// at most 3 u^2; barring underflow.)
 inline constexpr double kDoubleDoubleRoundoff = 8.0 * kUnitRoundoff * kUnitRoundoff;
 
-/// a + b exactly (Knuth).
+/// a + b exactly ([Knuth 1997]).
 [[nodiscard]] constexpr DoubleDouble two_sum(double a, double b) {
   const double s = a + b;
   const double bb = s - a;

@@ -7,8 +7,9 @@
 namespace obvid {
 
 /// Gauss-Legendre quadrature on [-1, 1] with N points, exact up to degree 2 N - 1: its positive
-/// nodes, ascending, with their weights; the same again at the negative ones. Abramowitz and Stegun,
-/// table 25.4. (The certifier has a table of its own: a proof shares nothing with what builds.)
+/// nodes, ascending, with their weights; the same again at the negative ones.
+/// [Abramowitz, Stegun 1964], table 25.4. (The certifier has a table of its own: a proof shares
+/// nothing with what builds.)
 template <std::size_t N>
 struct GaussRule;
 
