@@ -40,44 +40,10 @@ struct KindText {
   const char* example;
 };
 
-constexpr std::array kKinds = {
-    KindText{"skin", "Through section contours, each of them fair",
-             "Section files, one for each section or all in one; point grids; x y z",
-             "obvid surface skin stations/*.csv -o hull.step -o hull.html"},
-    KindText{"ruled", "Between two curves, or from one along lines",
-             "Two curves, or one with --direction or --apex",
-             "obvid surface ruled lower.csv upper.csv -o strip.step"},
-    KindText{"revolve", "A profile turned about an axis", "Profile: points or a contour",
-             "obvid surface revolve vase.csv --axis z -o vase.step"},
-    KindText{"coons", "Between four border curves",
-             "Four curves that meet in the corners, in any order",
-             "obvid surface coons a.csv b.csv c.csv d.csv -o patch.step"},
-    KindText{"gordon", "Through a net of crossing curves",
-             "Curves of one family; --across for the other",
-             "obvid surface gordon u*.csv --across v*.csv -o net.step"},
-    KindText{"grid", "Through a grid of points, near it, or controlled by it",
-             "Grid: x y z rows, three matrices (_x, _y, _z), heights, offset table",
-             "obvid surface grid terrain.csv --near --tolerance 0.5 -o terrain.step"},
-    KindText{"id", "Integro-differential spline through a grid", "Grid as above",
-             "obvid surface id grid.csv --smooth -o surface.step"},
-    KindText{"scatter", "Near points in any order, as heights over a plane",
-             "Points: x y z rows, STL, PLY, OBJ",
-             "obvid surface scatter terrain.csv --tolerance 0.5 --up z -o terrain.step"},
-    KindText{"offset", "At a distance along the normals, folds refused",
-             "Surface (.json, STEP, IGES, BREP, control points)",
-             "obvid surface offset skin.json --distance -2 -o inner.step"},
-    KindText{"trim", "The part above or below planes, inside or outside a closed contour",
-             "Surface (.json, STEP, IGES, BREP, control points)",
-             "obvid surface trim hull.json --plane z=1.8 --keep below -o bottom.step"},
-    KindText{"fillet", "A rolling ball's blend between two faces, which are trimmed there",
-             "Surface (.json, STEP, IGES, BREP)",
-             "obvid surface fillet body.json --faces roof,side --radius 20 -o body.step"},
-    KindText{"match", "A patch that begins where another one ends, tangent or curved as it",
-             "Surface (.json, STEP, IGES, BREP)",
-             "obvid surface match body.json --border door:u1 --to wing:u0 --join G2 -o body.step"},
-    KindText{"convert", "A stored surface in another format",
-             "Surface (.json, STEP, IGES, BREP, control points)",
-             "obvid surface convert part.step -o part.glb"},
+constexpr KindText kKinds[] = {
+#define OBVID_SURFACE_KIND(kind, name, help, inputs, example) {name, help, inputs, example},
+#include "obvid/pipeline/surface_kinds.inc"
+#undef OBVID_SURFACE_KIND
 };
 
 SurfaceKind kind_of(const KindText& text) { return *surface_kind_named(text.name); }

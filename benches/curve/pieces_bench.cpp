@@ -12,7 +12,7 @@ RationalBezier quarter_circle() {
   return {{}, 2, {Vec2{2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}}, {1.0, 1.0, 2.0}};
 }
 
-RationalBezier quartic() {
+RationalBezier rational_quartic() {
   return {{10, 20},
           4,
           {Vec2{0, 0}, {1, 0.1}, {2, 0.6}, {2.6, 1.5}, {2.7, 2.6}},
@@ -20,7 +20,7 @@ RationalBezier quartic() {
 }
 
 void evaluate_quartic(benchmark::State& state) {
-  const RationalBezier piece = quartic();
+  const RationalBezier piece = rational_quartic();
   double t = 0.0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(curvature(evaluate(piece, t)));
@@ -36,7 +36,7 @@ void evaluate_quartic(benchmark::State& state) {
 BENCHMARK(evaluate_quartic);
 
 void split_quartic(benchmark::State& state) {
-  const RationalBezier piece = quartic();
+  const RationalBezier piece = rational_quartic();
   for (auto _ : state) benchmark::DoNotOptimize(split(piece, 0.37));
 }
 BENCHMARK(split_quartic);

@@ -18,7 +18,7 @@ using namespace obvid;
 
 /// Logarithmic spiral with a fixed turn per chord: any number of points, curvature that doubles
 /// over the same part of the series, never decided by rounding.
-std::vector<Vec2> spiral_points(std::size_t n) {
+std::vector<Vec2> points_of_spiral(std::size_t n) {
   constexpr double kGrowth = 8.0;  // of the radius over the whole series
   const double turn_per_chord = n <= 100 ? 3.0 / static_cast<double>(n) : 0.03;
   const double total = turn_per_chord * static_cast<double>(n - 1);
@@ -35,7 +35,7 @@ std::vector<Vec2> spiral_points(std::size_t n) {
 /// Arguments: points, and 2 or 3 for continuous curvature or a continuous slope of it too.
 void fit_of_a_spiral(benchmark::State& state) {
   PointSeries series;
-  series.points = spiral_points(static_cast<std::size_t>(state.range(0)));
+  series.points = points_of_spiral(static_cast<std::size_t>(state.range(0)));
   FitJob job;
   job.continuity = state.range(1) == 3 ? Continuity::kG3 : Continuity::kG2;
   bool proved = true;
@@ -67,7 +67,7 @@ BENCHMARK(fit_of_a_spiral)
 /// everything proved.
 void refit_after_a_move(benchmark::State& state) {
   PointSeries series;
-  series.points = spiral_points(static_cast<std::size_t>(state.range(0)));
+  series.points = points_of_spiral(static_cast<std::size_t>(state.range(0)));
   FitJob job;
   job.continuity = state.range(1) == 3 ? Continuity::kG3 : Continuity::kG2;
   Watch watch;
@@ -135,14 +135,14 @@ void one_biarc(benchmark::State& state) {
 BENCHMARK(one_biarc);
 
 void analysis_of_a_spiral(benchmark::State& state) {
-  const auto points = spiral_points(static_cast<std::size_t>(state.range(0)));
+  const auto points = points_of_spiral(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(analyse(points));
 }
 BENCHMARK(analysis_of_a_spiral)->Arg(10)->Arg(1000)->Unit(benchmark::kMicrosecond);
 
 void certificate_of_a_spiral(benchmark::State& state) {
   PointSeries series;
-  series.points = spiral_points(static_cast<std::size_t>(state.range(0)));
+  series.points = points_of_spiral(static_cast<std::size_t>(state.range(0)));
   const auto result = fit(series, FitJob{});
   for (auto _ : state) benchmark::DoNotOptimize(certify(result->contour));
 }

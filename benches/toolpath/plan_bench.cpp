@@ -10,15 +10,15 @@
 namespace obvid {
 namespace {
 
-constexpr double kSide = 30.0;
+constexpr double kPlateSide = 30.0;
 constexpr std::size_t kPoints = 61;
 
 SurfaceModel wavy_part() {
   PointGrid grid{kPoints, kPoints, {}, "waves"};
   for (std::size_t j = 0; j < kPoints; ++j) {
     for (std::size_t i = 0; i < kPoints; ++i) {
-      const double x = kSide * static_cast<double>(i) / static_cast<double>(kPoints - 1);
-      const double y = kSide * static_cast<double>(j) / static_cast<double>(kPoints - 1);
+      const double x = kPlateSide * static_cast<double>(i) / static_cast<double>(kPoints - 1);
+      const double y = kPlateSide * static_cast<double>(j) / static_cast<double>(kPoints - 1);
       grid.points.push_back({x, y, 2.0 * std::sin(x / 4.5) * std::cos(y / 4.5)});
     }
   }

@@ -85,6 +85,12 @@ def grid():
     return c.surface("grid", [c.read(example("surfaces/wavy_grid.csv"))])[0]
 
 
+def kinds_of_surfaces():
+    """Words of the table of kinds."""
+    with open(os.path.join(c.SOURCES, "include/obvid/pipeline/surface_kinds.inc"), encoding="utf-8") as table:
+        return re.findall(r'^OBVID_SURFACE_KIND\(\w+, "(\w+)"', table.read(), re.MULTILINE)
+
+
 class TheSchemas(unittest.TestCase):
     def test_are_schemas_with_a_title(self):
         self.assertGreater(len(ALL), 12)
@@ -323,7 +329,7 @@ class Options(unittest.TestCase):
         for command in [("fit",), ("region",), ("compare",), ("convert",), ("toolpath",), ("cut",), ("alignment",), ("spline",),
                         ("nurbs",),
                         ("surface", "check"), ("surface", "cut")] + [
-                ("surface", kind) for kind in ("skin", "ruled", "revolve", "coons", "gordon", "grid", "id", "scatter", "offset", "trim", "fillet", "match")]:
+                ("surface", kind) for kind in kinds_of_surfaces()]:
             every |= typed(*command)
         self.assertEqual(typed("fit"), commands[("fit",)])
         ours = set(ALL["options.schema.json"]["$defs"]["options"])

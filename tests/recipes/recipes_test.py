@@ -15,6 +15,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
+ONE_LINE = ("carrier", "format")  # what they add to files that are there
 EXAMPLES = sorted(path.parent for path in (ROOT / "tests/recipes").glob("*/lines.json"))
 
 
@@ -41,27 +42,38 @@ def put_in(example, project):
             touched.add(name)
     for name, added in json.loads((example / "lines.json").read_text(encoding="utf-8")).items():
         text = (project / name).read_text(encoding="utf-8")
-        (project / name).write_text(text + "\n".join(added) + "\n", encoding="utf-8")
+        for one in added:
+            text = with_text(text, one, name)
+        (project / name).write_text(text, encoding="utf-8")
         touched.add(name)
         lines += len(added)
     return touched, lines
+
+
+def with_text(text, added, name):
+    """A line at the end, or {"before": what stands there once, "text": what comes before it}."""
+    if isinstance(added, str):
+        return text + added + "\n"
+    assert text.count(added["before"]) == 1, f"{name} has {added['before']} {text.count(added['before'])} times"
+    return text.replace(added["before"], added["text"] + added["before"])
 
 
 def places_of(kind):
     """Patterns of the places that the recipe names."""
     text = (ROOT / "docs/conventions.md").read_text(encoding="utf-8")
     section = re.search(rf"^### A new {kind}\n(.*?)(?=^##)", text, re.DOTALL | re.MULTILINE)[1]
-    names = re.findall(r"^\| `([^`]+)` \|", section, re.MULTILINE)
-    return [re.sub(r"<\w+>", "[^/]+", name) + (r"[^/]+" if name.endswith("/") else "") for name in names]
+    cells = re.findall(r"^\| (`.*?`) \|", section, re.MULTILINE)
+    names = [name for cell in cells for name in re.findall(r"`([^`]+)`", cell)]
+    return [re.sub(r"<\w+>", "[^/]+", name).replace("NAME", r"\w+") + (r"[^/]+" if name.endswith("/") else "") for name in names]
 
 
 class Recipes(unittest.TestCase):
     def test_every_recipe_has_an_example(self):
         text = (ROOT / "docs/conventions.md").read_text(encoding="utf-8")
         kinds = set(re.findall(r"^### A new ([a-z ]+)$", text, re.MULTILINE))
-        self.assertGreaterEqual(kinds, {"carrier", "format"})
+        self.assertGreaterEqual(kinds, {"carrier", "format", "kind of surface"})
         self.assertGreaterEqual(kinds, {path.name for path in EXAMPLES})
-        self.assertGreaterEqual(len(EXAMPLES), 2)
+        self.assertGreaterEqual(len(EXAMPLES), 3)
 
     def test_examples_touch_what_their_recipes_name_and_nothing_else(self):
         for example in EXAMPLES:
@@ -74,7 +86,8 @@ class Recipes(unittest.TestCase):
                     self.assertTrue(any(re.fullmatch(place, name) for place in places), f"{name} is in no recipe")
                 for place in places:
                     self.assertTrue(any(re.fullmatch(place, name) for name in touched), f"{place} is not touched")
-                self.assertEqual(lines, 1)
+                if example.name in ONE_LINE:
+                    self.assertEqual(lines, 1)
                 for tool in ("check_layers", "check_names"):
                     done = subprocess.run([sys.executable, "-B", str(project / "tools" / tool), str(project)],
                                           capture_output=True, text=True)

@@ -21,7 +21,9 @@ MAKERS = (
     "src/pipeline/splines/spline_grid.cpp",
 )
 SURFACE = "include/obvid/surface/surface.h"
-JOB = "include/obvid/pipeline/surface_job.h"
+KINDS = "include/obvid/pipeline/surface_kinds.inc"
+# Lists for readers.
+LISTS = ("include/obvid/obvid.h", "docs/c.md", "docs/surfaces.md", "bindings/python/obvid/surfaces.py")
 
 
 @functools.lru_cache(maxsize=None)
@@ -46,6 +48,11 @@ def walk():
 def alternatives(path, variant):
     found = re.search(r"using " + variant + r" =\s+std::variant<([^;]*)>;", text_of(path))
     return [name.strip() for name in found.group(1).split(",")]
+
+
+def table():
+    """Structs and words of the kinds that are made."""
+    return re.findall(r'^OBVID_SURFACE_KIND\((\w+), "(\w+)"', text_of(KINDS), re.MULTILINE)
 
 
 def recipe(title):
@@ -79,11 +86,18 @@ class KindsOfSurfaces(unittest.TestCase):
 
     def test_jobs_are_named_where_the_recipe_says(self):
         files = recipe("A new kind of surface") | set(MAKERS)
-        kinds = alternatives(JOB, "SurfaceKind")
+        kinds = [kind for kind, _ in table()]
         self.assertGreaterEqual(len(kinds), 9)
         for kind in kinds:
-            self.assertEqual(naming(kind) - files, set(), kind)
+            others = {path for path in naming(kind) - files if not re.fullmatch(r"src/pipeline/surface/surface_\w+\.cpp", path)}
+            self.assertEqual(others, set(), kind)
             self.assertIn("src/pipeline/surface/surface_values.cpp", naming(kind))
+
+    def test_lists_for_readers_have_every_kind(self):
+        for path in LISTS:
+            for _, word in table():
+                named = re.search(r"[\"`]" + word + r"\b|surface " + word + r"\b", text_of(path))
+                self.assertTrue(named, f"{path} lacks {word}")
 
 
 if __name__ == "__main__":

@@ -125,9 +125,15 @@ struct MatchKind {
 /// A surface as it is.
 struct ConvertKind {};
 
-using SurfaceKind =
-    std::variant<SkinKind, RuledKind, RevolveKind, CoonsKind, GordonKind, GridKind, OffsetKind,
-                 IdKind, ScatterKind, TrimKind, FilletKind, MatchKind, ConvertKind>;
+/// A variant of all types but the first.
+template <class Begin, class... Types>
+using VariantBehind = std::variant<Types...>;
+/// One of those above: pipeline/surface_kinds.inc.
+using SurfaceKind = VariantBehind<void
+#define OBVID_SURFACE_KIND(kind, ...) , kind
+#include "obvid/pipeline/surface_kinds.inc"
+#undef OBVID_SURFACE_KIND
+                                  >;
 
 /// Where curves come from.
 struct CurveReading {

@@ -22,32 +22,10 @@ inline constexpr double kSurfaceTolerance = 1e-5;
 }
 
 /// One function for each kind of surface; errors as `make_surface`.
-[[nodiscard]] Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const RuledKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const RevolveKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const CoonsKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const GordonKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const GridKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const IdKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const ScatterKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const TrimKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const FilletKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const MatchKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
-[[nodiscard]] Result<MadeSurface> make_kind(const ConvertKind& kind, const SurfaceJob& job,
-                                            const RunContext& run);
+#define OBVID_SURFACE_KIND(kind, ...) \
+  [[nodiscard]] Result<MadeSurface> make_kind(const kind& how, const SurfaceJob& job, const RunContext& run);
+#include "obvid/pipeline/surface_kinds.inc"
+#undef OBVID_SURFACE_KIND
 
 /// Points along a curve, to be drawn with the surface.
 [[nodiscard]] ScenePolyline drawn(const SpaceCurve& curve, const char* role = "section");

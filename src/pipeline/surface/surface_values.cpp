@@ -15,11 +15,10 @@ namespace {
 
 const std::map<std::string, SurfaceKind>& surface_kinds() {
   static const std::map<std::string, SurfaceKind> all = {
-      {"skin", SkinKind{}},      {"ruled", RuledKind{}},   {"revolve", RevolveKind{}},
-      {"coons", CoonsKind{}},    {"gordon", GordonKind{}}, {"grid", GridKind{}},
-      {"offset", OffsetKind{}},  {"id", IdKind{}},         {"scatter", ScatterKind{}},
-      {"trim", TrimKind{}},      {"fillet", FilletKind{}}, {"match", MatchKind{}},
-      {"convert", ConvertKind{}}};
+#define OBVID_SURFACE_KIND(kind, name, ...) {name, kind{}},
+#include "obvid/pipeline/surface_kinds.inc"
+#undef OBVID_SURFACE_KIND
+  };
   return all;
 }
 

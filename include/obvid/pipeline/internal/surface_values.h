@@ -16,10 +16,8 @@ namespace obvid {
 // Options of surfaces and tool paths as they are typed, read alike for all front ends. Errors: E203
 // with the name of the option as the command line has it.
 
-/// Kinds of surfaces by name, nothing said of them yet: "skin", "ruled", "revolve", "coons",
-/// "gordon", "grid", "id", "offset", "scatter", "trim", "fillet", "match",
-/// "convert". Error: E201 with the nearest
-/// name.
+/// Kinds of surfaces by the words of pipeline/surface_kinds.inc, nothing said of them yet. Error: E201
+/// with the nearest word.
 [[nodiscard]] Result<SurfaceKind> surface_kind_named(const std::string& name);
 [[nodiscard]] std::vector<std::string> surface_kind_names();
 
