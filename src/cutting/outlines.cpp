@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "joined_curves.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/core/internal/figures.h"
 
@@ -28,8 +29,6 @@ constexpr int kPlacesCompared = 8;
 /// A tool that is so many times larger than the drawing is a mistake.
 constexpr double kLargestTool = 1e3;
 constexpr std::size_t kPlacesBetweenQuestions = 256;
-/// Of an open curve's length: ends nearer to each other look as if they were meant to meet.
-constexpr double kSmallGap = 0.01;
 
 Box2 box_around(const ArcPath& path) {
   Box2 out;
@@ -86,6 +85,7 @@ class TrackMaker {
     }
     OBVID_TRY(check_tool());
     leave_doubles_out();
+    join_open_curves();
     nest();
     keep_what_is_cut();
     for (Track& track : out_.all) OBVID_TRY(compensate(track));
@@ -110,36 +110,118 @@ class TrackMaker {
     track.deviation = along->deviation * scale_;
     for (const Piece& piece : along->pieces) track.edge.pieces.push_back(scaled(piece, scale_));
     track.edge.closed = contour.closed;
-    if (!contour.closed) close_gap(track);
+    track.is_cut = outlines_[i].is_cut;
+    if (!contour.closed) close_by_tolerance(track);
     track.room = box_around(track.edge);
     out_.all.push_back(std::move(track));
     return {};
   }
 
-  /// Ends that are as near as the tolerance meet, by a line; of a small gap it is told that it
-  /// stays.
-  void close_gap(Track& track) {
-    std::vector<Piece>& pieces = track.edge.pieces;
-    const Vec2 from = end_point(pieces.back()), to = start_point(pieces.front());
-    const double gap = norm(to - from);
-    double length = 0.0;
-    for (const Piece& piece : pieces) length += length_of(piece);
-    if (pieces.size() < 2 || gap > kSmallGap * length) return;
-    const std::string apart =
-        fmt::format("{}: its ends are {} {} apart", track.name, significant(gap / scale_, 3),
-                    outlines_[track.outline].contour.units.text());
-    if (gap > options_.tolerance * scale_) {
-      if (radius_ == 0.0 || options_.side == CutSide::kOn) return;
-      out_.warnings.push_back(apart +
-                              ": it is an open curve, the tool follows it on the line and nothing "
-                              "lies inside; close it in the drawing, or allow more (--tolerance)");
-      return;
-    }
+  /// Distance of ends that meet, of outlines that are one. A gap of just the tolerance, in digits.
+  [[nodiscard]] double within() const {
+    constexpr double kRounding = 1e-9;
+    return (1.0 + kRounding) * options_.tolerance * scale_;
+  }
+
+  [[nodiscard]] std::string told(double length) const {
+    return fmt::format("{} {}", significant(length / scale_, 3),
+                       outlines_.front().contour.units.text());
+  }
+
+  /// Whether sides of curves matter: else open ones are followed like all others.
+  [[nodiscard]] bool has_sides() const { return radius_ > 0.0 && options_.side != CutSide::kOn; }
+
+  /// Ends of one curve that are as near as the tolerance meet.
+  void close_by_tolerance(Track& track) {
+    const std::vector<Piece>& pieces = track.edge.pieces;
+    const double gap = norm(start_point(pieces.front()) - end_point(pieces.back()));
+    if (pieces.size() < 2 || gap > within()) return;
     if (gap > 0.0) {
-      pieces.push_back(LinePiece{from, to});
-      out_.warnings.push_back(apart + ", less than the tolerance: a line closes it");
+      out_.warnings.push_back(
+          fmt::format("{}: its ends are {} apart, within the tolerance: they meet half way",
+                      track.name, told(gap)));
     }
-    track.edge.closed = true;
+    close_gap(track.edge);
+  }
+
+  /// Open curves whose ends are as near as the tolerance are one curve; where three and more ends
+  /// meet nobody knows which belong together.
+  void join_open_curves() {
+    std::vector<ArcPath> open;
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < out_.all.size(); ++i) {
+      if (out_.all[i].edge.closed) continue;
+      open.push_back(out_.all[i].edge);
+      numbers.push_back(i);
+    }
+    if (open.empty()) return;
+    const JoinedCurves joined = joined_curves(open, within());
+    std::vector<Track> all;
+    for (Track& track : out_.all) {
+      if (track.edge.closed) all.push_back(std::move(track));
+    }
+    std::vector<Track> chains;
+    for (const JoinedCurves::Chain& chain : joined.chains) {
+      Track track = std::move(out_.all[numbers[chain.members.front()]]);
+      for (std::size_t k = 1; k < chain.members.size(); ++k) {
+        const Track& other = out_.all[numbers[chain.members[k]]];
+        track.deviation = std::max(track.deviation, other.deviation);
+        track.is_cut = track.is_cut || other.is_cut;
+      }
+      if (chain.members.size() > 1) join_into(track, chain, numbers);
+      chains.push_back(std::move(track));
+    }
+    tell_enclosing(joined, chains);
+    tell_small_gaps(joined, chains);
+    for (Track& track : chains) all.push_back(std::move(track));
+    std::sort(all.begin(), all.end(),
+              [](const Track& a, const Track& b) { return a.outline < b.outline; });
+    out_.all = std::move(all);
+  }
+
+  void join_into(Track& track, const JoinedCurves::Chain& chain,
+                 const std::vector<std::size_t>& numbers) {
+    std::string others = out_.all[numbers[chain.members[1]]].name;
+    const std::size_t more = chain.members.size() - 2;
+    if (more > 0) others += fmt::format(" and {} other{}", more, more == 1 ? "" : "s");
+    if (chain.largest_gap > 0.0) {
+      out_.warnings.push_back(
+          fmt::format("{} and {}: their ends are up to {} apart, within the tolerance: they meet "
+                      "half way and are one curve",
+                      track.name, others, told(chain.largest_gap)));
+    }
+    track.name += " with " + others;
+    track.edge = chain.path;
+    track.room = box_around(track.edge);
+  }
+
+  void tell_enclosing(const JoinedCurves& joined, const std::vector<Track>& chains) {
+    if (!joined.enclosing || !has_sides()) return;
+    const Track& one = chains[*joined.enclosing];
+    const Vec2 at = start_point(one.edge.pieces.front());
+    out_.warnings.push_back(fmt::format(
+        "{}, at {}, {}: open curves of which three and more meet there close around something "
+        "together, and which of them is an outline is not clear: the tool follows them on the "
+        "line, parts become smaller by its radius; draw each outline as a closed curve of its own, "
+        "or choose --side on if that is meant",
+        one.name, significant(at.x / scale_, 6), significant(at.y / scale_, 6)));
+  }
+
+  /// Of a small gap it is told that it stays.
+  void tell_small_gaps(const JoinedCurves& joined, const std::vector<Track>& chains) {
+    if (!has_sides()) return;
+    for (const JoinedCurves::Gap& gap : joined.gaps) {
+      const bool own = gap.one == gap.other;
+      const std::string names = own ? chains[gap.one].name + ": its ends are "
+                                    : fmt::format("{} and {}: their ends are ",
+                                                  chains[gap.one].name, chains[gap.other].name);
+      out_.warnings.push_back(
+          names + told(gap.distance) +
+          (own ? " apart: it is an open curve, the tool follows it on the line and nothing lies "
+                 "inside; close it in the drawing, or allow more (--tolerance)"
+               : " apart: they are open curves, the tool follows them on the line and nothing lies "
+                 "inside; join them in the drawing, or allow more (--tolerance)"));
+    }
   }
 
   static Error named(Error error, const std::string& name) {
@@ -162,7 +244,7 @@ class TrackMaker {
 
   /// Whether two outlines are one, drawn twice.
   [[nodiscard]] bool are_one(const Track& a, const Track& b) const {
-    const double within = options_.tolerance * scale_;
+    const double within = this->within();
     if (a.edge.closed != b.edge.closed || !is_near(a.room.low, b.room.low, within) ||
         !is_near(a.room.high, b.room.high, within)) {
       return false;
@@ -218,7 +300,7 @@ class TrackMaker {
     std::vector<std::size_t> now(out_.all.size(), out_.all.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < out_.all.size(); ++i) {
-      if (outlines_[out_.all[i].outline].is_cut) now[i] = count++;
+      if (out_.all[i].is_cut) now[i] = count++;
     }
     std::vector<Track> kept;
     for (std::size_t i = 0; i < out_.all.size(); ++i) {

@@ -14,8 +14,9 @@ namespace obvid::cutting {
 
 /// An outline as arcs, and the path of the tool's axis along it. Lengths in units of the machine.
 struct Track {
-  std::size_t outline = 0;
+  std::size_t outline = 0;  ///< of several curves that were joined the first one
   std::string name;
+  bool is_cut = true;              ///< else it only says what lies in what
   ArcPath edge;                    ///< what stays lies to its right
   Box2 room;                       ///< around the edge
   ArcPath axis;                    ///< the parallel; runs as the tool runs

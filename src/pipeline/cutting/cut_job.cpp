@@ -194,7 +194,7 @@ std::string cut_json(const MadeCut& made) {
   json.key("outlines").begin_array();
   for (const CutStep& step : made.program.steps) {
     json.begin_object().pair("name", made.outlines[step.outline].name);
-    json.pair("curve", step.outline).pair("closed", step.closed).pair("around", step.around);
+    json.pair("curve", made.curves[step.outline]).pair("closed", step.closed).pair("around", step.around);
     json.pair("side", to_string(step.side))
         .key("start")
         .begin_array()

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "joined_curves.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace obvid::cutting {
+namespace {
+
+/// Of a chain's length: ends nearer to each other look as if they were meant to meet.
+constexpr double kSmallGap = 0.01;
+
+/// Which of some things belong together (disjoint sets).
+class Together {
+ public:
+  explicit Together(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// False where they were together already.
+  bool join(std::size_t a, std::size_t b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) return false;
+    parent_[std::max(a, b)] = std::min(a, b);
+    return true;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Ends by their numbers: 2 i where curve i begins, 2 i + 1 where it ends.
+Vec2 end_of(const std::vector<ArcPath>& curves, std::size_t end) {
+  const ArcPath& curve = curves[end / 2];
+  return end % 2 == 0 ? start_point(curve.pieces.front()) : end_point(curve.pieces.back());
+}
+
+/// Calls `look(a, b, distance)` for all ends nearer than `reach` to each other.
+template <class Look>
+void near_ends(const std::vector<ArcPath>& curves, double reach, const Look& look) {
+  std::vector<std::pair<Vec2, std::size_t>> ends;
+  for (std::size_t i = 0; i < 2 * curves.size(); ++i) ends.emplace_back(end_of(curves, i), i);
+  std::sort(ends.begin(), ends.end(),
+            [](const auto& a, const auto& b) { return a.first.x < b.first.x; });
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t j = i + 1; j < ends.size() && ends[j].first.x - ends[i].first.x <= reach;
+         ++j) {
+      const double distance = norm(ends[j].first - ends[i].first);
+      if (distance <= reach) look(ends[i].second, ends[j].second, distance);
+    }
+  }
+}
+
+/// The same line or arc, turned and scaled to other ends.
+Piece between(const Piece& piece, Vec2 start, Vec2 end) {
+  const auto* arc = std::get_if<ArcPiece>(&piece);
+  if (arc == nullptr) return LinePiece{start, end};
+  const Vec2 before = arc->end - arc->start, now = end - start;
+  const double scale = norm(now) / norm(before);
+  return ArcPiece{start, end, arc->theta0 + turning(before, now), arc->kappa / scale,
+                  arc->length * scale};
+}
+
+/// Lets a piece end where the other one starts; a line that has to lead there, else nothing.
+std::optional<Piece> meet(Piece& piece, Piece& next) {
+  constexpr double kLonger =
+      10.0;  // times the gap: ends then turn by less than a tenth of a radian
+  const Vec2 from = end_point(piece), to = start_point(next);
+  const double gap = norm(to - from);
+  if (gap == 0.0) return std::nullopt;
+  const auto is_long = [&](const Piece& one) {
+    return norm(end_point(one) - start_point(one)) >= kLonger * gap;
+  };
+  if (!is_long(piece) || !is_long(next)) return LinePiece{from, to};
+  const Vec2 middle = 0.5 * (from + to);
+  piece = between(piece, start_point(piece), middle);
+  next = between(next, middle, end_point(next));
+  return std::nullopt;
+}
+
+void append(JoinedCurves::Chain& chain, ArcPath next) {
+  std::vector<Piece>& pieces = chain.path.pieces;
+  if (!pieces.empty()) {
+    Piece& first = next.pieces.front();
+    chain.largest_gap =
+        std::max(chain.largest_gap, norm(start_point(first) - end_point(pieces.back())));
+    if (const auto line = meet(pieces.back(), first)) pieces.push_back(*line);
+  }
+  pieces.insert(pieces.end(), next.pieces.begin(), next.pieces.end());
+}
+
+}  // namespace
+
+void close_gap(ArcPath& path) {
+  if (const auto line = meet(path.pieces.back(), path.pieces.front())) path.pieces.push_back(*line);
+  path.closed = true;
+}
+
+JoinedCurves joined_curves(const std::vector<ArcPath>& open, double within) {
+  const std::size_t ends = 2 * open.size();
+  Together places(ends);
+  near_ends(open, within, [&](std::size_t a, std::size_t b, double) { places.join(a, b); });
+  std::vector<std::vector<std::size_t>> at(ends);  // ends that meet, by the first of them
+  for (std::size_t i = 0; i < ends; ++i) at[places.find(i)].push_back(i);
+  const auto partner = [&](std::size_t end) -> std::optional<std::size_t> {
+    const auto& here = at[places.find(end)];
+    if (here.size() != 2 || here[0] / 2 == here[1] / 2) return std::nullopt;
+    return here[0] == end ? here[1] : here[0];
+  };
+
+  JoinedCurves out;
+  std::vector<bool> taken(open.size(), false);
+  std::vector<std::size_t> begins, finishes;  // ends of chains
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (taken[i]) continue;
+    // back to where the chain of this curve begins
+    std::size_t first = 2 * i;
+    for (auto before = partner(first); before && *before / 2 != i; before = partner(first)) {
+      first = *before ^ 1U;
+    }
+    const bool loop = partner(first).has_value();
+    JoinedCurves::Chain chain;
+    std::size_t end = loop ? 2 * i : first;
+    const std::size_t begin = end;
+    while (true) {
+      const std::size_t curve = end / 2;
+      taken[curve] = true;
+      chain.members.push_back(curve);
+      append(chain, end % 2 == 0 ? open[curve] : reversed(open[curve]));
+      const auto following = partner(end ^ 1U);
+      end ^= 1U;
+      if (!following || *following == begin) break;
+      end = *following;
+    }
+    if (loop) {
+      chain.largest_gap = std::max(chain.largest_gap, norm(start_point(chain.path.pieces.front()) -
+                                                           end_point(chain.path.pieces.back())));
+      close_gap(chain.path);
+    }
+    begins.push_back(begin);
+    finishes.push_back(end);
+    out.chains.push_back(std::move(chain));
+  }
+
+  Together parts(ends);
+  for (std::size_t k = 0; k < out.chains.size() && !out.enclosing; ++k) {
+    if (out.chains[k].path.closed) continue;
+    if (!parts.join(places.find(begins[k]), places.find(finishes[k]))) out.enclosing = k;
+  }
+
+  std::vector<ArcPath> left;
+  std::vector<std::size_t> numbers;
+  double longest = 0.0;
+  for (std::size_t k = 0; k < out.chains.size(); ++k) {
+    if (out.chains[k].path.closed) continue;
+    left.push_back(out.chains[k].path);
+    numbers.push_back(k);
+    longest = std::max(longest, length_of(left.back()));
+  }
+  near_ends(left, kSmallGap * longest, [&](std::size_t a, std::size_t b, double distance) {
+    const std::size_t one = std::min(a, b) / 2, other = std::max(a, b) / 2;
+    const double length = std::min(length_of(left[one]), length_of(left[other]));
+    if (distance <= within || distance > kSmallGap * length) return;
+    if (one == other && left[one].pieces.size() < 2) return;
+    out.gaps.push_back({numbers[one], numbers[other], distance});
+  });
+  std::sort(out.gaps.begin(), out.gaps.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.one, a.other) < std::pair(b.one, b.other);
+  });
+  return out;
+}
+
+}  // namespace obvid::cutting
