@@ -76,6 +76,26 @@ std::string message_of(const Work& work, const Trouble& trouble) {
   return out;
 }
 
+/// What the command would have warned of, one behind the other.
+std::string warnings_of(const Work& work) {
+  std::vector<std::string> all = reported_warnings(work.kind, work.report.get());
+  const auto add = [&](const auto& made, auto warning_at) {
+    for (std::size_t k = 0; made && warning_at(made.get(), k) != nullptr; ++k) {
+      all.emplace_back(warning_at(made.get(), k));
+    }
+  };
+  add(work.contour, &obvid_contour_warning);
+  add(work.space, &obvid_space_warning);
+  add(work.surface, &obvid_surface_warning);
+  std::string out;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto before = all.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(all.begin(), before, all[i]) != before) continue;  // report and result say it
+    out += (out.empty() ? "" : "; ") + all[i];
+  }
+  return out;
+}
+
 /// Texts of rows are one line of bounded length: a file may put anything into a message.
 std::string one_line(std::string text, std::size_t most) {
   for (char& c : text) {
@@ -114,6 +134,7 @@ void add_row(const std::string& id, const Work& work, const Trouble& trouble, do
   row.number(static_cast<double>(status));
   row.number(code);
   row.text(one_line(message_of(work, trouble), kLongestMessage));
+  row.text(one_line(warnings_of(work), kLongestMessage));
   for (const int count : {figures.points, figures.pieces, figures.vertices, figures.bound,
                           figures.inflections, figures.corners, figures.proved}) {
     row.number(count);
@@ -131,6 +152,7 @@ Columns columns_of_job(const JobKind& kind) {
       {"status", kSmall, "0 done, 1 formed but a promise is not kept, 2 failed"},
       {"code", kCount, "number of the error, 401 for E401; 0 none"},
       {"message", kText, "what is wrong"},
+      {"warnings", kText, "what may be wrong: the warnings of the command, the first 300 bytes"},
       {"points", kCount, "of the item; here and below -1 or NaN: not known"},
       {"pieces", kCount, "of the contour"},
       {"vertices", kCount, "extrema of the curvature"},

@@ -251,4 +251,17 @@ std::vector<double> take_report(const JobKind& kind, const char* text, obvid_fig
   return nothing;
 }
 
+std::vector<std::string> reported_warnings(const JobKind& kind, const char* text) {
+  std::vector<std::string> out;
+  if (text == nullptr || !kind.reports) return out;
+  const ReportJson report = ReportJson::parse(text, nullptr, false);
+  if (!report.is_object() || !report.contains("warnings") || !report["warnings"].is_array()) {
+    return out;
+  }
+  for (const ReportJson& one : report["warnings"]) {
+    if (one.is_string()) out.push_back(one.get<std::string>());
+  }
+  return out;
+}
+
 }  // namespace obvid::batch

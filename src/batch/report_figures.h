@@ -20,4 +20,7 @@ namespace obvid::batch {
 [[nodiscard]] std::vector<double> take_report(const JobKind& kind, const char* report,
                                               obvid_figures& figures);
 
+/// The warnings of a report that is at hand in any case; none where `report` is NULL.
+[[nodiscard]] std::vector<std::string> reported_warnings(const JobKind& kind, const char* report);
+
 }  // namespace obvid::batch

@@ -121,6 +121,7 @@ void Summary::add(const Columns& rows) {
   const Column* const id = rows.named("id");
   const Column* const status = rows.named("status");
   const Column* const code = rows.named("code");
+  const Column* const told = rows.named("warnings");
   const Column* const found = rows.named("vertices");
   const Column* const bound = rows.named("bound");
   const Column* const proof = rows.named("proved");
@@ -132,6 +133,7 @@ void Summary::add(const Columns& rows) {
       if (++codes[number] == 1) first_of[number] = id->texts[i];
     }
     if (proof->numbers[i] > 0.0) ++proved;
+    if (!told->texts[i].empty() && ++warned == 1) first_warned = id->texts[i];
     if (found->numbers[i] >= 0.0 && bound->numbers[i] >= 0.0) {
       ++compared;
       if (found->numbers[i] <= bound->numbers[i]) ++at_bound;
@@ -156,6 +158,9 @@ std::string summary_text(const Summary& s) {
   for (const auto& [code, count] : s.codes) {
     out += line("  E" + std::to_string(code), count, s.items,
                 fmt::format("{}; first {}", title_of(code), s.first_of.at(code)));
+  }
+  if (s.warned > 0) {
+    out += line("with warnings", s.warned, s.items, "first " + s.first_warned);
   }
   if (s.compared > 0) {
     out += line("as few vertices as possible", s.at_bound, s.compared, "of those with a bound");

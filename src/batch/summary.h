@@ -23,7 +23,8 @@ struct Summary {
   std::array<std::size_t, 3> statuses{};  ///< done, not kept, failed
   std::map<int, std::size_t> codes;       ///< errors, by number
   std::map<int, std::string> first_of;    ///< the id of the first item with that error
-  std::size_t proved = 0;
+  std::size_t proved = 0, warned = 0;
+  std::string first_warned;                ///< the id of the first item with a warning
   std::size_t compared = 0, at_bound = 0;  ///< with vertices and bound known; as few as the bound
   double seconds = 0.0;                    ///< of all items, on one processor
   double longest = 0.0;

@@ -8,6 +8,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import signal
 import sqlite3
 import struct
@@ -317,7 +318,11 @@ class Batch(unittest.TestCase):
         row = self.rows(source, "--job", job, *options, *each, "--reports", made / "{number}.report")
         self.assertEqual(row["code"][0], 0, row["message"][0])
         outputs = [w for e in endings for w in ("-o", alone / ("0" + e))]
-        report = self.single(job, source, *options, *outputs, "--json")
+        done = subprocess.run([OBVID, *map(str, (job, source, *options, *outputs, "--json"))], capture_output=True, text=True, env=ENVIRONMENT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = done.stdout
+        warned = re.findall("^obvid: warning: (.*)$", done.stderr, re.MULTILINE)
+        self.assertEqual(row["warnings"][0], "; ".join(warned).encode()[:300].decode(errors="ignore"), job)
         for ending in endings:
             self.assertEqual((made / ("0" + ending)).read_bytes(), (alone / ("0" + ending)).read_bytes(), ending)
         self.assertEqual(json.loads((made / "0.report").read_text()), json.loads(report))
