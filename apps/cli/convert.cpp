@@ -24,14 +24,19 @@ bool is_foreign(const ConvertOptions& options) {
   return !options.input.ends_with(".json") || !options.import.placement.changes_nothing();
 }
 
+/// What is told beside a curve: notes, and what may be wrong.
+struct Told {
+  std::vector<std::string> remarks, warnings;
+};
+
 /// A curve of a drawing as it is, with what can be proved about it.
 Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions& formats,
-                                   std::vector<std::string>& remarks) {
+                                   Told& told) {
   const Result<Drawing> drawing = read_drawing(options.input, options.import.planes);
   OBVID_TRY(drawing);
   auto drawn = drawn_contour(*drawing, options.import, options.input);
   OBVID_TRY(drawn);
-  remarks = std::move(drawn->remarks);
+  told = {std::move(drawn->remarks), std::move(drawn->warnings)};
   formats.name = std::move(drawn->name);
   formats.picture = std::move(drawn->picture);
   formats.first_station = drawn->first_station;
@@ -46,26 +51,27 @@ struct Converted {
   std::vector<std::string> warnings;
 };
 
-Result<Converted> converted(const ConvertOptions& options, Result<StoredContour> stored,
-                            std::vector<std::string> remarks, ExportOptions formats) {
+Result<Converted> converted(const ConvertOptions& options, Result<StoredContour> stored, Told told,
+                            ExportOptions formats) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   OBVID_TRY(outputs);
   OBVID_TRY(stored);
   Converted out;
+  out.warnings = std::move(told.warnings);
+  out.remarks = std::move(told.remarks);
   if (options.units) {
-    if (auto told = take_units(stored->contour.units, *options.units)) {
-      out.warnings.push_back(*told);
+    if (auto other = take_units(stored->contour.units, *options.units)) {
+      out.warnings.push_back(*other);
     }
   }
   FileNotes notes;
   const Result<std::vector<Output>> texts = exported(*outputs, *stored, formats, notes);
   OBVID_TRY(texts);
   out.warnings.insert(out.warnings.end(), notes.warnings.begin(), notes.warnings.end());
-  remarks.insert(remarks.end(), notes.remarks.begin(), notes.remarks.end());
   Result<std::vector<std::string>> written = write_files(*texts, options.input);
   OBVID_TRY(written);
   out.files = std::move(*written);
-  out.remarks = std::move(remarks);
+  out.remarks.insert(out.remarks.end(), notes.remarks.begin(), notes.remarks.end());
   return out;
 }
 
@@ -98,9 +104,9 @@ Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
   options.outputs = outputs;
   if (one.curve) options.import.curve = {one.curve, {}, false};
   ExportOptions formats = formats_of(options);
-  std::vector<std::string> remarks;
+  Told told;
   Result<StoredContour> stored = [&]() -> Result<StoredContour> {
-    if (is_foreign(options)) return from_drawing(options, formats, remarks);
+    if (is_foreign(options)) return from_drawing(options, formats, told);
     const auto text = read_file(options.input);
     OBVID_TRY(text);
     auto read = parse_stored(*text, options.input);
@@ -109,7 +115,7 @@ Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
     return error(ErrorCode::kUnsupported, "curves in space are converted one file at a time")
         .where(options.input);
   }();
-  const auto done = converted(options, std::move(stored), std::move(remarks), std::move(formats));
+  const auto done = converted(options, std::move(stored), std::move(told), std::move(formats));
   if (!done) {
     out.error = done.error();
     return out;
@@ -155,10 +161,9 @@ int run(const ConvertOptions& options) {
     return tell(options, converted(options, std::get<StoredContour>(std::move(*stored)), {},
                                    std::move(formats)));
   }
-  std::vector<std::string> remarks;
-  auto stored = from_drawing(options, formats, remarks);
-  return tell(options,
-              converted(options, std::move(stored), std::move(remarks), std::move(formats)));
+  Told told;
+  auto stored = from_drawing(options, formats, told);
+  return tell(options, converted(options, std::move(stored), std::move(told), std::move(formats)));
 }
 
 }  // namespace obvid

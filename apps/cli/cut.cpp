@@ -105,7 +105,7 @@ Facts cut_facts(const MadeCut& made) {
 
 std::string cut_text(const MadeCut& made, const std::vector<std::string>& files) {
   Facts facts = cut_facts(made);
-  facts.add("written", listed(files));
+  if (!files.empty()) facts.add("written", listed(files));
   return facts.text();
 }
 

@@ -39,6 +39,8 @@ constexpr const char* kShortHelp =
 is a text file with x and y per line, an airfoil file, a drawing, ... or comes through a pipe.
 )";
 
+constexpr std::size_t kShortHelpColumn = 53;  // where it says what commands do
+
 /// What the command line said, before it is checked.
 struct Raw {
   FitOptions fit;
@@ -716,7 +718,7 @@ void allow_extras(CLI::App& app) {
 
 /// `obvid help fit`, `obvid help surface skin`: what `--help` behind these words says.
 Result<Command> help_of(int argc, const char* const* argv) {
-  if (argc == 2) return Command{ShowText{kShortHelp}};
+  if (argc == 2) return Command{ShowText{wrapped_help(kShortHelp, kShortHelpColumn, help_width())}};
   std::vector<const char*> words{argv[0]};
   words.insert(words.end(), argv + 2, argv + argc);
   words.push_back("--help");
@@ -726,7 +728,7 @@ Result<Command> help_of(int argc, const char* const* argv) {
 }  // namespace
 
 Result<Command> parse_command_line(int argc, const char* const* argv) {
-  if (argc < 2) return Command{ShowText{kShortHelp}};
+  if (argc < 2) return Command{ShowText{wrapped_help(kShortHelp, kShortHelpColumn, help_width())}};
   if (std::string_view(argv[1]) == "help") return help_of(argc, argv);
   try {
     if (std::string_view(argv[1]) == "surface") return parse_surface(argc - 1, argv + 1);

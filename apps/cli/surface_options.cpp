@@ -52,6 +52,7 @@ bool is_kind(const KindText& text) {
   return std::holds_alternative<Kind>(kind_of(text));
 }
 
+constexpr std::size_t kSurfaceHelpColumn = 47;  // where it says what commands do
 constexpr const char* kSurfaceHelp =
     R"(obvid surface: surfaces over fair contours
 
@@ -59,14 +60,19 @@ constexpr const char* kSurfaceHelp =
   obvid surface ruled A B -o OUT               between two curves
   obvid surface revolve PROFILE -o OUT         about an axis
   obvid surface coons A B C D -o OUT           between four borders
-  obvid surface gordon A... --across B... -o OUT   through a net of curves
+  obvid surface gordon A... --across B... -o OUT
+                                               through a net of curves
   obvid surface grid GRID -o OUT               through, near or controlled by points
   obvid surface id GRID -o OUT                 integro-differential spline
-  obvid surface scatter POINTS --tolerance T -o OUT  near points in any order
+  obvid surface scatter POINTS --tolerance T -o OUT
+                                               near points in any order
   obvid surface offset SURFACE --distance D -o OUT
-  obvid surface trim SURFACE --plane z=1.8 --keep below -o OUT   a part of it
-  obvid surface fillet SURFACE --faces A,B --radius R -o OUT   a rolling ball's blend
-  obvid surface match SURFACE --border A:u1 --to B:u0 -o OUT   A goes on from B
+  obvid surface trim SURFACE --plane z=1.8 --keep below -o OUT
+                                               a part of it
+  obvid surface fillet SURFACE --faces A,B --radius R -o OUT
+                                               a rolling ball's blend
+  obvid surface match SURFACE --border A:u1 --to B:u0 -o OUT
+                                               A goes on from B
   obvid surface convert SURFACE -o OUT         another format
   obvid surface check SURFACE                  curvature, joints, monotone sections
   obvid surface cut SURFACE -o OUT             sections by planes, lines drawing
@@ -407,6 +413,9 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
   SurfaceOptions& make = raw.make;
   make.command = text.name;
   make.job.kind = kind_of(text);
+  if (raw.inputs.empty()) {
+    if (std::string piped = input_or_pipe(""); !piped.empty()) raw.inputs = {std::move(piped)};
+  }
   make.job.inputs.assign(raw.inputs.begin(), raw.inputs.end());
   if (auto* second = second_inputs(make.job)) second->assign(raw.across.begin(), raw.across.end());
   OBVID_TRY(settle_streams(make, raw.format));
@@ -473,7 +482,9 @@ Result<Command> checked_surface(const CLI::App& app, RawSurface& raw) {
 
 Result<Command> parse_surface(int argc, const char* const* argv) {
   const bool bare = argc < 2 || std::string_view(argv[1]) == "--help";
-  if (bare && !help_as_lines()) return Command{ShowText{kSurfaceHelp}};
+  if (bare && !help_as_lines()) {
+    return Command{ShowText{wrapped_help(kSurfaceHelp, kSurfaceHelpColumn, help_width())}};
+  }
   CLI::App app("Surfaces over fair contours", "obvid surface");
   app.require_subcommand(0, 1);
   shape_help(app, kHelpColumn, argc, argv);

@@ -158,6 +158,7 @@ Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
   ToolpathCommand& command = raw.command;
   OBVID_TRY(check_extras(app, app.remaining(), "toolpath"));
   OBVID_TRY(set_toolpath(raw.values, command.job));
+  command.input = input_or_pipe(command.input);
   if (command.input.empty()) {
     return fail(usage("toolpath needs a surface", "see obvid toolpath --help"));
   }

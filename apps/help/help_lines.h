@@ -71,6 +71,41 @@ class HelpLines : public CLI::FormatterBase {
   }
 };
 
+/// Lines that are too long go on below themselves: what is said of an option in its column, where
+/// the terminal has room for that.
+[[nodiscard]] inline std::string wrapped_help_line(std::string line, std::size_t column,
+                                                   std::size_t width) {
+  constexpr std::size_t kFewest = 24;  // characters of a line behind its indent
+  constexpr std::size_t kIndent = 2;
+  const std::size_t lead = std::min(line.find_first_not_of(' '), line.size());
+  const bool row = lead >= column || (line.size() > column && line[column] != ' ' &&
+                                      line[column - 1] == ' ' && lead == 2);
+  std::size_t indent = row ? std::max(lead, column) : lead;
+  if (indent + kFewest >= width) indent = std::min(lead + kIndent, 2 * kIndent);
+  std::string out;
+  while (line.size() > width) {
+    std::size_t at = line.rfind(' ', width);
+    if (at == std::string::npos || at <= indent) at = line.find(' ', width);  // a long word
+    if (at == std::string::npos || line.find_last_not_of(' ', at) == std::string::npos) break;
+    const std::size_t next = line.find_first_not_of(' ', at);
+    if (next == std::string::npos) break;
+    out += line.substr(0, line.find_last_not_of(' ', at) + 1) + "\n";
+    line = std::string(indent, ' ') + line.substr(next);
+  }
+  return out + line;
+}
+
+[[nodiscard]] inline std::string wrapped_help(const std::string& text, std::size_t column,
+                                              std::size_t width) {
+  std::string out;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t to = std::min(text.find('\n', from), text.size());
+    out += wrapped_help_line(text.substr(from, to - from), column, width) + "\n";
+    from = to + 1;
+  }
+  return out;
+}
+
 /// Help for the eye: lines as wide as the terminal. `-h` is one page of it: options without a group
 /// with the beginning of what is said of them, and the names of the others.
 class HelpPage : public CLI::Formatter {
@@ -79,7 +114,8 @@ class HelpPage : public CLI::Formatter {
 
   std::string make_help(const CLI::App* app, std::string name,
                         CLI::AppFormatMode mode) const override {
-    return wrapped(brief_ ? page(app, name) : CLI::Formatter::make_help(app, name, mode));
+    return wrapped_help(brief_ ? page(app, name) : CLI::Formatter::make_help(app, name, mode),
+                        get_column_width(), width_);
   }
 
  private:
@@ -129,34 +165,6 @@ class HelpPage : public CLI::Formatter {
     std::size_t end = text.size();
     for (const char* stop : {": ", "; ", " ["}) end = std::min(end, text.find(stop));
     return text.substr(0, end);
-  }
-
-  /// Lines that are too long go on below themselves: what is said of an option in its column.
-  [[nodiscard]] std::string wrapped(const std::string& text) const {
-    std::string out;
-    for (std::size_t from = 0; from < text.size();) {
-      const std::size_t to = std::min(text.find('\n', from), text.size());
-      out += wrapped_line(text.substr(from, to - from)) + "\n";
-      from = to + 1;
-    }
-    return out;
-  }
-
-  [[nodiscard]] std::string wrapped_line(std::string line) const {
-    constexpr std::size_t kFewest = 16;  // characters of a line behind its indent
-    const std::size_t column = get_column_width();
-    const std::size_t lead = std::min(line.find_first_not_of(' '), line.size());
-    const bool row = lead >= column || (line.size() > column && line[column] != ' ' &&
-                                        line[column - 1] == ' ' && lead == 2);
-    const std::size_t indent = row ? std::max(lead, column) : lead;
-    std::string out;
-    while (line.size() > width_ && width_ > indent + kFewest) {
-      const std::size_t at = line.rfind(' ', width_);
-      if (at == std::string::npos || at <= indent) break;
-      out += line.substr(0, at) + "\n";
-      line = std::string(indent, ' ') + line.substr(at + 1);
-    }
-    return out + line;
   }
 
   bool brief_;

@@ -141,6 +141,7 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
     OBVID_TRY(drawn);
     out->stored = std::move(drawn->stored);
     out->name = std::move(drawn->name);
+    out->warnings = std::move(drawn->warnings);
     out->first_station = drawn->first_station;
     out->transitions = std::move(drawn->transitions);
     out->profile = std::move(drawn->profile);

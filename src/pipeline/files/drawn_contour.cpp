@@ -19,8 +19,9 @@ Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options
         .hint("use `obvid fit`, --drawing exact for its edges, or --curve N for another one");
   }
   DrawnContour out;
-  out.remarks = drawing.warnings;
-  out.remarks.push_back(where + ": " + chosen_text(drawing, *chosen, options.curve.asked()));
+  out.warnings = drawing.warnings;
+  (has_choice(drawing) ? out.warnings : out.remarks)
+      .push_back(where + ": " + chosen_text(drawing, *chosen, options.curve.asked()));
   auto made =
       audit(*chosen < curves ? drawing.curves[*chosen] : edges_of(drawing.series[*chosen - curves]),
             drawing.units, run);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -381,6 +382,12 @@ std::string without_profile(const VerticalProfile& profile) {
       counted(profile.elements.size(), "element", "elements"), low, high);
 }
 
+/// The curve's name, else that of the file that it was formed from.
+std::string name_of_road(const ExportOptions& options) {
+  const std::string file = std::filesystem::path(options.picture.name).stem().string();
+  return options.name == ExportOptions{}.name && !file.empty() ? file : options.name;
+}
+
 }  // namespace
 
 Result<void> can_plot(const ContourExport& e) {
@@ -441,7 +448,7 @@ Result<Exported> contour_as_gcode(const ContourExport& e) {
 
 Result<Exported> contour_as_opendrive(const ContourExport& e) {
   OpenDriveOptions road;
-  road.name = e.options.name;
+  road.name = name_of_road(e.options);
   road.first_station = e.options.first_station;
   road.profile = e.options.profile;
   road.tolerance = e.tolerance;
@@ -451,7 +458,7 @@ Result<Exported> contour_as_opendrive(const ContourExport& e) {
 
 Result<Exported> contour_as_landxml(const ContourExport& e) {
   LandXmlOptions road;
-  road.name = e.options.name;
+  road.name = name_of_road(e.options);
   road.profile = e.options.profile;
   road.transitions = e.options.transitions;
   road.first_station = e.options.first_station;

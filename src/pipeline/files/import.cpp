@@ -387,14 +387,6 @@ Result<PointSeries> placed(Result<PointSeries> series, const ImportOptions& opti
   return without_outliers(in_order(std::move(series), options), options);
 }
 
-/// All warnings of the drawing, and which curve was taken of several.
-void tell(const Drawing& drawing, std::size_t chosen, bool asked, PointSeries& out) {
-  out.warnings.insert(out.warnings.begin(), drawing.warnings.begin(), drawing.warnings.end());
-  if (drawing.curves.size() + drawing.series.size() > 1) {
-    out.warnings.push_back(chosen_text(drawing, chosen, asked));
-  }
-}
-
 Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOptions& options,
                                       const std::string& path) {
   const auto found = chosen_curve(drawing, options.curve, path);
@@ -416,7 +408,10 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
   }
   out.name = drawing.name + (out.label.empty() ? "" : ": " + out.label);
   out.units = drawing.units;
-  tell(drawing, chosen, options.curve.asked(), out);
+  out.warnings.insert(out.warnings.begin(), drawing.warnings.begin(), drawing.warnings.end());
+  if (has_choice(drawing)) {
+    out.warnings.push_back(chosen_text(drawing, chosen, options.curve.asked()));
+  }
   return placed(std::move(out), options);
 }
 
@@ -501,6 +496,10 @@ std::string chosen_text(const Drawing& drawing, std::size_t chosen, bool asked) 
   if (asked || count == 1) return text;
   return text +
          fmt::format(", the longest of its kind; --curve N takes one of the other {}", count - 1);
+}
+
+bool has_choice(const Drawing& drawing) {
+  return drawing.curves.size() + drawing.series.size() > 1;
 }
 
 DrawnCurve edges_of(const PointSeries& series) {

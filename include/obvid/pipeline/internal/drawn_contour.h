@@ -19,7 +19,8 @@ struct DrawnContour {
   std::vector<PlacedTransition> transitions;  ///< which pieces are clothoids in their place
   std::optional<VerticalProfile> profile;     ///< of heights
   PictureTitles picture;                      ///< of a picture of it
-  std::vector<std::string> remarks;           ///< what was left out, and which curve was taken
+  std::vector<std::string> remarks;           ///< which curve it is
+  std::vector<std::string> warnings;          ///< what was left out, which of several was taken
 };
 
 /// Takes the curve that `options` choose. Errors: those of `chosen_curve`; E310 where that is a
