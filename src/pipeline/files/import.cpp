@@ -257,12 +257,12 @@ std::string order_text(const PointSeries& series, const CurveOrder& found) {
       "--unordered: {} points were put in the order of their shortest row; neighbours are at most "
       "{} {} apart, the ends {}",
       found.order.size(), significant(found.largest_step, 4), unit, significant(found.gap, 4));
+  if (found.gap <= kMayClose * found.largest_step) text += " (--closed closes them)";
   if (found.is_outline) {
     text +=
         "; it is the shortest closed way that was found, begun behind its longest step: look at it "
         "before you rely on it";
   }
-  if (found.gap <= kMayClose * found.largest_step) text += ", which --closed closes";
   return text;
 }
 
@@ -473,8 +473,8 @@ Result<std::size_t> chosen_curve(const Drawing& drawing, const CurveChoice& aske
   }
   const std::size_t chosen = *found;
   if (chosen >= count) {
-    return error(ErrorCode::kBadOption,
-                 fmt::format("there are {} curves, no curve {}", count, chosen + 1))
+    return error(ErrorCode::kBadOption, fmt::format("the drawing has {}, no curve {}",
+                                                    counted(count, "curve", "curves"), chosen + 1))
         .where(path)
         .hint("`obvid analyse FILE` lists them");
   }

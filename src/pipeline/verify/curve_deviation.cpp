@@ -19,6 +19,11 @@ constexpr std::size_t kManyPieces = 5000;  // then one on each
 constexpr std::size_t kStepsOfOther = 16;  // of the other curve, between which it is looked for
 constexpr std::size_t kVotes = 64;         // places that say which way the other curve runs
 constexpr int kCrossingSteps = 100;
+/// Times the nearest distance: a normal that meets the other curve only farther away has passed it
+/// by (at a nose it runs into the inside).
+constexpr double kPassedBy = 3.0;
+/// Of the largest coordinate, what distances of curves that are one may be by rounding.
+constexpr double kRoundedAway = 1e-12;
 constexpr std::size_t kPlacesBetweenQuestions = 64;
 
 /// Where normals of one curve meet another one.
@@ -35,6 +40,7 @@ class OtherCurve {
         if (k > 0) apart = std::max(apart, norm(near.at[k] - near.at[k - 1]));
       }
       near.reach += apart;
+      size_ = std::max(size_, norm(near.middle) + near.reach);
       near_.push_back(near);
     }
   }
@@ -57,10 +63,12 @@ class OtherCurve {
     return votes < 0.0;
   }
 
-  /// To the left of the tangent, signed; of several crossings in this direction the nearest.
+  /// To the left of the tangent, signed; of several crossings in this direction the nearest, where
+  /// it is not much farther than the curve itself.
   [[nodiscard]] std::optional<double> across(const ContourPath::Place& from, bool against) const {
     const Vec2 along = against ? -from.tangent : from.tangent;
     const Vec2 left = left_normal(from.tangent);
+    double nearest = std::numeric_limits<double>::infinity();
     std::optional<double> best;
     const auto offer = [&](Vec2 p) {
       const double away = dot(p - from.point, left);
@@ -68,6 +76,9 @@ class OtherCurve {
     };
     for (std::size_t i = 0; i < near_.size(); ++i) {
       const Near& near = near_[i];
+      if (norm(near.middle - from.point) - near.reach < nearest) {
+        for (const Vec2 p : near.at) nearest = std::min(nearest, norm(p - from.point));
+      }
       if (std::abs(dot(near.middle - from.point, along)) > near.reach) continue;
       double before = dot(near.at[0] - from.point, along);
       for (std::size_t k = 1; k <= kStepsOfOther; ++k) {
@@ -76,6 +87,7 @@ class OtherCurve {
         before = now;
       }
     }
+    if (best && std::abs(*best) > kPassedBy * nearest + kRoundedAway * size_) return std::nullopt;
     return best;
   }
 
@@ -102,6 +114,7 @@ class OtherCurve {
 
   std::span<const Piece> pieces_;
   std::vector<Near> near_;
+  double size_ = 0.0;  // the largest coordinate, about
 };
 
 struct PlaceAlong {
