@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "node_ends.h"
@@ -223,10 +224,10 @@ class Finder {
     if (!fit) return std::nullopt;
     const double length = this->length(p);
     lay(*fit, p);
-    p.before = foot_on(p, s_.points[p.first]);
-    p.after = foot_on(p, s_.points[p.last]);
+    const double middle = s_.at[p.first + (p.last - p.first) / 2];
+    p.before = foot_near(p, p.first, s_.at[p.first] - middle);
+    p.after = foot_near(p, p.last, s_.at[p.last] - middle);
     if (!(p.before < 0.0 && p.after > 0.0)) return std::nullopt;
-    // feet beyond half a turn from the anchor look as if they lay on its other side
     if (!(std::abs(p.after - p.before - length) <= kSameLength * length)) return std::nullopt;
     p.before = -p.before;
     double reach = 0.0;
@@ -241,6 +242,15 @@ class Finder {
     const double least = kind == Kind::kLine ? kLeastQualityOfLines : kLeastQuality;
     if (!(p.quality >= least)) return std::nullopt;
     return p;
+  }
+
+  /// Of a point, from the anchor; feet beyond half a turn look as if they lay on its other side, and
+  /// of some turns that one counts which is nearest to the way along the points.
+  [[nodiscard]] double foot_near(const Primitive& p, std::size_t i, double along) const {
+    const double foot = foot_on(p, s_.points[i]);
+    if (p.kappa == 0.0) return foot;
+    const double turn = 2.0 * std::numbers::pi / std::abs(p.kappa);
+    return foot + turn * std::round((along - foot) / turn);
   }
 
   /// Whether an arc is as flat as the tolerance and a line would do: then it is that line's.

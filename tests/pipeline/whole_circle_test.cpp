@@ -38,7 +38,7 @@ TEST(WholeCircle, BeginsAtThePointThatItsFirstJointNames) {
       EXPECT_EQ(made->certificate.vertices, 0);
     }
   }
-  EXPECT_GE(circles, 5);
+  EXPECT_EQ(circles, 18);
 }
 
 /// Points of a circle of radius 7, or of the x-axis, ten units apart.
