@@ -244,8 +244,8 @@ class Finder {
     return p;
   }
 
-  /// Of a point, from the anchor; feet beyond half a turn look as if they lay on its other side, and
-  /// of some turns that one counts which is nearest to the way along the points.
+  /// Of a point, from the anchor; feet beyond half a turn look as if they lay on its other side,
+  /// and of some turns that one counts which is nearest to the way along the points.
   [[nodiscard]] double foot_near(const Primitive& p, std::size_t i, double along) const {
     const double foot = foot_on(p, s_.points[i]);
     if (p.kappa == 0.0) return foot;

@@ -26,8 +26,14 @@ bool keeps_promise(Carrier carrier, const Certificate& certificate) {
 
 std::optional<Error> broken_promise(const Fit& made) {
   if (!keeps_promise(made.contour.carrier, made.certificate)) {
-    return error(ErrorCode::kNotProved,
-                 "the contour was formed but not proved: " + made.certificate.reason);
+    Error out = error(ErrorCode::kNotProved,
+                      "the contour was formed but not proved: " + made.certificate.reason);
+    if (!made.contour.kept.empty()) {
+      out.hint =
+          "pieces of the drawing stay as they are drawn: --drawing points forms a contour through "
+          "points of them, and convert takes the curve with its gaps";
+    }
+    return out;
   }
   return too_wide(made.report);
 }
