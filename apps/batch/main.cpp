@@ -18,6 +18,7 @@
 #include "index.h"
 #include "job_options.h"
 #include "merge.h"
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/version.h"
 #include "progress_line.h"
 #include "share.h"
@@ -170,13 +171,6 @@ int run_batch(Asked& asked) {
     return 0;
   }
   return end_of(names, merge(names, *store), asked.quiet);
-}
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
 }
 
 void print_answer(const Answer& answer, bool csv) {

@@ -90,11 +90,12 @@ std::string alignment_page(const AlignmentReport& report, const std::vector<Vec2
   const Facts facts = alignment_facts(report);
   page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
   page.tables.push_back(
-      table_of_csv("elements", "Elements", elements_csv(report.alignment.elements, report.limit)));
+      table_of_page("elements", "Elements", element_rows(report.alignment.elements, report.limit)));
   if (report.profile) {
-    page.tables.push_back(table_of_csv("profile", "Profile", profile_csv(report.profile->profile)));
+    page.tables.push_back(
+        table_of_page("profile", "Profile", profile_rows(report.profile->profile)));
   }
-  page.tables.push_back(table_of_csv("deviations", "Points", deviations_csv(report, points)));
+  page.tables.push_back(table_of_page("deviations", "Points", deviation_rows(report, points)));
   return page_text(page);
 }
 
@@ -103,7 +104,7 @@ std::optional<std::string> own_text(const std::string& path, const AlignmentRepo
                                     const std::vector<Vec2>& points, const std::string& asked) {
   const auto format = format_of(path);
   if (format == FileFormat::kSamples) {
-    return elements_csv(report.alignment.elements, report.limit);
+    return csv_text(element_rows(report.alignment.elements, report.limit));
   }
   if (format == FileFormat::kPicture) {
     return alignment_picture(report);
@@ -160,12 +161,12 @@ int run(const AlignmentCommand& command) {
   if (!texts) return report(texts.error());
   for (Output& output : own) texts->push_back(std::move(output));
   if (!command.deviations.empty()) {
-    texts->push_back(
-        {command.deviations, FileFormat::kSamples, deviations_csv(*made, series->points)});
+    texts->push_back({command.deviations, FileFormat::kSamples,
+                      csv_text(deviation_rows(*made, series->points))});
   }
   if (!command.profile_table.empty()) {
-    texts->push_back(
-        {command.profile_table, FileFormat::kSamples, profile_csv(made->profile->profile)});
+    texts->push_back({command.profile_table, FileFormat::kSamples,
+                      csv_text(profile_rows(made->profile->profile))});
   }
   warn(notes.warnings);
   const auto written = write_files(*texts, command.input);

@@ -212,7 +212,7 @@ Result<std::string> audit_page(const AnalyseOptions& options, const AnalysedDraw
                              counted(drawing.series.size(), "series", "series"));
   page.figures = {{"asked for", options.asked}, {"lengths in", drawing.units.text()}};
   page.tables.push_back(
-      table_of_csv("curves", "Curves and series of points", drawing_csv(drawing, audits)));
+      table_of_page("curves", "Curves and series of points", drawing_rows(drawing, audits)));
   if (!audits.empty()) {
     auto picture = audit_picture(options, analysed);
     OBVID_TRY(picture);
@@ -221,15 +221,15 @@ Result<std::string> audit_page(const AnalyseOptions& options, const AnalysedDraw
     page.figures.emplace_back("picture", a.label);
     const auto elements = elements_of(a);
     if (elements) {
-      page.tables.push_back(table_of_csv("elements", "Elements", elements_csv(*elements, {})));
+      page.tables.push_back(table_of_page("elements", "Elements", element_rows(*elements, {})));
     }
     if (a.profile) {
-      page.tables.push_back(table_of_csv("profile", "Profile", profile_csv(*a.profile)));
+      page.tables.push_back(table_of_page("profile", "Profile", profile_rows(*a.profile)));
     }
   }
   if (points) {
     page.tables.push_back(
-        table_of_csv("points", "Points", series_report_csv(points->series, points->analysis)));
+        table_of_page("points", "Points", series_rows(points->series, points->analysis)));
   }
   return page_text(page);
 }
@@ -245,8 +245,9 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
   }
   for (Output& output : outputs) {
     if (output.format == FileFormat::kSamples || output.format == FileFormat::kContour) {
-      output.text = output.format == FileFormat::kSamples ? drawing_csv(analysed.drawing, audits)
-                                                          : audit_report_json(analysed);
+      output.text = output.format == FileFormat::kSamples
+                        ? csv_text(drawing_rows(analysed.drawing, audits))
+                        : audit_report_json(analysed);
       continue;
     }
     if (output.format == FileFormat::kPage) {
@@ -300,7 +301,7 @@ int audit_drawing(const AnalyseOptions& options) {
   if (options.json) {
     text = audit_report_json(*analysed);
   } else if (options.csv) {
-    text = drawing_csv(all, audits);
+    text = csv_text(drawing_rows(all, audits));
   } else if (!options.quiet) {
     text = audit_text(*analysed, options.import.curve.all);
     if (points) text += "\n" + series_report_text(points->series, points->analysis);

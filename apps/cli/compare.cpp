@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,10 +37,6 @@ std::string length_text(double value) { return significant(value, kComparedDigit
 
 std::string length_text(const std::optional<double>& value) {
   return value ? length_text(*value) : "-";
-}
-
-double or_unknown(const std::optional<double>& value) {
-  return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 Table carrier_table(const Comparison& compared) {
@@ -132,26 +127,35 @@ std::string comparison_text(const PointSeries& series, const Comparison& compare
   return out + (out.back() == '\n' ? "" : "\n");
 }
 
-std::string report_csv(const PointSeries&, const Comparison& compared) {
-  std::string out =
+DataTable carrier_rows(const Comparison& compared) {
+  DataTable out{heads_of(
       "carrier,pieces,control_points,continuity,vertices,inflections,error_bound,deviation,"
-      "outside,seconds,verdict\n";
+      "outside,seconds,verdict")};
   for (const ComparedCarrier& row : compared.carriers) {
+    DataRow& cells = out.rows.emplace_back(DataRow{to_string(row.carrier)});
     if (row.refusal) {
-      out += fmt::format("{},,,,,,,,,,E{}\n", to_string(row.carrier),
-                         static_cast<int>(row.refusal->code));
+      cells.resize(out.heads.size() - 1);
+      cells.emplace_back(code_text(*row.refusal));
       continue;
     }
     const Certificate& certificate = row.fit.certificate;
-    out += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{}\n", to_string(row.carrier), row.fit.contour.pieces.size(),
-        row.control_points == 0 ? "" : std::to_string(row.control_points), continuity_name(row),
-        certificate.vertices, certificate.inflections, csv_cell(row.fit.report.largest_deviation),
-        csv_cell(or_unknown(row.fit.report.carrier_deviation)),
-        csv_cell(or_unknown(row.fit.report.outside_spirals_region)), csv_cell(row.seconds),
-        verdict_text(row));
+    const DataRow figures = {row.fit.contour.pieces.size(),
+                             row.control_points == 0 ? DataCell() : DataCell(row.control_points),
+                             continuity_name(row),
+                             certificate.vertices,
+                             certificate.inflections,
+                             finite_cell(row.fit.report.largest_deviation),
+                             row.fit.report.carrier_deviation,
+                             row.fit.report.outside_spirals_region,
+                             row.seconds,
+                             verdict_text(row)};
+    cells.insert(cells.end(), figures.begin(), figures.end());
   }
   return out;
+}
+
+std::string carriers_csv(const PointSeries&, const Comparison& compared) {
+  return csv_text(carrier_rows(compared));
 }
 
 /// What to write under a name: .svg picture, .csv or .json table.
@@ -171,7 +175,7 @@ std::string comparison_page(const PointSeries& series, const Comparison& compare
                   {"lengths in", series.units.text()},
                   {"points", std::to_string(spirals.contour.points.size())},
                   {"tolerance", length_text(spirals.report.tolerance)}};
-  page.tables.push_back(table_of_csv("carriers", "Carriers", report_csv(series, compared)));
+  page.tables.push_back(table_of_page("carriers", "Carriers", carrier_rows(compared)));
   return page_text(page);
 }
 
@@ -188,7 +192,7 @@ Result<Maker> maker_of(const std::string& path, const ShownCurvatures& shown,
     });
   }
   if (path.ends_with(".json")) return Maker(&comparison_json);
-  if (path.ends_with(".csv")) return Maker(&report_csv);
+  if (path.ends_with(".csv")) return Maker(&carriers_csv);
   return error(ErrorCode::kUnknownFormat, "no such format of a comparison")
       .where(path)
       .hint("possible are .svg (picture), .html (page), .csv and .json (tables)");
@@ -237,7 +241,7 @@ int run(const CompareOptions& options) {
   const auto written = write_files(outputs, options.input);
   if (!written) return report(written.error());
   std::string shown = options.json  ? comparison_json(*series, *compared)
-                      : options.csv ? report_csv(*series, *compared)
+                      : options.csv ? carriers_csv(*series, *compared)
                                     : comparison_text(*series, *compared);
   if (options.quiet && !options.json && !options.csv) return 0;
   if (!written->empty() && !options.json && !options.csv) {

@@ -193,7 +193,7 @@ std::string curves_page(const CurveComparison& compared, const CompareOptions& o
     add_deviation_figures(compared, compared.on_one_chord, "on one chord, % of it",
                           100.0 / compared.curves.front().airfoil->chord, page);
   }
-  page.tables.push_back(table_of_csv("places", "Deviations at places", curves_csv(compared)));
+  page.tables.push_back(table_of_page("places", "Deviations at places", curves_rows(compared)));
   return page_text(page);
 }
 
@@ -206,7 +206,8 @@ Result<CurvesMaker> curves_maker(const std::string& path, const CompareOptions& 
     return CurvesMaker([enlarge](const CurveComparison& c) { return curves_svg(c, enlarge); });
   }
   if (path.ends_with(".json")) return CurvesMaker(&curves_json);
-  if (path.ends_with(".csv")) return CurvesMaker(&curves_csv);
+  if (path.ends_with(".csv"))
+    return CurvesMaker([](const CurveComparison& c) { return csv_text(curves_rows(c)); });
   return error(ErrorCode::kUnknownFormat, "no such format of a comparison")
       .where(path)
       .hint("possible are .svg (picture), .html (page), .csv (every place) and .json (table)");
@@ -263,7 +264,7 @@ int compare_several(const CompareOptions& options) {
   const bool for_programs = options.json || options.csv;
   if (options.quiet && !for_programs) return 0;
   std::string shown = options.json  ? curves_json(*compared)
-                      : options.csv ? curves_csv(*compared)
+                      : options.csv ? csv_text(curves_rows(*compared))
                                     : compared_text(*compared);
   if (!written->empty() && !for_programs) shown += "\nwritten  " + listed(*written) + "\n";
   if (auto done = put(shown); !done) return report(done.error());

@@ -7,10 +7,10 @@
 #include <limits>
 #include <optional>
 
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/units.h"
 #include "obvid/pipeline/internal/end_curvatures.h"
 #include "obvid/pipeline/internal/lines_and_arcs.h"
-#include "obvid/pipeline/internal/summary.h"
 #include "outputs.h"
 #include "table.h"
 #include "terminal.h"
@@ -311,21 +311,21 @@ std::string as_drawn_text(const Contour& contour) {
 }
 
 std::string fit_report_csv(const Fit& fit) {
-  std::string out =
-      "from,to,chord,points_only_error,width,deviation,inserted,pieces,kappa_start,kappa_end\n";
+  DataTable out{heads_of(
+      "from,to,chord,points_only_error,width,deviation,inserted,pieces,kappa_start,kappa_end")};
   const std::vector<std::size_t> joint = joints_of_points(fit.contour);
   const std::vector<EndCurvatures> curvatures = end_curvatures(fit.contour);
   for (std::size_t i = 0; i < fit.report.segments.size(); ++i) {
     const SegmentReport& s = fit.report.segments[i];
     const std::string pieces =
         pieces_text(fit.contour, joint[s.from.value_or(0)], joint[s.to.value_or(0)]);
-    out +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.from.value_or(0) + 1, s.to.value_or(0) + 1,
-                    csv_cell(s.chord), csv_cell(s.points_only_error), csv_cell(s.width),
-                    csv_cell(s.deviation), s.inserted, pieces == "-" ? "" : pieces,
-                    csv_cell(curvatures[i].start), csv_cell(curvatures[i].end));
+    out.rows.push_back({s.from.value_or(0) + 1, s.to.value_or(0) + 1, finite_cell(s.chord),
+                        finite_cell(s.points_only_error), finite_cell(s.width),
+                        finite_cell(s.deviation), s.inserted,
+                        pieces == "-" ? DataCell() : DataCell(pieces),
+                        finite_cell(curvatures[i].start), finite_cell(curvatures[i].end)});
   }
-  return out;
+  return csv_text(out);
 }
 
 std::string fit_report_text(const std::string& name, const Fit& fit, const Written& written) {

@@ -4,6 +4,7 @@
 
 usage: report_page_test.py PROGRAM EXAMPLES
 """
+import csv
 import html.parser
 import json
 import math
@@ -244,6 +245,23 @@ class PagesOfOtherCommands(PageCase):
         beyond, short = re.findall(NUMBER, figures["read back"])[:2]
         self.assertTrue(same(beyond, said["report"]["beyond"]) and same(short, said["report"]["short_of"]))
         self.assertEqual((self.root / "t.csv").read_text().splitlines()[0].split(","), list(rows))
+
+    def test_names_are_the_same_in_drawings_tables_and_pages(self):
+        name = '1/2" hole, "deep"; 1.23456789012'
+        text = (EXAMPLES / "plate.dxf").read_text().splitlines()
+        at = next(k for k, line in enumerate(text) if line == "CIRCLE")
+        layer = next(k for k in range(at + 1, len(text), 2) if text[k].strip() == "8")
+        text[layer + 1] = name
+        (self.root / "d.dxf").write_text("\n".join(text) + "\n")
+        for command, table, column in ((("cut", "--diameter", "1", "--depth", "1"), "outlines", "outline"),
+                                       (("analyse",), "curves", "layer")):
+            with self.subTest(command[0]):
+                self.run_program(*command, "d.dxf", "-o", "r.html", "-o", "t.csv", "-q")
+                with open(self.root / "t.csv", newline="") as file:
+                    head, *rows = csv.reader(file)
+                shown = self.columns(self.page(), table)[column]
+                self.assertEqual([row[head.index(column)] for row in rows], shown)
+                self.assertEqual(sum(name in cell for cell in shown), 1, shown)
 
     def test_points_that_are_analysed(self):
         # a circle of radius 5 at steps of 10 degrees

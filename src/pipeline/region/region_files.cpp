@@ -21,10 +21,6 @@
 namespace obvid {
 namespace {
 
-std::string csv_cell(std::optional<double> value) {
-  return value && !std::isnan(*value) ? fmt::format("{}", *value) : "";
-}
-
 /// Headings of a point by the turn in which its own lies between -180 and 180 degrees.
 struct Degrees {
   explicit Degrees(double heading) : shift(std::remainder(heading, kFullTurn) - heading) {}
@@ -47,30 +43,33 @@ std::pair<std::optional<double>, std::optional<double>> radii(
   return {least, greatest};
 }
 
-void add_csv(const RegionPart& part, const char* series, std::string& out) {
+void add_rows_of(const RegionPart& part, const char* series, DataTable& out) {
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const RegionPoint& p = part.points[i];
     const auto [least, greatest] = radii(p.curvatures);
     const Degrees degrees(p.theta);
-    out += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{}", series, p.inserted > 0 ? "inserted" : "point",
-        region_point_name(p), p.point.x, p.point.y, csv_cell(radius_of(p.adjacent_kappa)),
-        degrees(p.theta), p.theta_given ? "given" : "chosen",
-        csv_cell(p.headings ? std::optional(degrees(p.headings->low)) : std::nullopt),
-        csv_cell(p.headings ? std::optional(degrees(p.headings->high)) : std::nullopt),
-        csv_cell(least), csv_cell(greatest));
+    DataRow& cells = out.rows.emplace_back(DataRow{
+        series, p.inserted > 0 ? "inserted" : "point", region_point_name(p), p.point.x, p.point.y,
+        radius_of(p.adjacent_kappa), degrees(p.theta), p.theta_given ? "given" : "chosen",
+        p.headings ? DataCell(degrees(p.headings->low)) : DataCell(),
+        p.headings ? DataCell(degrees(p.headings->high)) : DataCell(), least, greatest});
     const auto row = std::find_if(part.rows.begin(), part.rows.end(),
                                   [i](const RegionRow& r) { return r.from == i; });
-    if (row == part.rows.end()) {
-      out += ",,,,,,,,,,,,,\n";
-      continue;
-    }
-    out += fmt::format(
-        ",{},{},{},{},{},{},{},{},{},{},{},{},{}\n", region_segment_name(part, *row),
-        csv_cell(row->chord), csv_cell(row->points_only_error), csv_cell(row->to_apex),
-        csv_cell(row->from_apex), csv_cell(row->lower_height), csv_cell(row->width),
-        csv_cell(row->apex_height), csv_cell(row->tangent_height), csv_cell(row->apex_gap),
-        csv_cell(row->tangent_gap), csv_cell(row->tangent_bound), csv_cell(row->spline_distance));
+    if (row == part.rows.end()) continue;
+    const DataRow segment = {region_segment_name(part, *row),
+                             row->chord,
+                             row->points_only_error,
+                             row->to_apex,
+                             row->from_apex,
+                             row->lower_height,
+                             row->width,
+                             row->apex_height,
+                             row->tangent_height,
+                             row->apex_gap,
+                             row->tangent_gap,
+                             row->tangent_bound,
+                             row->spline_distance};
+    cells.insert(cells.end(), segment.begin(), segment.end());
   }
 }
 
@@ -334,25 +333,28 @@ std::string region_segment_name(const RegionPart& part, const RegionRow& row) {
   return region_point_name(part.points[row.from]) + "-" + region_point_name(part.points[row.to]);
 }
 
-std::string region_csv(const RegionTable& table) {
-  std::string out =
+DataTable region_rows(const RegionTable& table) {
+  DataTable out{heads_of(
       "series,row,point,x,y,adjacent_radius,heading_deg,heading,heading_min_deg,heading_max_deg,"
       "least_radius,greatest_radius,segment,chord,points_only_error,to_apex,from_apex,h,delta,H,Ht,"
-      "Delta,Delta_t,Delta_t_bound,f\n";
-  add_csv(table.user, "points", out);
-  if (table.refined) add_csv(*table.refined, "refined", out);
+      "Delta,Delta_t,Delta_t_bound,f")};
+  add_rows_of(table.user, "points", out);
+  if (table.refined) add_rows_of(*table.refined, "refined", out);
   return out;
 }
 
-std::string construction_csv(const RegionTable& table) {
-  if (!table.construction) return "";
-  std::string out = "segment";
-  for (const std::string& column : table.construction->columns) out += "," + column;
-  out += ",remark\n";
+DataTable construction_rows(const RegionTable& table) {
+  DataTable out;
+  if (!table.construction) return out;
+  out.heads = {"segment"};
+  const auto& columns = table.construction->columns;
+  out.heads.insert(out.heads.end(), columns.begin(), columns.end());
+  out.heads.emplace_back("remark");
   for (const ConstructionRow& row : table.construction->rows) {
-    out += region_segment_name(table.last(), table.last().rows[row.segment]);
-    for (const double value : row.values) out += "," + csv_cell(value);
-    out += ",\"" + row.remark + "\"\n";
+    DataRow& cells = out.rows.emplace_back(
+        DataRow{region_segment_name(table.last(), table.last().rows[row.segment])});
+    cells.insert(cells.end(), row.values.begin(), row.values.end());
+    cells.emplace_back(row.remark);
   }
   return out;
 }
@@ -390,8 +392,8 @@ RegionFile region_page(const PointSeries& series, const RegionTable& table,
   page.figures.emplace_back("points", std::to_string(series.points.size()));
   page.figures.emplace_back("picture", drawn_wider(drawing));
   page.tables.push_back(
-      table_of_csv("region", "Points and the segments that begin there", region_csv(table)));
-  page.tables.push_back(table_of_csv("construction", "Construction", construction_csv(table)));
+      table_of_page("region", "Points and the segments that begin there", region_rows(table)));
+  page.tables.push_back(table_of_page("construction", "Construction", construction_rows(table)));
   return {page_text(page), ""};
 }
 
@@ -408,7 +410,8 @@ Result<RegionFile> region_file(const std::string& ending, const PointSeries& ser
   std::transform(kind.begin(), kind.end(), kind.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (kind == "csv") {
-    return RegionFile{table.construction ? construction_csv(table) : region_csv(table), ""};
+    return RegionFile{csv_text(table.construction ? construction_rows(table) : region_rows(table)),
+                      ""};
   }
   if (kind == "tex") return RegionFile{region_latex(series, table), ""};
   if (kind == "json") {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/exchange/internal/sketch.h"
@@ -19,10 +20,10 @@ namespace obvid {
 /// One row per point with the segment that begins there, lengths in units, angles in degrees, all
 /// digits; an empty cell where nothing is known. Inserted points follow in a second series, whose
 /// rows say `inserted`.
-[[nodiscard]] std::string region_csv(const RegionTable& table);
+[[nodiscard]] DataTable region_rows(const RegionTable& table);
 
 /// The construction's own table, one row per segment; empty without one.
-[[nodiscard]] std::string construction_csv(const RegionTable& table);
+[[nodiscard]] DataTable construction_rows(const RegionTable& table);
 
 /// The same as LaTeX tables (points, segments, the construction) for each series: plain `tabular`,
 /// four decimals of a length of millimetre size, as the papers print them.
