@@ -19,6 +19,7 @@
 #include "job_options.h"
 #include "merge.h"
 #include "obvid/core/internal/data_table.h"
+#include "obvid/core/internal/file_ending.h"
 #include "obvid/core/version.h"
 #include "progress_line.h"
 #include "share.h"
@@ -195,7 +196,7 @@ void print_answer(const Answer& answer, bool csv) {
 
 int run_query(const AskedQuery& asked) {
   const std::string index =
-      asked.table.ends_with(".sqlite") ? asked.table : names_of(asked.table).index;
+      has_ending(asked.table, ".sqlite") ? asked.table : names_of(asked.table).index;
   const auto answer = ask_index(index, {asked.where, asked.columns, asked.order, asked.most});
   if (!answer) return report(answer.error());
   print_answer(*answer, asked.csv);

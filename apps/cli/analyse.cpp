@@ -39,6 +39,9 @@ std::string points_page(const AnalyseOptions& options, const AnalysedSeries& poi
   page.figures = {{"asked for", options.asked},
                   {"lengths in", points.series.units.text()},
                   {"points", std::to_string(points.series.points.size())}};
+  const Facts facts = series_facts(points.series, points.analysis);
+  page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
+  page.warnings = points.series.warnings;
   page.tables.push_back(
       table_of_page("points", "Points", series_rows(points.series, points.analysis)));
   return page_text(page);

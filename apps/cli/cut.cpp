@@ -118,6 +118,7 @@ std::string cut_page(const MadeCut& made, const CutCommand& command) {
   page.figures = {{"asked for", command.asked}, {"lengths in", made.units.text()}};
   const Facts facts = cut_facts(made);
   page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
+  page.warnings = made.warnings;
   page.tables.push_back(table_of_page("outlines", "Outlines", cut_rows(made)));
   return page_text(page);
 }

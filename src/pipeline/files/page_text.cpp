@@ -26,6 +26,7 @@ caption { text-align: left; font-weight: 600; font-size: 1.15em; padding: 1em 0 
 th, td { text-align: left; padding: .2em 1.5em .2em 0; border-bottom: 1px solid var(--line); vertical-align: top; font-weight: normal; }
 th { color: var(--faint); }
 .numbers th, .numbers td { text-align: right; }
+#warnings { color: var(--bad); }
 #verdict { font-weight: 600; }
 #verdict.kept { color: var(--good); }
 #verdict.broken { color: var(--bad); }
@@ -36,6 +37,13 @@ footer { color: var(--faint); margin-top: 2em; }
 std::string figure_row(const std::string& label, const std::string& value) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped_xml(label),
                      escaped_xml(value));
+}
+
+std::string list_of(const char* id, const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return {};
+  std::string out = fmt::format("<ul id=\"{}\">\n", id);
+  for (const std::string& one : sentences) out += "<li>" + escaped_xml(one) + "</li>\n";
+  return out + "</ul>\n";
 }
 
 std::string cell_text(const DataCell& cell) {
@@ -85,9 +93,11 @@ std::string page_text(const ReportPage& page) {
   constexpr std::array kClasses = {"", " class=\"kept\"", " class=\"broken\""};
   out += fmt::format("<p id=\"verdict\"{}>{}</p>\n", kClasses[static_cast<std::size_t>(page.kind)],
                      escaped_xml(page.verdict));
+  out += list_of("warnings", page.warnings);
   for (const std::string& picture : page.pictures) out += picture;
   out += figures_of_page(page.figures);
   for (const std::string& table : page.tables) out += table;
+  out += list_of("notes", page.notes);
   return out + fmt::format("<footer>Obvid {}</footer>\n</body>\n</html>\n", kVersion);
 }
 

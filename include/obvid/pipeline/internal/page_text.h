@@ -20,7 +20,9 @@ struct ReportPage {
   Verdict kind = Verdict::kNeutral;
   std::vector<std::string> pictures{};  ///< SVG files
   Figures figures{};
-  std::vector<std::string> tables{};  ///< HTML, as the functions below make them
+  std::vector<std::string> warnings{};  ///< below the verdict
+  std::vector<std::string> notes{};     ///< below the tables: what they mean, what else is known
+  std::vector<std::string> tables{};    ///< HTML, as the functions below make them
 };
 
 /// The page. Names and values may hold any characters; pictures and tables are taken as they are.
