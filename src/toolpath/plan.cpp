@@ -10,6 +10,7 @@
 #include "leftover.h"
 #include "machine_units.h"
 #include "moves.h"
+#include "obvid/exchange/internal/gcode/motion_time.h"
 #include "obvid/toolpath/toolpath.h"
 #include "pass_families.h"
 #include "program_check.h"
@@ -25,10 +26,8 @@ using namespace toolpath;
 constexpr int kMostAttempts = 3;
 constexpr double kLowerShare = 0.96;
 constexpr double kCellOfRadius = 1.0 / 8.0, kCellOfStep = 0.25;
-constexpr double kDefaultSafe = 0.5;   // diameters above the highest point
-constexpr double kLeastSpindle = 0.5;  // revolutions a minute: printed as a whole number
-constexpr double kLeastAcceleration =
-    1e-3;  // mm/s^2: less is a typing error, and no time comes of it
+constexpr double kDefaultSafe = 0.5;       // diameters above the highest point
+constexpr double kLeastSpindle = 0.5;      // revolutions a minute: printed as a whole number
 constexpr double kLargestEarlier = 100.0;  // sizes of the part: all that is seen is flat to it
 constexpr double kSteepestRamp = 90.0;     // degrees
 constexpr double kMostSteep = 90.0;        // degrees
@@ -117,7 +116,8 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
     if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
   }
-  if (o.acceleration && !(positive(*o.acceleration) && *o.acceleration >= kLeastAcceleration)) {
+  if (o.acceleration &&
+      !(positive(*o.acceleration) && *o.acceleration >= exchange::kLeastAcceleration)) {
     return refuse("the acceleration must be at least 0.001 mm/s^2", *o.acceleration);
   }
   if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {

@@ -121,7 +121,7 @@ std::string kept_text(const Contour& contour, const Certificate& certificate) {
 }
 
 /// Where joints of a G3 contour are G2 only: the points at or before them.
-std::string slope_steps_text(const Contour& contour) {
+std::string stepping_points_text(const Contour& contour) {
   constexpr std::size_t kMostNamed = 8;
   std::vector<std::size_t> beside;
   std::optional<std::size_t> last = contour.joints.front().source;
@@ -216,7 +216,7 @@ FigureRows fit_figures(const Contour& contour, const FitReport& report,
     facts.emplace_back("as G2 contour", text);
   }
   if (!report.chain.g2_because.empty()) facts.emplace_back("G2 because", report.chain.g2_because);
-  if (const std::string steps = slope_steps_text(contour); !steps.empty()) {
+  if (const std::string steps = stepping_points_text(contour); !steps.empty()) {
     facts.emplace_back("slope steps", steps);
   }
   facts.emplace_back("time", time_text(report.seconds));
