@@ -34,7 +34,6 @@ struct Defaults {
   double plunge, rapid, safe_z, clear_z;
 };
 constexpr Defaults kMillimetres{300.0, 3000.0, 5.0, 1.0}, kInches{12.0, 120.0, 0.2, 0.04};
-constexpr double kLeastFeed = 1e-3;  // a minute: what is printed is not 0
 constexpr double kMostBlocks = 3e5;
 constexpr double kTooLittleToTell = 1e-9;            // of the tolerance: rounding
 constexpr double kOrderAt = 0.4, kReadBackAt = 0.7;  // of the work
@@ -76,7 +75,7 @@ class Cutting {
     CutText text(options_, rules_, inches_, decimals_);
     for (const CutBlock& block : blocks.blocks) {
       const bool cuts = block.kind == CutBlock::Kind::kCut;
-      if ((cuts || block.kind == CutBlock::Kind::kDown) && block.feed < kLeastFeed) {
+      if ((cuts || block.kind == CutBlock::Kind::kDown) && block.feed < exchange::kLeastFeed) {
         return fail(no_feed(!cuts                  ? "--plunge-feed"
                             : options_.centripetal ? "--centripetal"
                                                    : "--feed"));
