@@ -18,6 +18,8 @@
 #include "index.h"
 #include "job_options.h"
 #include "merge.h"
+#include "obvid/core/internal/data_table.h"
+#include "obvid/core/internal/file_ending.h"
 #include "obvid/core/version.h"
 #include "progress_line.h"
 #include "share.h"
@@ -172,13 +174,6 @@ int run_batch(Asked& asked) {
   return end_of(names, merge(names, *store), asked.quiet);
 }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 void print_answer(const Answer& answer, bool csv) {
   std::vector<std::size_t> widths;
   for (const std::string& name : answer.names) widths.push_back(name.size());
@@ -201,7 +196,7 @@ void print_answer(const Answer& answer, bool csv) {
 
 int run_query(const AskedQuery& asked) {
   const std::string index =
-      asked.table.ends_with(".sqlite") ? asked.table : names_of(asked.table).index;
+      has_ending(asked.table, ".sqlite") ? asked.table : names_of(asked.table).index;
   const auto answer = ask_index(index, {asked.where, asked.columns, asked.order, asked.most});
   if (!answer) return report(answer.error());
   print_answer(*answer, asked.csv);

@@ -12,6 +12,7 @@
 #include "obvid/core/files.h"
 #include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "outputs.h"
 #include "table.h"
@@ -80,35 +81,43 @@ std::string alignment_text(const AlignmentReport& report, const std::vector<std:
          facts.text();
 }
 
+/// What a page says besides: what was asked for, and what reading warned of.
+struct AlignmentTold {
+  std::string asked;
+  std::vector<std::string> warnings;
+};
+
 std::string alignment_page(const AlignmentReport& report, const std::vector<Vec2>& points,
-                           const std::string& asked) {
+                           const AlignmentTold& told) {
   ReportPage page;
   page.title = report.name;
   page.verdict = alignment_verdict(report);
   page.pictures.push_back(alignment_picture(report));
-  page.figures = {{"asked for", asked}, {"lengths in", report.units.text()}};
+  page.figures = {{"asked for", told.asked}, {"lengths in", report.units.text()}};
   const Facts facts = alignment_facts(report);
   page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
+  page.warnings = told.warnings;
   page.tables.push_back(
-      table_of_csv("elements", "Elements", elements_csv(report.alignment.elements, report.limit)));
+      table_of_page("elements", "Elements", element_rows(report.alignment.elements, report.limit)));
   if (report.profile) {
-    page.tables.push_back(table_of_csv("profile", "Profile", profile_csv(report.profile->profile)));
+    page.tables.push_back(
+        table_of_page("profile", "Profile", profile_rows(report.profile->profile)));
   }
-  page.tables.push_back(table_of_csv("deviations", "Points", deviations_csv(report, points)));
+  page.tables.push_back(table_of_page("deviations", "Points", deviation_rows(report, points)));
   return page_text(page);
 }
 
 /// What the formats of contours do not write for it.
 std::optional<std::string> own_text(const std::string& path, const AlignmentReport& report,
-                                    const std::vector<Vec2>& points, const std::string& asked) {
+                                    const std::vector<Vec2>& points, const AlignmentTold& told) {
   const auto format = format_of(path);
   if (format == FileFormat::kSamples) {
-    return elements_csv(report.alignment.elements, report.limit);
+    return csv_text(element_rows(report.alignment.elements, report.limit));
   }
   if (format == FileFormat::kPicture) {
     return alignment_picture(report);
   }
-  if (format == FileFormat::kPage) return alignment_page(report, points, asked);
+  if (format == FileFormat::kPage) return alignment_page(report, points, told);
   return std::nullopt;
 }
 
@@ -128,16 +137,18 @@ int run(const AlignmentCommand& command) {
   if (!series) return report(series.error());
   if (command.units) take_units(*series, *command.units);
   AlignmentJob job = command.job;
+  AlignmentTold told{command.asked, {}};
   if (!command.heights.empty()) {
     auto heights = read_heights(command.heights);
     if (!heights) return report(heights.error());
-    warn(heights->warnings);
+    told.warnings = heights->warnings;
     job.heights = std::move(*heights);
   }
   ProgressBar bar(command.progress);
   const auto made = alignment_report(*series, job, bar.progress());
   bar.clear();
-  warn(series->warnings);
+  told.warnings.insert(told.warnings.end(), series->warnings.begin(), series->warnings.end());
+  warn(told.warnings);
   if (!made) return report(made.error());
   if (!command.profile_table.empty() && !made->profile) {
     return report({ErrorCode::kBadOption, "there is no profile to be written", "--profile-table",
@@ -151,7 +162,7 @@ int run(const AlignmentCommand& command) {
   if (made->profile) formats.profile = made->profile->profile;
   std::vector<Output> drawn, own;
   for (Output& output : *outputs) {
-    auto text = own_text(output.path, *made, series->points, command.asked);
+    auto text = own_text(output.path, *made, series->points, told);
     if (text) output.text = std::move(*text);
     (text ? own : drawn).push_back(std::move(output));
   }
@@ -160,12 +171,12 @@ int run(const AlignmentCommand& command) {
   if (!texts) return report(texts.error());
   for (Output& output : own) texts->push_back(std::move(output));
   if (!command.deviations.empty()) {
-    texts->push_back(
-        {command.deviations, FileFormat::kSamples, deviations_csv(*made, series->points)});
+    texts->push_back({command.deviations, FileFormat::kSamples,
+                      csv_text(deviation_rows(*made, series->points))});
   }
   if (!command.profile_table.empty()) {
-    texts->push_back(
-        {command.profile_table, FileFormat::kSamples, profile_csv(made->profile->profile)});
+    texts->push_back({command.profile_table, FileFormat::kSamples,
+                      csv_text(profile_rows(made->profile->profile))});
   }
   warn(notes.warnings);
   const auto written = write_files(*texts, command.input);

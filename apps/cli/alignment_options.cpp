@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli_app.h"
+#include "obvid/core/internal/file_ending.h"
 #include "obvid/pipeline/internal/alignment_values.h"
 #include "obvid/pipeline/internal/format_values.h"
 #include "obvid/pipeline/internal/job_values.h"
@@ -162,10 +163,10 @@ Result<void> check_alignment(RawAlignment& raw) {
   command.job.first_station = numbers[2].value_or(0.0);
   command.job.acceleration = numbers[3];
   command.job.profile.least_length = numbers[4].value_or(0.0);
-  if (!command.deviations.empty() && !command.deviations.ends_with(".csv")) {
+  if (!command.deviations.empty() && !has_ending(command.deviations, ".csv")) {
     return fail(bad_option("deviations are a table", "--deviations", "name a .csv"));
   }
-  if (!command.profile_table.empty() && !command.profile_table.ends_with(".csv")) {
+  if (!command.profile_table.empty() && !has_ending(command.profile_table, ".csv")) {
     return fail(bad_option("a profile is written as a table", "--profile-table", "name a .csv"));
   }
   return set_alignment(raw.typed, command.job);

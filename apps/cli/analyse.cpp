@@ -39,8 +39,11 @@ std::string points_page(const AnalyseOptions& options, const AnalysedSeries& poi
   page.figures = {{"asked for", options.asked},
                   {"lengths in", points.series.units.text()},
                   {"points", std::to_string(points.series.points.size())}};
+  const Facts facts = series_facts(points.series, points.analysis);
+  page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
+  page.warnings = points.series.warnings;
   page.tables.push_back(
-      table_of_csv("points", "Points", series_report_csv(points.series, points.analysis)));
+      table_of_page("points", "Points", series_rows(points.series, points.analysis)));
   return page_text(page);
 }
 
@@ -52,7 +55,7 @@ Result<std::vector<std::string>> write_tables(const AnalyseOptions& options,
     const auto format = analysis_format_of(path);
     OBVID_TRY(format);
     if (*format == FileFormat::kSamples) {
-      files.push_back({path, {}, series_report_csv(points.series, points.analysis)});
+      files.push_back({path, {}, csv_text(series_rows(points.series, points.analysis))});
     } else if (*format == FileFormat::kContour) {
       files.push_back({path, {}, series_report_json(points.series, points.analysis)});
     } else if (*format == FileFormat::kPage) {
@@ -121,7 +124,7 @@ int run(const AnalyseOptions& options) {
   if (options.json) {
     text = series_report_json(points->series, points->analysis);
   } else if (options.csv) {
-    text = series_report_csv(points->series, points->analysis);
+    text = csv_text(series_rows(points->series, points->analysis));
   } else if (!options.quiet) {
     text = series_report_text(points->series, points->analysis);
     if (!written->empty()) text += "\nwritten  " + listed(*written) + "\n";

@@ -131,9 +131,9 @@ std::vector<std::size_t> detailed(const std::vector<CurveAudit>& audits,
   return out;
 }
 
-void add_straightened(const CurveAudit& a, std::string& out) {
-  if (a.straightened == 0) return;
-  out += fmt::format("straight but for rounding: {} below a curvature of {} 1/{}\n",
+std::string straightened_text(const CurveAudit& a) {
+  if (a.straightened == 0) return {};
+  return fmt::format("straight but for rounding: {} below a curvature of {} 1/{}",
                      counted(a.straightened, "piece", "pieces"), significant(a.flat_curvature, 3),
                      a.contour.units.text());
 }
@@ -149,10 +149,14 @@ std::string unplaced_text(const CurveAudit& a) {
   if (!a.counted || (vertices >= a.vertices && inflections >= a.inflections)) return {};
   return fmt::format(
       "{} of {} and {} of {} have a place; at the others the curvature does not stand out of the "
-      "rounding\n",
+      "rounding",
       vertices, counted(static_cast<std::size_t>(a.vertices), "vertex", "vertices"), inflections,
       counted(static_cast<std::size_t>(a.inflections), "inflection", "inflections"));
 }
+
+constexpr const char* kJointsLegend =
+    "joints: G3 continuous slope of curvature, G2 curvature, G1 tangent, G0 corners";
+constexpr const char* kSeriesNote = "points are for `obvid fit FILE --curve N`";
 
 std::string audit_text(const AnalysedDrawing& analysed, bool all) {
   const auto& [drawing, audits, points, asked] = analysed;
@@ -160,19 +164,20 @@ std::string audit_text(const AnalysedDrawing& analysed, bool all) {
   out += fmt::format("lengths in {}\n\n", drawing.units.text());
   out += list_table(drawing, audits);
   if (!audits.empty()) {
-    out += "\njoints: G3 continuous slope of curvature, G2 curvature, G1 tangent, G0 corners\n\n";
+    out += fmt::format("\n{}\n\n", kJointsLegend);
     out += joints_table(audits);
   }
-  if (!drawing.series.empty()) out += "\npoints are for `obvid fit FILE --curve N`\n";
+  if (!drawing.series.empty()) out += fmt::format("\n{}\n", kSeriesNote);
   for (const std::size_t i : detailed(audits, asked, all)) {
     const auto elements = elements_of(audits[i]);
     if (!elements && audits[i].places.empty() && audits[i].straightened == 0) continue;
     out += fmt::format("\ncurve {}, {}\n", i + 1, audits[i].label);
     if (elements) out += elements_text(*elements, audits[i].length) + "\n";
     if (audits[i].profile) out += profile_text(*audits[i].profile, audits[i].length) + "\n";
-    add_straightened(audits[i], out);
+    if (const auto told = straightened_text(audits[i]); !told.empty()) out += told + "\n";
     if (audits[i].places.empty()) continue;
-    out += place_table(audits[i]) + unplaced_text(audits[i]);
+    out += place_table(audits[i]);
+    if (const auto told = unplaced_text(audits[i]); !told.empty()) out += told + "\n";
   }
   return out;
 }
@@ -204,6 +209,41 @@ Result<std::string> audit_picture(const AnalyseOptions& options, const AnalysedD
   return drawn->files.front().text;
 }
 
+DataTable place_rows(const CurveAudit& a) {
+  DataTable out{heads_of(a.station ? "station,what,x,y,radius_before,radius_after,size"
+                                   : "s,what,x,y,radius_before,radius_after,size")};
+  for (const AuditPlace& place : a.places) {
+    out.rows.push_back({a.station.value_or(0.0) + place.s, to_string(place.kind), place.point.x,
+                        place.point.y, radius_text(place.kappa_before),
+                        radius_text(place.kappa_after), size_text(place, a.contour.units.text())});
+  }
+  return out;
+}
+
+/// What `audit_text` says of curves one by one.
+void add_details(const AnalyseOptions& options, const AnalysedDrawing& analysed, ReportPage& page) {
+  const std::vector<CurveAudit>& audits = analysed.audits;
+  for (const std::size_t i : detailed(audits, analysed.asked, options.import.curve.all)) {
+    const CurveAudit& a = audits[i];
+    const std::string curve = fmt::format("curve {}, {}", i + 1, a.label);
+    const std::string number = std::to_string(i + 1);
+    if (const auto elements = elements_of(a)) {
+      page.tables.push_back(
+          table_of_page("elements-" + number, "Elements of " + curve, element_rows(*elements, {})));
+    }
+    if (a.profile) {
+      page.tables.push_back(
+          table_of_page("profile-" + number, "Profile of " + curve, profile_rows(*a.profile)));
+    }
+    page.tables.push_back(table_of_page("places-" + number, "Places of " + curve, place_rows(a)));
+    std::vector<std::string> told = {straightened_text(a)};
+    if (!a.places.empty()) told.push_back(unplaced_text(a));
+    for (const std::string& one : told) {
+      if (!one.empty()) page.notes.push_back(curve + ": " + one);
+    }
+  }
+}
+
 Result<std::string> audit_page(const AnalyseOptions& options, const AnalysedDrawing& analysed) {
   const auto& [drawing, audits, points, asked] = analysed;
   ReportPage page;
@@ -212,24 +252,24 @@ Result<std::string> audit_page(const AnalyseOptions& options, const AnalysedDraw
                              counted(drawing.series.size(), "series", "series"));
   page.figures = {{"asked for", options.asked}, {"lengths in", drawing.units.text()}};
   page.tables.push_back(
-      table_of_csv("curves", "Curves and series of points", drawing_csv(drawing, audits)));
+      table_of_page("curves", "Curves and series of points", drawing_rows(drawing, audits)));
   if (!audits.empty()) {
     auto picture = audit_picture(options, analysed);
     OBVID_TRY(picture);
     page.pictures.push_back(std::move(*picture));
-    const CurveAudit& a = pictured(audits, asked);
-    page.figures.emplace_back("picture", a.label);
-    const auto elements = elements_of(a);
-    if (elements) {
-      page.tables.push_back(table_of_csv("elements", "Elements", elements_csv(*elements, {})));
-    }
-    if (a.profile) {
-      page.tables.push_back(table_of_csv("profile", "Profile", profile_csv(*a.profile)));
-    }
+    page.figures.emplace_back("picture", pictured(audits, asked).label);
+    page.notes.emplace_back(kJointsLegend);
+    add_details(options, analysed, page);
   }
+  page.warnings = drawing.warnings;
+  if (!drawing.series.empty()) page.notes.emplace_back(kSeriesNote);
   if (points) {
+    const Facts facts = series_facts(points->series, points->analysis);
+    page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
+    page.warnings.insert(page.warnings.end(), points->series.warnings.begin(),
+                         points->series.warnings.end());
     page.tables.push_back(
-        table_of_csv("points", "Points", series_report_csv(points->series, points->analysis)));
+        table_of_page("points", "Points", series_rows(points->series, points->analysis)));
   }
   return page_text(page);
 }
@@ -245,8 +285,9 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
   }
   for (Output& output : outputs) {
     if (output.format == FileFormat::kSamples || output.format == FileFormat::kContour) {
-      output.text = output.format == FileFormat::kSamples ? drawing_csv(analysed.drawing, audits)
-                                                          : audit_report_json(analysed);
+      output.text = output.format == FileFormat::kSamples
+                        ? csv_text(drawing_rows(analysed.drawing, audits))
+                        : audit_report_json(analysed);
       continue;
     }
     if (output.format == FileFormat::kPage) {
@@ -270,14 +311,7 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
 }  // namespace
 
 Result<FileFormat> analysis_format_of(const std::string& path) {
-  const auto format = format_of(path);
-  for (const FileFormat one :
-       {FileFormat::kPicture, FileFormat::kPage, FileFormat::kSamples, FileFormat::kContour}) {
-    if (format == one) return one;
-  }
-  return error(ErrorCode::kUnknownFormat, "analyse writes no such file")
-      .where(path)
-      .hint("possible are .svg (picture of a curve), .html (page), .csv and .json (tables)");
+  return table_format_of(path, "an analysis", ".csv and .json (tables)");
 }
 
 Result<AnalysedDrawing> analysed_drawing(const AnalyseOptions& options) {
@@ -300,7 +334,7 @@ int audit_drawing(const AnalyseOptions& options) {
   if (options.json) {
     text = audit_report_json(*analysed);
   } else if (options.csv) {
-    text = drawing_csv(all, audits);
+    text = csv_text(drawing_rows(all, audits));
   } else if (!options.quiet) {
     text = audit_text(*analysed, options.import.curve.all);
     if (points) text += "\n" + series_report_text(points->series, points->analysis);

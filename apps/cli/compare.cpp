@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "fit_report.h"
 #include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/internal/summary.h"
@@ -40,10 +40,6 @@ std::string length_text(const std::optional<double>& value) {
   return value ? length_text(*value) : "-";
 }
 
-double or_unknown(const std::optional<double>& value) {
-  return value.value_or(std::numeric_limits<double>::quiet_NaN());
-}
-
 Table carrier_table(const Comparison& compared) {
   Table table;
   table.column("carrier", Table::Align::kLeft);
@@ -60,7 +56,7 @@ Table carrier_table(const Comparison& compared) {
   for (const ComparedCarrier& row : compared.carriers) {
     if (row.refusal) {
       table.row({to_string(row.carrier), "-", "-", "-", "-", "-", "-", "-", "-", "-",
-                 fmt::format("E{}, see below", static_cast<int>(row.refusal->code))});
+                 code_text(*row.refusal) + ", see below"});
       continue;
     }
     const Certificate& certificate = row.fit.certificate;
@@ -77,81 +73,107 @@ Table carrier_table(const Comparison& compared) {
 }
 
 /// Carriers that promise monotone runs, with more vertices than the spirals.
-std::string more_vertices_text(const Comparison& compared) {
+void add_more_vertices(const Comparison& compared, std::vector<std::string>& out) {
   const int least = compared.carriers.front().fit.certificate.vertices;
-  std::string out;
   for (const ComparedCarrier& row : compared.carriers) {
     const int more = row.refusal ? 0 : row.fit.certificate.vertices - least;
     if (more <= 0 || !promises_monotone(row.carrier)) continue;
-    out += fmt::format("\n{} has {} more than the spirals", to_string(row.carrier),
-                       counted(static_cast<std::size_t>(more), "vertex", "vertices"));
+    out.push_back(fmt::format("{} has {} more than the spirals", to_string(row.carrier),
+                              counted(static_cast<std::size_t>(more), "vertex", "vertices")));
   }
-  return out;
 }
 
 /// Carriers that follow other spirals than those of the first row.
-std::string other_spirals_text(const Comparison& compared) {
+void add_other_spirals(const Comparison& compared, std::vector<std::string>& out) {
   const Continuity shown = compared.carriers.front().followed;
-  std::string out, last;
-  std::size_t others = 0, followers = 0;
+  std::vector<std::string> each;
+  std::string last;
+  std::size_t followers = 0;
   for (const ComparedCarrier& row : compared.carriers) {
     if (row.refusal || !follows_spirals(row.carrier)) continue;
     ++followers;
     if (row.followed == shown) continue;
-    ++others;
     last = to_string(row.followed);
-    out += fmt::format("\n{} follows the {} spirals, and is measured against them",
-                       to_string(row.carrier), last);
+    each.push_back(fmt::format("{} follows the {} spirals, and is measured against them",
+                               to_string(row.carrier), last));
   }
-  if (others < 2 || others < followers) return out;
-  return fmt::format("\nthe other carriers follow the {} spirals, and are measured against them",
-                     last);
+  if (each.size() >= 2 && each.size() == followers) {
+    each = {fmt::format("the other carriers follow the {} spirals, and are measured against them",
+                        last)};
+  }
+  out.insert(out.end(), each.begin(), each.end());
+}
+
+/// What the table means.
+std::vector<std::string> comparison_legend(const Comparison& compared) {
+  const bool slopes = compared.carriers.front().fit.contour.continuity == Continuity::kG3;
+  return {
+      "error bound: no monotone curve with this one's own tangents and curvatures at the "
+      "points is farther from it",
+      fmt::format("joints: G1 common tangent, G2 continuous curvature{}",
+                  slopes ? ", G3 its slope too" : "")};
+}
+
+/// What is known besides: why a carrier has no figures, what follows what.
+std::vector<std::string> comparison_notes(const Comparison& compared) {
+  std::vector<std::string> out;
+  for (const ComparedCarrier& row : compared.carriers) {
+    if (!row.refusal) continue;
+    const Error& e = *row.refusal;
+    out.push_back(fmt::format("{}: {}: {}{}", to_string(row.carrier), code_text(e), e.what,
+                              e.where.empty() ? "" : " (" + e.where + ")"));
+  }
+  const Contour& spirals = compared.carriers.front().fit.contour;
+  if (const std::string drawn = as_drawn_text(spirals); !drawn.empty()) {
+    out.push_back("every carrier keeps " + drawn);
+  }
+  add_more_vertices(compared, out);
+  add_other_spirals(compared, out);
+  return out;
 }
 
 std::string comparison_text(const PointSeries& series, const Comparison& compared) {
   const Fit& spirals = compared.carriers.front().fit;
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
-  out += fmt::format(
-      "{} points, lengths in {}, tolerance {}\n"
-      "error bound: no monotone curve with this one's own tangents and curvatures at the points\n"
-      "is farther from it; joints G1 common tangent, G2 continuous curvature{}\n\n",
-      spirals.contour.points.size(), series.units.text(), length_text(spirals.report.tolerance),
-      spirals.contour.continuity == Continuity::kG3 ? ", G3 its slope too" : "");
-  out += carrier_table(compared).text();
-  for (const ComparedCarrier& row : compared.carriers) {
-    if (!row.refusal) continue;
-    const Error& e = *row.refusal;
-    out += fmt::format("\n{}: E{}: {}{}", to_string(row.carrier), static_cast<int>(e.code), e.what,
-                       e.where.empty() ? "" : " (" + e.where + ")");
-  }
-  if (const std::string drawn = as_drawn_text(spirals.contour); !drawn.empty()) {
-    out += fmt::format("\nevery carrier keeps {}", drawn);
-  }
-  out += more_vertices_text(compared);
-  out += other_spirals_text(compared);
-  return out + (out.back() == '\n' ? "" : "\n");
+  out += fmt::format("{} points, lengths in {}, tolerance {}\n", spirals.contour.points.size(),
+                     series.units.text(), length_text(spirals.report.tolerance));
+  for (const std::string& line : comparison_legend(compared)) out += line + "\n";
+  out += "\n" + carrier_table(compared).text();
+  const std::vector<std::string> notes = comparison_notes(compared);
+  if (!notes.empty()) out += "\n";
+  for (const std::string& note : notes) out += note + "\n";
+  return out;
 }
 
-std::string report_csv(const PointSeries&, const Comparison& compared) {
-  std::string out =
+DataTable carrier_rows(const Comparison& compared) {
+  DataTable out{heads_of(
       "carrier,pieces,control_points,continuity,vertices,inflections,error_bound,deviation,"
-      "outside,seconds,verdict\n";
+      "outside,seconds,verdict")};
   for (const ComparedCarrier& row : compared.carriers) {
+    DataRow& cells = out.rows.emplace_back(DataRow{to_string(row.carrier)});
     if (row.refusal) {
-      out += fmt::format("{},,,,,,,,,,E{}\n", to_string(row.carrier),
-                         static_cast<int>(row.refusal->code));
+      cells.resize(out.heads.size() - 1);
+      cells.emplace_back(code_text(*row.refusal));
       continue;
     }
     const Certificate& certificate = row.fit.certificate;
-    out += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{}\n", to_string(row.carrier), row.fit.contour.pieces.size(),
-        row.control_points == 0 ? "" : std::to_string(row.control_points), continuity_name(row),
-        certificate.vertices, certificate.inflections, csv_cell(row.fit.report.largest_deviation),
-        csv_cell(or_unknown(row.fit.report.carrier_deviation)),
-        csv_cell(or_unknown(row.fit.report.outside_spirals_region)), csv_cell(row.seconds),
-        verdict_text(row));
+    const DataRow figures = {row.fit.contour.pieces.size(),
+                             row.control_points == 0 ? DataCell() : DataCell(row.control_points),
+                             continuity_name(row),
+                             certificate.vertices,
+                             certificate.inflections,
+                             finite_cell(row.fit.report.largest_deviation),
+                             row.fit.report.carrier_deviation,
+                             row.fit.report.outside_spirals_region,
+                             row.seconds,
+                             verdict_text(row)};
+    cells.insert(cells.end(), figures.begin(), figures.end());
   }
   return out;
+}
+
+std::string carriers_csv(const PointSeries&, const Comparison& compared) {
+  return csv_text(carrier_rows(compared));
 }
 
 /// What to write under a name: .svg picture, .csv or .json table.
@@ -171,27 +193,32 @@ std::string comparison_page(const PointSeries& series, const Comparison& compare
                   {"lengths in", series.units.text()},
                   {"points", std::to_string(spirals.contour.points.size())},
                   {"tolerance", length_text(spirals.report.tolerance)}};
-  page.tables.push_back(table_of_csv("carriers", "Carriers", report_csv(series, compared)));
+  page.warnings = compared.carriers.front().fit.warnings;
+  page.notes = comparison_legend(compared);
+  const std::vector<std::string> more = comparison_notes(compared);
+  page.notes.insert(page.notes.end(), more.begin(), more.end());
+  page.tables.push_back(table_of_page("carriers", "Carriers", carrier_rows(compared)));
   return page_text(page);
 }
 
 Result<Maker> maker_of(const std::string& path, const ShownCurvatures& shown,
                        const std::string& asked) {
-  if (path.ends_with(".html")) {
-    return Maker([shown, asked](const PointSeries& series, const Comparison& compared) {
-      return comparison_page(series, compared, shown, asked);
-    });
+  const auto format = table_format_of(path, "a comparison", ".csv and .json (tables)");
+  OBVID_TRY(format);
+  switch (*format) {
+    case FileFormat::kPage:
+      return Maker([shown, asked](const PointSeries& series, const Comparison& compared) {
+        return comparison_page(series, compared, shown, asked);
+      });
+    case FileFormat::kPicture:
+      return Maker([shown](const PointSeries& series, const Comparison& compared) {
+        return comparison_svg(series, compared, shown);
+      });
+    case FileFormat::kContour:
+      return Maker(&comparison_json);
+    default:
+      return Maker(&carriers_csv);
   }
-  if (path.ends_with(".svg")) {
-    return Maker([shown](const PointSeries& series, const Comparison& compared) {
-      return comparison_svg(series, compared, shown);
-    });
-  }
-  if (path.ends_with(".json")) return Maker(&comparison_json);
-  if (path.ends_with(".csv")) return Maker(&report_csv);
-  return error(ErrorCode::kUnknownFormat, "no such format of a comparison")
-      .where(path)
-      .hint("possible are .svg (picture), .html (page), .csv and .json (tables)");
 }
 
 }  // namespace
@@ -237,7 +264,7 @@ int run(const CompareOptions& options) {
   const auto written = write_files(outputs, options.input);
   if (!written) return report(written.error());
   std::string shown = options.json  ? comparison_json(*series, *compared)
-                      : options.csv ? report_csv(*series, *compared)
+                      : options.csv ? carriers_csv(*series, *compared)
                                     : comparison_text(*series, *compared);
   if (options.quiet && !options.json && !options.csv) return 0;
   if (!written->empty() && !options.json && !options.csv) {

@@ -117,13 +117,13 @@ std::string deviations_table(const CurveComparison& compared) {
 }
 
 /// What keeps the table from saying more.
-std::string curve_notes(const CurveComparison& compared) {
+std::vector<std::string> curve_notes(const CurveComparison& compared) {
   const auto is_airfoil = [](const ComparedCurve& curve) { return curve.airfoil.has_value(); };
-  std::string out;
+  std::vector<std::string> out;
   if (!compared.airfoils &&
       std::any_of(compared.curves.begin(), compared.curves.end(), is_airfoil)) {
     for (const ComparedCurve& curve : compared.curves) {
-      if (!curve.airfoil) out += fmt::format("{}: {}\n", curve.name, curve.no_airfoil);
+      if (!curve.airfoil) out.push_back(curve.name + ": " + curve.no_airfoil);
     }
   }
   if (!compared.airfoils || !compared.on_one_chord.empty()) return out;
@@ -132,17 +132,30 @@ std::string curve_notes(const CurveComparison& compared) {
   for (const ComparedCurve& curve : compared.curves) {
     const double ratio = curve.airfoil->chord / first.chord;
     if (std::abs(ratio - 1.0) <= kOneChord) continue;
-    out +=
-        fmt::format("the chord of {} is {} times that of {}; --align chord compares the shapes\n",
-                    curve.name, significant(ratio, 4), compared.curves.front().name);
+    out.push_back(
+        fmt::format("the chord of {} is {} times that of {}; --align chord compares the shapes",
+                    curve.name, significant(ratio, 4), compared.curves.front().name));
   }
   return out;
 }
 
 std::string compared_text(const CurveComparison& compared) {
   std::string out = fmt::format("lengths in {}\n", compared.units.text());
-  out += curves_table(compared) + "\n" + deviations_table(compared) + curve_notes(compared);
+  out += curves_table(compared) + "\n" + deviations_table(compared);
+  for (const std::string& note : curve_notes(compared)) out += note + "\n";
   return out;
+}
+
+/// Of each curve, what `curves_table` says of it.
+void add_curve_figures(const CurveComparison& compared, ReportPage& page) {
+  for (const ComparedCurve& curve : compared.curves) {
+    std::string text = curve.points > 0 ? counted(curve.points, "point", "points") + ", " : "";
+    text += "length " + significant(curve.length, kCurveDigits);
+    if (curve.counted) {
+      text += ", " + counted(static_cast<std::size_t>(curve.vertices), "vertex", "vertices");
+    }
+    page.figures.emplace_back(curve.name, text + ", " + verdict_of(curve));
+  }
 }
 
 /// The same figures as in `deviations_table`, a line each.
@@ -155,9 +168,18 @@ void add_deviation_figures(const CurveComparison& compared,
     page.figures.emplace_back(
         label + ", root mean square",
         (one.largest ? significant(unit * one.root_mean_square, kCurveDigits) : "-") + part);
-    page.figures.emplace_back(
-        label + ", largest",
-        one.largest ? significant(unit * *one.largest->deviation, kCurveDigits) : "-");
+    std::string largest = "-";
+    if (one.largest) {
+      const DeviationPlace& at = *one.largest;
+      const double size = compared.curves.front().length;
+      largest = fmt::format("{} at {}, {}", significant(unit * *at.deviation, kCurveDigits),
+                            coordinate(at.point.x, size), coordinate(at.point.y, size));
+      if (compared.airfoils) {
+        largest += fmt::format(", {} side, at {} % of the chord", at.upper ? "upper" : "lower",
+                               percent(at.along.value_or(0.0), 2));
+      }
+    }
+    page.figures.emplace_back(label + ", largest", largest);
   }
 }
 
@@ -167,7 +189,7 @@ void add_airfoil_figures(const CurveComparison& compared, ReportPage& page) {
   for (const ComparedCurve& curve : compared.curves) {
     const AirfoilFigures& f = *curve.airfoil;
     page.figures.emplace_back(
-        curve.name,
+        curve.name + " as an airfoil",
         fmt::format("chord {}; in % of it: thickness {} at {}, camber {} at {}, nose radius {}, "
                     "trailing edge {}",
                     significant(f.chord, kCurveDigits), percent(f.thickness, 3),
@@ -176,40 +198,51 @@ void add_airfoil_figures(const CurveComparison& compared, ReportPage& page) {
   }
 }
 
-using CurvesMaker = std::function<std::string(const CurveComparison&)>;
+using CurvesMaker =
+    std::function<std::string(const CurveComparison&, const std::vector<std::string>& warnings)>;
 
-std::string curves_page(const CurveComparison& compared, const CompareOptions& options) {
+std::string curves_page(const CurveComparison& compared, const CompareOptions& options,
+                        const std::vector<std::string>& warnings) {
   ReportPage page;
   std::vector<std::string> names;
   for (const ComparedCurve& curve : compared.curves) names.push_back(curve.name);
   page.title = listed(names);
-  page.verdict = fmt::format("compared with {}, along its normals, {} positive", names.front(),
+  page.verdict = fmt::format("deviations from {}, along its normals, {} positive", names.front(),
                              compared.outward ? "outward" : "to the left");
   page.pictures.push_back(curves_svg(compared, options.enlarge));
   page.figures = {{"asked for", options.asked}, {"lengths in", compared.units.text()}};
+  page.warnings = warnings;
+  page.notes = curve_notes(compared);
+  add_curve_figures(compared, page);
   add_airfoil_figures(compared, page);
   add_deviation_figures(compared, compared.as_they_lie, "as it lies", 1.0, page);
   if (!compared.on_one_chord.empty()) {
     add_deviation_figures(compared, compared.on_one_chord, "on one chord, % of it",
                           100.0 / compared.curves.front().airfoil->chord, page);
   }
-  page.tables.push_back(table_of_csv("places", "Deviations at places", curves_csv(compared)));
+  page.tables.push_back(table_of_page("places", "Deviations at places", curves_rows(compared)));
   return page_text(page);
 }
 
 Result<CurvesMaker> curves_maker(const std::string& path, const CompareOptions& options) {
-  const std::optional<double> enlarge = options.enlarge;
-  if (path.ends_with(".html")) {
-    return CurvesMaker([options](const CurveComparison& c) { return curves_page(c, options); });
+  using Told = std::vector<std::string>;
+  const auto format = table_format_of(path, "a comparison", ".csv (every place) and .json (table)");
+  OBVID_TRY(format);
+  switch (*format) {
+    case FileFormat::kPage:
+      return CurvesMaker([options](const CurveComparison& c, const Told& warnings) {
+        return curves_page(c, options, warnings);
+      });
+    case FileFormat::kPicture:
+      return CurvesMaker([enlarge = options.enlarge](const CurveComparison& c, const Told&) {
+        return curves_svg(c, enlarge);
+      });
+    case FileFormat::kContour:
+      return CurvesMaker([](const CurveComparison& c, const Told&) { return curves_json(c); });
+    default:
+      return CurvesMaker(
+          [](const CurveComparison& c, const Told&) { return csv_text(curves_rows(c)); });
   }
-  if (path.ends_with(".svg")) {
-    return CurvesMaker([enlarge](const CurveComparison& c) { return curves_svg(c, enlarge); });
-  }
-  if (path.ends_with(".json")) return CurvesMaker(&curves_json);
-  if (path.ends_with(".csv")) return CurvesMaker(&curves_csv);
-  return error(ErrorCode::kUnknownFormat, "no such format of a comparison")
-      .where(path)
-      .hint("possible are .svg (picture), .html (page), .csv (every place) and .json (table)");
 }
 
 /// Files of one name keep their folders.
@@ -256,14 +289,14 @@ int compare_several(const CompareOptions& options) {
   if (!compared) return report(compared.error());
   std::vector<Output> outputs;
   for (std::size_t i = 0; i < makers.size(); ++i) {
-    outputs.push_back({options.outputs[i], {}, makers[i](*compared)});
+    outputs.push_back({options.outputs[i], {}, makers[i](*compared, warnings)});
   }
   const auto written = write_files(outputs, options.inputs.front());
   if (!written) return report(written.error());
   const bool for_programs = options.json || options.csv;
   if (options.quiet && !for_programs) return 0;
   std::string shown = options.json  ? curves_json(*compared)
-                      : options.csv ? curves_csv(*compared)
+                      : options.csv ? csv_text(curves_rows(*compared))
                                     : compared_text(*compared);
   if (!written->empty() && !for_programs) shown += "\nwritten  " + listed(*written) + "\n";
   if (auto done = put(shown); !done) return report(done.error());

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/file_ending.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
 #include "obvid/pipeline/stored.h"
@@ -21,7 +22,7 @@ namespace {
 /// another place.
 bool is_foreign(const ConvertOptions& options) {
   if (!is_drawing(options.input)) return false;
-  return !options.input.ends_with(".json") || !options.import.placement.changes_nothing();
+  return !has_ending(options.input, ".json") || !options.import.placement.changes_nothing();
 }
 
 /// What is told beside a curve: notes, and what may be wrong.
@@ -65,6 +66,10 @@ Result<Converted> converted(const ConvertOptions& options, Result<StoredContour>
     }
   }
   FileNotes notes;
+  formats.told = {remarks, out.warnings};
+  if (!options.profile.empty()) {
+    formats.told.remarks.insert(formats.told.remarks.begin(), options.profile);
+  }
   const Result<std::vector<Output>> texts = exported(*outputs, *stored, formats, notes);
   OBVID_TRY(texts);
   out.warnings.insert(out.warnings.end(), notes.warnings.begin(), notes.warnings.end());

@@ -118,7 +118,8 @@ std::string cut_page(const MadeCut& made, const CutCommand& command) {
   page.figures = {{"asked for", command.asked}, {"lengths in", made.units.text()}};
   const Facts facts = cut_facts(made);
   page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
-  page.tables.push_back(table_of_csv("outlines", "Outlines", cut_csv(made)));
+  page.warnings = made.warnings;
+  page.tables.push_back(table_of_page("outlines", "Outlines", cut_rows(made)));
   return page_text(page);
 }
 
@@ -137,7 +138,7 @@ int run(const CutCommand& command) {
     } else if (output.format == FileFormat::kPage) {
       output.text = cut_page(*made, command);
     } else if (output.format == FileFormat::kSamples) {
-      output.text = cut_csv(*made);
+      output.text = csv_text(cut_rows(*made));
     } else {
       const Sketch sketch = cut_sketch(*made, command.job);
       output.text = output.format == FileFormat::kPicture ? sketch_svg(sketch) : sketch_dxf(sketch);

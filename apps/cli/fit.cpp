@@ -82,10 +82,12 @@ Result<std::vector<std::string>> write_contour(Fit& made, const std::vector<Outp
                                                const ExportOptions& formats,
                                                const std::string& input,
                                                std::vector<std::string>& remarks) {
+  ExportOptions told = formats;
+  told.told = {remarks, made.warnings};
   StoredContour stored{std::move(made.contour), made.report, made.certificate};
   // all texts first, then all files: a failure to form leaves every file as it was
   FileNotes notes;
-  Result<std::vector<Output>> texts = exported(outputs, stored, formats, notes);
+  Result<std::vector<Output>> texts = exported(outputs, stored, told, notes);
   made.contour = std::move(stored.contour);
   OBVID_TRY(texts);
   auto done = write_files(*texts, input);

@@ -18,9 +18,6 @@ namespace obvid {
 /// inverse; empty where they are unknown.
 [[nodiscard]] std::string fit_report_csv(const Fit& fit);
 
-/// What stays of a drawing whatever the carrier ("4 lines, 1 arc as drawn"); empty for points.
-[[nodiscard]] std::string as_drawn_text(const Contour& contour);
-
 /// Lines about joint gaps, vertices and the like that `fit` and `verify` share.
 class Facts;
 void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier);

@@ -19,6 +19,18 @@ Result<Output> output_of(const std::string& path) {
       .hint("possible are " + known_endings());
 }
 
+Result<FileFormat> table_format_of(const std::string& path, const std::string& what,
+                                   const std::string& tables) {
+  const auto format = format_of(path);
+  for (const FileFormat one :
+       {FileFormat::kPicture, FileFormat::kPage, FileFormat::kSamples, FileFormat::kContour}) {
+    if (format == one) return one;
+  }
+  return error(ErrorCode::kUnknownFormat, "there is no such file of " + what)
+      .where(path)
+      .hint("possible are .svg (picture), .html (page), " + tables);
+}
+
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
                                        const std::string& input) {
   OBVID_TRY(check_outputs(paths, {&input, 1}));

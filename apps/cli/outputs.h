@@ -25,6 +25,10 @@ struct FileNotes {
 
 /// Format by ending. Error: E202 for endings without format.
 [[nodiscard]] Result<Output> output_of(const std::string& path);
+/// Of what analyses and compares: picture, page or tables. `what` is called "comparison", `tables`
+/// ".csv and .json (tables)". Error: E202.
+[[nodiscard]] Result<FileFormat> table_format_of(const std::string& path, const std::string& what,
+                                                 const std::string& tables);
 /// All of them. Errors: E202; E203 where the input or another output would be replaced.
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
                                                      const std::string& input);

@@ -28,8 +28,6 @@ constexpr std::ptrdiff_t kMostSteps = 60;
 /// Headings are told to a hundred-thousandth of a degree: their ranges are known to some 1e-6.
 constexpr double kHeadingStep = 1e-5;
 constexpr int kHeadingDigits = 8;
-/// Ranges of headings are known to this (`feasible_data`), rad: only what is farther is outside.
-constexpr double kRangeKnownTo = 1e-6;
 
 std::string degrees_text(double degrees) {
   const double rounded = std::round(degrees / kHeadingStep) * kHeadingStep;
@@ -86,18 +84,6 @@ Table::Align name_align(const RegionPart& part) {
   return inserted ? Table::Align::kLeft : Table::Align::kDecimal;
 }
 
-std::string how_it_came(const RegionPoint& p) {
-  if (p.inserted > 0) return "inserted";
-  std::string out = p.theta_given ? "given" : "chosen";
-  if (p.kappa_given) out += p.theta_given ? ", radius too" : ", radius given";
-  const auto beyond = [](double way, bool open) { return !open && way > kRangeKnownTo; };
-  const bool outside = p.headings && (beyond(p.headings->low - p.theta, p.headings->low_is_open) ||
-                                      beyond(p.theta - p.headings->high, p.headings->high_is_open));
-  // on an arc there is one heading, and it is that
-  if (outside && p.headings->low < p.headings->high) out += ", OUTSIDE its range";
-  return out;
-}
-
 Table region_points(const RegionPart& part, double size) {
   Table table;
   table.column("point", name_align(part));
@@ -122,7 +108,7 @@ Table region_points(const RegionPart& part, double size) {
     const auto headings = heading_range(p);
     table.row({region_point_name(p), coordinate(p.point.x, size), coordinate(p.point.y, size),
                p.adjacent_kappa ? radius_text(*p.adjacent_kappa) : "-", heading_text(p.theta),
-               headings[0], headings[1], radius.least, radius.greatest, how_it_came(p)});
+               headings[0], headings[1], radius.least, radius.greatest, heading_came_by(p)});
   }
   return table;
 }
@@ -150,34 +136,15 @@ Table region_segments(const RegionPart& part) {
 }
 
 std::string region_part_text(const PointSeries& series, const RegionPart& part) {
-  double largest = 0.0;
-  std::size_t unknown = 0;
-  for (const RegionRow& row : part.rows) {
-    largest = std::max(largest, row.width.value_or(0.0));
-    if (!row.width) ++unknown;
-  }
   const double size = bounding_diagonal(series.points);
   std::string out = region_points(part, size).text() + "\n" + region_segments(part).text();
   out +=
       shown_note(rows_worth_showing(widths(part)).size(), part.rows.size(), "widest", "segments");
-  out += fmt::format("\nlargest delta  {} {}\n", significant(largest, kWidthDigits),
-                     series.units.text());
-  if (unknown > 0) {
-    out += fmt::format(
-        "unknown        over {}, where a vertex or half a turn lies between points, or where the "
-        "headings leave no curve\n",
-        counted(unknown, "segment", "segments"));
+  Facts facts;
+  for (auto& [label, value] : region_figures(part, series.units)) {
+    facts.add(std::move(label), std::move(value));
   }
-  const bool open = std::any_of(part.points.begin(), part.points.end(), [](const RegionPoint& p) {
-    return p.headings && (p.headings->low_is_open || p.headings->high_is_open);
-  });
-  if (open) {
-    out +=
-        "*              nothing ends the range there: told up to a right angle from the chord at "
-        "an "
-        "end of the series, up to half a turn between points elsewhere\n";
-  }
-  return out;
+  return out + "\n" + facts.text();
 }
 
 std::string construction_text(const RegionTable& region) {
@@ -207,18 +174,10 @@ std::string construction_text(const RegionTable& region) {
 
 std::string region_text(const PointSeries& series, const RegionTable& region) {
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
-  out += fmt::format(
-      "lengths in {}; radius positive where the contour turns left\n"
-      "range of headings: {};\n"
-      "radii: with the headings of the table\n"
-      "T: where the tangents at points i and i+1 meet; h: height of the lower boundary above the\n"
-      "chord, delta: width of the region, both over the middle of the chord; H, Ht: height of the\n"
-      "triangle of the neighbouring chords, of the tangents; Delta, Delta t: the same above the\n"
-      "lower boundary; f: of the cubic spline through the points from the farther boundary\n\n",
-      series.units.text(),
-      region.closed ? "a curve that keeps all else that is given has none beyond; near the ends\n"
-                      "of the range there may be none that closes"
-                    : "with each of them a curve exists that keeps all else that is given");
+  out += fmt::format("lengths in {}; radius positive where the contour turns left\n",
+                     series.units.text());
+  for (const std::string& line : region_legend(region)) out += line + "\n";
+  out += "\n";
   out += region_part_text(series, region.user);
   if (region.refined) {
     const std::size_t more = region.refined->points.size() - region.user.points.size();

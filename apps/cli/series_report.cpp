@@ -71,9 +71,7 @@ std::string with_bound(int now, const std::string& bound) {
 
 }  // namespace
 
-std::string series_report_text(const PointSeries& series, const Analysis& analysis) {
-  std::vector<double> worst = analysis.points_only_error;
-  worst.resize(analysis.circles.size(), kNan);
+Facts series_facts(const PointSeries& series, const Analysis& analysis) {
   Facts facts;
   facts.add("size", significant(analysis.size) + " " + series.units.text());
   facts.add("curvature", runs_text(analysis));
@@ -86,12 +84,18 @@ std::string series_report_text(const PointSeries& series, const Analysis& analys
     facts.add(stretch.kappa == 0.0 ? "straight" : "circular",
               fmt::format("points {}-{}", stretch.first + 1, stretch.last + 1));
   }
+  return facts;
+}
+
+std::string series_report_text(const PointSeries& series, const Analysis& analysis) {
+  std::vector<double> worst = analysis.points_only_error;
+  worst.resize(analysis.circles.size(), kNan);
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
   out += fmt::format("lengths in {}; radius positive where the points turn left\n\n",
                      series.units.text());
   out += point_table(analysis).text();
   out += shown_note(rows_worth_showing(worst).size(), worst.size(), "least certain", "points");
-  return out + "\n" + facts.text();
+  return out + "\n" + series_facts(series, analysis).text();
 }
 
 }  // namespace obvid

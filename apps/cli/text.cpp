@@ -8,10 +8,6 @@
 
 namespace obvid {
 
-std::string known_length(double value, const std::string& unit) {
-  return std::isnan(value) ? "unknown" : significant(value, 4) + " " + unit;
-}
-
 std::string coordinate(double value, double size) {
   constexpr double kResolution = 1e-6;  // of the size
   constexpr int kMostDecimals = 15;

@@ -11,9 +11,6 @@
 
 namespace obvid {
 
-/// A length with its unit, four digits; NaN as "unknown".
-[[nodiscard]] std::string known_length(double value, const std::string& unit);
-
 /// Coordinate of a place on something of this size: as many decimals as tell a millionth of it.
 [[nodiscard]] std::string coordinate(double value, double size);
 

@@ -6,6 +6,8 @@
 #include "commands.h"
 #include "fit_report.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/file_ending.h"
+#include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/space_fit.h"
@@ -164,7 +166,7 @@ int verify_several(const VerifyOptions& options) {
 int run(const VerifyOptions& options) {
   if (!options.inputs.empty()) return verify_several(options);
   for (const std::string& path : options.outputs) {
-    if (path.ends_with(".json")) continue;
+    if (has_ending(path, ".json")) continue;
     return report({ErrorCode::kUnknownFormat, "answers are written as JSON", path, "name a .json"});
   }
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {

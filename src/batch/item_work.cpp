@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "obvid/core/internal/file_ending.h"
 #include "source.h"
 
 namespace obvid::batch {
@@ -105,7 +106,7 @@ std::ptrdiff_t text_for(const obvid_files* files, const std::string& path) {
   std::size_t longest = 0;
   for (std::size_t k = 0; k < obvid_files_count(files); ++k) {
     const std::string_view suffix = obvid_files_suffix(files, k);
-    const bool fits = suffix.empty() ? is_program_file(path) : path.ends_with(suffix);
+    const bool fits = suffix.empty() ? is_program_file(path) : has_ending(path, suffix);
     if (!fits || (found >= 0 && suffix.size() < longest)) continue;
     found = static_cast<std::ptrdiff_t>(k);
     longest = suffix.size();
@@ -195,7 +196,7 @@ void do_job(Work& work) {
 }
 
 std::vector<std::pair<std::string, std::string>> files_at(Work& work, const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
+  const std::string ending = ending_of(path);
   const std::string format = ending.empty() ? "" : ending.substr(1);
   const char* const formats = work.spec.formats.c_str();
   const bool as_table = work.kind.name == "spline" && (format == "csv" || format == "json");

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "obvid/core/internal/file_ending.h"
+
 namespace obvid::batch {
 namespace {
 
@@ -37,21 +39,12 @@ constexpr std::string_view endings_of(std::string_view wanted) {
 
 }  // namespace
 
-bool is_program_file(std::string_view path) {
-  std::string_view rest = endings_of("kGcode");
-  while (!rest.empty()) {
-    const std::string_view one = rest.substr(0, rest.find(' '));
-    if (path.ends_with(one)) return true;
-    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
-  }
-  return false;
-}
+bool is_program_file(std::string_view path) { return has_ending(path, endings_of("kGcode")); }
 
 bool has_text_for(const JobKind& kind, std::string_view path) {
-  if (kind.draws != Draws::kTexts) return true;
-  if (path.ends_with(".svg")) return true;
-  return kind.name == "cut" ? path.ends_with(".dxf") || is_program_file(path)
-                            : path.ends_with(".csv");
+  if (kind.draws != Draws::kTexts || has_ending(path, ".svg")) return true;
+  return kind.name == "cut" ? has_ending(path, ".dxf") || is_program_file(path)
+                            : has_ending(path, ".csv");
 }
 
 const JobKind* kind_named(std::string_view name, bool against) {

@@ -32,6 +32,8 @@ Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, cons
   formats.first_station = contour.first_station;
   formats.profile = contour.profile;
   formats.transitions = contour.transitions;
+  formats.told = {{}, contour.warnings};
+  if (!request->profile.empty()) formats.told.remarks.push_back(request->profile);
   const StoredContour* stored = &contour.stored;
   StoredContour other;
   if (request->units) {

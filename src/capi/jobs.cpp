@@ -350,10 +350,11 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     out->picture = {series->name, alignment_verdict(*made)};
     out->warnings = std::move(warnings);
     auto tables = std::make_unique<obvid_files>();
-    tables->files.push_back({".csv", elements_csv(made->alignment.elements, made->limit)});
-    tables->files.push_back({".deviations.csv", deviations_csv(*made, series->points)});
+    tables->files.push_back(
+        {".csv", csv_text(element_rows(made->alignment.elements, made->limit))});
+    tables->files.push_back({".deviations.csv", csv_text(deviation_rows(*made, series->points))});
     if (made->profile) {
-      tables->files.push_back({".profile.csv", profile_csv(made->profile->profile)});
+      tables->files.push_back({".profile.csv", csv_text(profile_rows(made->profile->profile))});
     }
     tables->files.push_back({".svg", alignment_picture(*made)});
     tables->remarks = made->remarks;
@@ -420,7 +421,7 @@ int obvid_compare_curves(const obvid_input* const* inputs, size_t count, const c
     hand_out_text(curves_json(*made), report);
     if (files == nullptr) return {};
     out->files.push_back({".svg", curves_svg(*made, request->enlarge)});
-    out->files.push_back({".csv", curves_csv(*made)});
+    out->files.push_back({".csv", csv_text(curves_rows(*made))});
     *files = out.release();
     return {};
   });

@@ -34,7 +34,6 @@ struct Defaults {
   double plunge, rapid, safe_z, clear_z;
 };
 constexpr Defaults kMillimetres{300.0, 3000.0, 5.0, 1.0}, kInches{12.0, 120.0, 0.2, 0.04};
-constexpr double kLeastFeed = 1e-3;  // a minute: what is printed is not 0
 constexpr double kMostBlocks = 3e5;
 constexpr double kTooLittleToTell = 1e-9;            // of the tolerance: rounding
 constexpr double kOrderAt = 0.4, kReadBackAt = 0.7;  // of the work
@@ -51,6 +50,9 @@ class Cutting {
         defaults_(inches_ ? kInches : kMillimetres) {}
 
   Result<CutProgram> run() {
+    decimals_ =
+        options_.decimals.value_or(exchange::gcode_decimals(options_.tolerance * scale_, inches_));
+    OBVID_TRY(check_lengths());
     watch_.tell("outlines", 0.0);
     auto tracks = tracks_of(outlines_, options_, scale_, watch_);
     OBVID_TRY(tracks);
@@ -63,8 +65,6 @@ class Cutting {
                               options_.direction == CutDirection::kClimb};
     const std::vector<Visit> visits = ordered(tracks_, visiting, watch_);
     if (watch_.cancelled()) return fail(cancelled_error());
-    decimals_ =
-        options_.decimals.value_or(exchange::gcode_decimals(options_.tolerance * scale_, inches_));
     CutBlocks blocks = blocks_of(tracks_.all, visits, rules_);
     if (options_.motion == GcodeMotion::kSplines) {
       const SplineRules splines{spline_tolerance(options_.tolerance) * scale_,
@@ -74,7 +74,12 @@ class Cutting {
     }
     CutText text(options_, rules_, inches_, decimals_);
     for (const CutBlock& block : blocks.blocks) {
-      if (block.kind == CutBlock::Kind::kCut && block.feed < kLeastFeed) return fail(no_feed());
+      const bool cuts = block.kind == CutBlock::Kind::kCut;
+      if ((cuts || block.kind == CutBlock::Kind::kDown) && block.feed < exchange::kLeastFeed) {
+        return fail(no_feed(!cuts                  ? "--plunge-feed"
+                            : options_.centripetal ? "--centripetal"
+                                                   : "--feed"));
+      }
       text.add(block);
     }
     if (text.path().lost_arcs()) return fail(too_few_digits("centres of arcs are too far away"));
@@ -88,9 +93,9 @@ class Cutting {
     return place;
   }
 
-  [[nodiscard]] Error no_feed() const {
+  [[nodiscard]] static Error no_feed(const char* option) {
     return error(ErrorCode::kBadOption, "the feed would be printed as 0")
-        .where(options_.centripetal ? "--centripetal" : "--feed")
+        .where(option)
         .hint("give a larger one");
   }
 
@@ -117,6 +122,45 @@ class Cutting {
     out.across = options_.centripetal.value_or(0.0) / (inches_ ? kMmPerInch : 1.0);
     out.pierce_seconds = options_.pierce_seconds;
     return out;
+  }
+
+  /// A length as programs hold it; nothing is none.
+  [[nodiscard]] Result<void> check_length(const char* option, std::optional<double> given,
+                                          int decimals) const {
+    if (!given || *given == 0.0) return {};
+    const double printed = *given * scale_, unit = std::pow(10.0, -decimals);
+    const auto bad = [&](const char* what, const std::string& hint) -> Result<void> {
+      return error(ErrorCode::kBadOption, what).where(option).hint(hint).value(*given);
+    };
+    if (printed > exchange::kLongestWay / (inches_ ? kMmPerInch : 1.0)) {
+      return bad("no machine is a kilometre long", "check the units of the drawing: --units");
+    }
+    if (printed >= unit) return {};
+    return bad("this is less than programs print",
+               fmt::format("at least {} {} with {}", significant(unit / scale_, 2), units_.text(),
+                           counted(static_cast<std::size_t>(decimals), "decimal", "decimals")));
+  }
+
+  [[nodiscard]] Result<void> check_lengths() const {
+    const int heights = CutText::height_decimals(decimals_, inches_);
+    OBVID_TRY(check_length("--diameter", options_.diameter, decimals_));
+    OBVID_TRY(check_length("--lead-in", options_.lead_in, decimals_));
+    if (options_.process != CutProcess::kMill) return {};
+    OBVID_TRY(check_length("--depth", options_.depth, heights));
+    OBVID_TRY(check_length("--pass-depth", options_.pass_depth, heights));
+    OBVID_TRY(check_length("--safe-z", options_.safe_z, heights));
+    if (options_.tabs.count > 0) {
+      OBVID_TRY(check_length("--tab-width", options_.tabs.width, decimals_));
+      OBVID_TRY(check_length("--tab-height", options_.tabs.height, heights));
+    }
+    const double depth = options_.depth * scale_, unit = std::pow(10.0, -heights);
+    const double printed = std::round(depth / unit) * unit;
+    if (std::abs(printed - depth) <= kPrintedDepth * depth) return {};
+    return error(ErrorCode::kBadOption,
+                 fmt::format("this depth would be printed as {}", significant(printed, 3)))
+        .where("--depth")
+        .hint("give more --decimals, or a depth that has no more places")
+        .value(options_.depth);
   }
 
   /// Refuses work without end: a typing error in a length, most likely.

@@ -109,7 +109,7 @@ class Blocks {
 
   void cut(const Piece& whole, double z) {
     const double turn = std::abs(curvature_of(whole)) * length_of(whole), from = z_;
-    const int parts = std::max(1, static_cast<int>(std::ceil(turn / exchange::kMostBlockTurn)));
+    const auto parts = static_cast<int>(exchange::blocks_of_turn(turn));
     for (int k = 0; k < parts; ++k) {
       CutBlock& block = add(CutBlock::Kind::kCut);
       block.piece = parts == 1 ? whole

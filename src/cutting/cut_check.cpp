@@ -13,8 +13,6 @@ namespace {
 
 /// Depth of chords under arcs, of the tolerance.
 constexpr double kChordDepth = 0.02;
-/// Of a depth as it is printed.
-constexpr double kPrintedDepth = 1e-2;
 constexpr std::size_t kBetweenQuestions = 1024;
 
 Error not_as_planned(const char* what) {
@@ -34,6 +32,7 @@ class Check {
     if (program.motions.size() != motions.size()) {
       return fail(not_as_planned("the printed program has other motions than were planned"));
     }
+    find_own_edges();
     std::vector<Edges> ways(tracks_.size());
     std::vector<double> lowest(tracks_.size());
     for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -57,6 +56,16 @@ class Check {
 
  private:
   [[nodiscard]] bool is_mill() const { return rules_.process == CutProcess::kMill; }
+
+  /// What a tool on its outline is held against.
+  void find_own_edges() {
+    own_.resize(tracks_.size());
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      if (tracks_[i].side != CutSide::kOn) continue;
+      own_[i].add(tracks_[i].edge, i);
+      own_[i].finish();
+    }
+  }
 
   /// Straight up out of a cut, or above the stock.
   [[nodiscard]] static bool is_in_air(const exchange::NcMotion& motion) {
@@ -87,18 +96,12 @@ class Check {
       for (std::size_t j = 0; j <= parts; ++j) {
         if (!may_go_on()) return fail(cancelled_error());
         const Vec2 p = a + (static_cast<double>(j) / static_cast<double>(parts)) * (b - a);
-        const double off = tracks_[i].side == CutSide::kOn ? away_from(tracks_[i], p)
+        const double off = tracks_[i].side == CutSide::kOn ? own_[i].nearest(p).distance
                                                            : radius - edges_.nearest(p).room;
         out_.beyond = std::max(out_.beyond, off);
       }
     }
     return {};
-  }
-
-  [[nodiscard]] static double away_from(const Track& track, Vec2 p) {
-    double away = std::numeric_limits<double>::infinity();
-    for (const Piece& piece : track.edge.pieces) away = std::min(away, distance_from(piece, p));
-    return away;
   }
 
   /// Places of an outline: how far the tool stays from them.
@@ -126,6 +129,7 @@ class Check {
   const std::vector<Track>& tracks_;
   const Edges& edges_;
   const BlockRules& rules_;
+  std::vector<Edges> own_;
   double spacing_;
   Watch& watch_;
   std::size_t looked_ = 0;

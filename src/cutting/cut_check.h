@@ -8,6 +8,9 @@
 
 namespace obvid::cutting {
 
+/// How far the printed depth may be from the one asked for, of it.
+inline constexpr double kPrintedDepth = 1e-2;
+
 struct Checked {
   double beyond = 0.0;    ///< of an edge, by the edge of the tool
   double short_of = 0.0;  ///< of an edge, inner corners apart

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cut_options.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "obvid/exchange/internal/gcode/dialect.h"
+#include "obvid/exchange/internal/gcode/motion_time.h"
 
 namespace obvid::cutting {
 namespace {
@@ -13,24 +17,35 @@ tl::unexpected<Error> bad(const char* what, const char* option, double value, co
   return fail(error(ErrorCode::kBadOption, what).where(option).hint(hint).value(value));
 }
 
+tl::unexpected<Error> bad(const char* what, const char* option, double value, double most) {
+  return bad(what, option, value, fmt::format("at most {:g}", most).c_str());
+}
+
+constexpr double kLongestPierce = 3600.0;  // seconds: an hour
+
 /// An option that is one number.
 struct Size {
   std::optional<double> value;
   const char* option;
   bool may_be_none = false;  ///< 0 is none
+  double most = std::numeric_limits<double>::max();
 };
 
 Result<void> check_numbers(const CutOptions& o) {
   const char* power = o.process == CutProcess::kLaser ? "--laser" : "--spindle";
+  using namespace exchange;
   for (const Size& size :
        {Size{o.tolerance, "--tolerance"}, Size{o.diameter, "--diameter", true},
         Size{o.depth, "--depth", true}, Size{o.pass_depth, "--pass-depth"},
-        Size{o.lead_in, "--lead-in", true}, Size{o.safe_z, "--safe-z"}, Size{o.feed, "--feed"},
-        Size{o.plunge_feed, "--plunge-feed"}, Size{o.rapid_feed, "--rapid-feed"},
-        Size{o.centripetal, "--centripetal"}, Size{o.acceleration, "--acceleration"},
-        Size{o.spindle, power, true}, Size{o.pierce_seconds, "--plasma", true},
-        Size{o.ramp_deg, "--ramp"}, Size{o.tabs.width, "--tab-width", true},
-        Size{o.tabs.height, "--tab-height", true}}) {
+        Size{o.lead_in, "--lead-in", true}, Size{o.safe_z, "--safe-z"},
+        Size{o.feed, "--feed", false, kGreatestFeed},
+        Size{o.plunge_feed, "--plunge-feed", false, kGreatestFeed},
+        Size{o.rapid_feed, "--rapid-feed", false, kGreatestFeed},
+        Size{o.centripetal, "--centripetal", false, kGreatestAcceleration},
+        Size{o.acceleration, "--acceleration", false, kGreatestAcceleration},
+        Size{o.spindle, power, true, kGreatestSpeed},
+        Size{o.pierce_seconds, "--plasma", true, kLongestPierce}, Size{o.ramp_deg, "--ramp"},
+        Size{o.tabs.width, "--tab-width", true}, Size{o.tabs.height, "--tab-height", true}}) {
     if (!size.value) continue;
     const double v = *size.value;
     if (!std::isfinite(v)) return bad("this must be a number", size.option, v, "");
@@ -38,6 +53,11 @@ Result<void> check_numbers(const CutOptions& o) {
       return bad(size.may_be_none ? "this must not be negative" : "this must be greater than 0",
                  size.option, v, "");
     }
+    if (v > size.most) return bad("no machine does that", size.option, v, size.most);
+  }
+  if (o.acceleration && *o.acceleration < kLeastAcceleration) {
+    return bad("no time comes of so little", "--acceleration", *o.acceleration,
+               "at least 0.001 mm/s^2");
   }
   return {};
 }

@@ -37,10 +37,14 @@ std::string power_text(double value) {
 
 }  // namespace
 
+int CutText::height_decimals(int decimals, bool inches) {
+  return std::max(decimals, exchange::kLeastGcodeDecimals + (inches ? 1 : 0));
+}
+
 CutText::CutText(const CutOptions& options, const BlockRules& rules, bool inches, int decimals)
     : options_(options),
       rules_(rules),
-      height_decimals_(std::max(decimals, exchange::kLeastGcodeDecimals + (inches ? 1 : 0))),
+      height_decimals_(height_decimals(decimals, inches)),
       path_(1.0, decimals) {}
 
 void CutText::add(const CutBlock& block) {

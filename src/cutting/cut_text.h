@@ -13,6 +13,9 @@ namespace obvid::cutting {
 /// The text of blocks.
 class CutText {
  public:
+  /// Of heights: as of places, or those that every program has.
+  [[nodiscard]] static int height_decimals(int decimals, bool inches);
+
   CutText(const CutOptions& options, const BlockRules& rules, bool inches, int decimals);
 
   void add(const CutBlock& block);

@@ -235,11 +235,25 @@ class TrackMaker {
       all.add(track.room.low);
       all.add(track.room.high);
     }
-    if (2.0 * radius_ <= kLargestTool * all.diagonal()) return {};
-    return error(ErrorCode::kBadOption, "the tool is a thousand times larger than the drawing")
-        .where("--diameter")
-        .hint("check the units of the drawing: --units")
-        .value(options_.diameter);
+    const double size = all.diagonal();
+    const auto too_large = [](const char* what, const char* option, double value) -> Result<void> {
+      return error(ErrorCode::kBadOption, what)
+          .where(option)
+          .hint("check the units of the drawing: --units")
+          .value(value);
+    };
+    if (2.0 * radius_ > kLargestTool * size) {
+      return too_large("the tool is a thousand times larger than the drawing", "--diameter",
+                       options_.diameter);
+    }
+    if (options_.lead_in * scale_ > size + 2.0 * radius_) {
+      return too_large("the lead-in is larger than the drawing", "--lead-in", options_.lead_in);
+    }
+    if (options_.tolerance * scale_ > size) {
+      return too_large("the tolerance is larger than the drawing", "--tolerance",
+                       options_.tolerance);
+    }
+    return {};
   }
 
   /// Whether two outlines are one, drawn twice.

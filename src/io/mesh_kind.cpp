@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/io/internal/mesh_kind.h"
 
+#include "obvid/core/internal/file_ending.h"
+
 namespace obvid {
 
 bool is_binary_stl(std::string_view head, std::uintmax_t size) {
@@ -21,8 +23,7 @@ bool is_ply(std::string_view head) {
 }
 
 bool is_mesh(std::string_view head, std::uintmax_t size, std::string_view name) {
-  return is_ply(head) || is_binary_stl(head, size) || is_text_stl(head) || name.ends_with(".obj") ||
-         name.ends_with(".OBJ");
+  return is_ply(head) || is_binary_stl(head, size) || is_text_stl(head) || has_ending(name, ".obj");
 }
 
 }  // namespace obvid

@@ -10,6 +10,7 @@
 #include "leftover.h"
 #include "machine_units.h"
 #include "moves.h"
+#include "obvid/exchange/internal/gcode/motion_time.h"
 #include "obvid/toolpath/toolpath.h"
 #include "pass_families.h"
 #include "program_check.h"
@@ -25,14 +26,12 @@ using namespace toolpath;
 constexpr int kMostAttempts = 3;
 constexpr double kLowerShare = 0.96;
 constexpr double kCellOfRadius = 1.0 / 8.0, kCellOfStep = 0.25;
-constexpr double kDefaultSafe = 0.5;   // diameters above the highest point
-constexpr double kLeastSpindle = 0.5;  // revolutions a minute: printed as a whole number
-constexpr double kLeastAcceleration =
-    1e-3;  // mm/s^2: less is a typing error, and no time comes of it
-constexpr double kLargestEarlier = 100.0;  // sizes of the part: all that is seen is flat to it
-constexpr double kSteepestRamp = 90.0;     // degrees
-constexpr double kMostSteep = 90.0;        // degrees
-constexpr double kMostAngle = 1e6;         // degrees: beyond, the angle is lost in rounding
+constexpr double kDefaultSafe = 0.5;      // diameters above the highest point
+constexpr double kLeastSpindle = 0.5;     // revolutions a minute: printed as a whole number
+constexpr double kLargestOfPart = 100.0;  // sizes of it: to such cutters all that is seen is flat
+constexpr double kSteepestRamp = 90.0;    // degrees
+constexpr double kMostSteep = 90.0;       // degrees
+constexpr double kMostAngle = 1e6;        // degrees: beyond, the angle is lost in rounding
 
 Result<void> refuse(std::string what, double value, std::string hint = "") {
   return error(ErrorCode::kBadOption, std::move(what)).hint(std::move(hint)).value(value);
@@ -116,9 +115,19 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   }
   for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
     if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
+    if (feed && (*feed < exchange::kLeastFeed || *feed > exchange::kGreatestFeed)) {
+      return refuse("no machine has such a feed", *feed, "0.001 to 10,000,000 a minute");
+    }
   }
-  if (o.acceleration && !(positive(*o.acceleration) && *o.acceleration >= kLeastAcceleration)) {
+  if (o.acceleration &&
+      !(positive(*o.acceleration) && *o.acceleration >= exchange::kLeastAcceleration)) {
     return refuse("the acceleration must be at least 0.001 mm/s^2", *o.acceleration);
+  }
+  if (o.acceleration && *o.acceleration > exchange::kGreatestAcceleration) {
+    return refuse("no machine has such an acceleration", *o.acceleration, "at most 1e7 mm/s^2");
+  }
+  if (o.safe_z && std::abs(*o.safe_z) > exchange::kLongestWay) {
+    return refuse("no machine is so high", *o.safe_z, "check the unit of the surface");
   }
   if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {
     return refuse("the allowance must not be less than 0", o.allowance);
@@ -316,17 +325,28 @@ Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
   return out;
 }
 
+/// Lengths that have nothing to do with the part: of another unit, most likely.
+Result<void> check_against_part(const SurfaceModel& model, const ToolpathOptions& o) {
+  struct Given {
+    const char* what;
+    double length;
+  };
+  const double size = size_of(model);
+  for (const auto& [what, length] :
+       {Given{"the cutter", o.cutter.diameter}, Given{"the allowance", o.allowance},
+        Given{"the earlier cutter", o.earlier ? o.earlier->diameter : 0.0}}) {
+    if (length <= kLargestOfPart * size) continue;
+    return refuse(fmt::format("{} is more than a hundred times as large as the part", what), length,
+                  "give lengths in units of the surface");
+  }
+  return {};
+}
+
 Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& options,
                          const CutterShape& cutter, const RunContext& run) {
+  OBVID_TRY(check_against_part(model, options));
   const auto part = Part::make(model, cutter, options.tolerance, options.allowance, run);
   OBVID_TRY(part);
-  const double size = norm(part->field().high() - part->field().low());
-  if (options.earlier && !(options.earlier->diameter <= kLargestEarlier * size)) {
-    return error(ErrorCode::kBadOption,
-                 "the earlier cutter is more than a hundred times as large as the part")
-        .hint("give its diameter in units of the surface")
-        .value(options.earlier->diameter);
-  }
   Toolpath out = begun(model, options);
   const bool rough = options.strategy == ToolpathStrategy::kRough;
   double top = part->field().high().z + options.allowance;

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,7 +16,7 @@ TOOLS = pathlib.Path(__file__).resolve().parent.parent.parent / "tools"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(TOOLS))
 
-from acceptance_sets import (cases, cutting, geometry, judging, matching, plates, profiles,  # noqa: E402
+from acceptance_sets import (cases, controller, cutting, geometry, judging, matching, plates, profiles,  # noqa: E402
                              roads, rounding, running, scans, sections, tracks, transitions)
 from acceptance_sets.controller import Controller  # noqa: E402
 
@@ -50,6 +51,18 @@ def contour_of(pieces, points=(), closed=False):
 
 
 ROAD = ((60.0, 0, 0), (40.0, 0, 0.01), (50.0, 0.01, 0.01), (40.0, 0.01, 0), (60.0, 0, 0))
+
+
+class Programs(unittest.TestCase):
+    def test_the_judge_of_programs_allows_the_turn_that_is_planned(self):
+        header = (TOOLS.parent / "include/obvid/exchange/internal/gcode/path.h").read_text(encoding="utf-8")
+        self.assertEqual(float(re.search(r"kMostBlockTurn = ([\d.]+);", header)[1]), controller.MOST_BLOCK_TURN)
+
+    def test_a_sliver_that_turns_almost_around_is_refused(self):
+        head = "G21\nG90\nG17\nM3 S1\nG0 X0 Y0\n"
+        Controller(head + "G3 X-20.0000 Y0.0000 I-10.0000 J0.0000 F100\n", burns=True)
+        with self.assertRaises(AssertionError):
+            Controller(head + "G3 X0.0000 Y-0.1500 I-10.0000 J0.0000 F100\n", burns=True)
 
 
 class Geometry(unittest.TestCase):

@@ -9,7 +9,7 @@ GAUSS = [(0.0, 128 / 225), *((s * math.sqrt(5 - 2 * math.sqrt(10 / 7)) / 3, (322
          *((s * math.sqrt(5 + 2 * math.sqrt(10 / 7)) / 3, (322 - 13 * math.sqrt(70)) / 900) for s in (1, -1))]
 WORD = re.compile(r"([A-Z])([-+]?\d*\.?\d+)")
 
-ROUNDED_ENDS = 0.002  # mm, of an arc: both ends are printed with three decimals or more
+MOST_BLOCK_TURN = 3.15  # rad: half a turn and half a degree; blocks that are planned turn no more
 
 
 class Move:
@@ -80,6 +80,7 @@ class Controller:
 
     def __init__(self, text, burns=False, splines=False):
         self.moves, self.codes, self.dwells = [], [], []
+        places = 0  # decimals of ends
         at, feed, motion, spins = [0.0, 0.0, 0.0 if burns else None], None, None, False
         for line in text.splitlines():
             assert len(line) <= (255 if splines else 80), line  # LINELEN of LinuxCNC, buffer of grbl
@@ -105,6 +106,7 @@ class Controller:
                     feed = value
                 elif letter in "XYZ":
                     ends["XYZ".index(letter)] = value
+                    places = len(re.search(letter + r"[-+]?\d*\.?(\d*)", line)[1]) if letter != "Z" else places
                 elif letter in "IJ":
                     ij["IJ".index(letter)] = value
                 elif letter in "PQ" and motion == 5:
@@ -133,7 +135,9 @@ class Controller:
                 move = Move(motion, tuple(at), tuple(end), centre, feed, spins, inner)
                 if centre:  # grbl: 0.005 mm and 0.1 %; LinuxCNC and others are looser
                     assert abs(move.radius - move.end_radius) <= 0.002, line
-                    # half a turn but for rounded ends; a sliver that points the wrong way turns almost around
-                    assert abs(move.turn) <= math.pi + 0.01 + ROUNDED_ENDS / move.radius, line
+                    # both ends are rounded by half a last digit of x and y; a sliver that points the wrong
+                    # way turns almost around
+                    rounded = math.sqrt(2) * 10.0 ** -places / move.radius
+                    assert abs(move.turn) <= MOST_BLOCK_TURN + rounded, line
                 self.moves.append(move)
             at = end

@@ -12,8 +12,8 @@ import collections
 import json
 import math
 import random
+import resource
 import subprocess
-import time
 
 from . import geometry, plates, tables
 from .cases import Case
@@ -23,7 +23,8 @@ TOLERANCE, INCHES = 0.01, 0.0005  # mm, in: farthest that a program may be from 
 COMPENSATION = 1e-6  # units: of lines and arcs
 DEPTH = 6.0
 PARTS_OF_SIZE = 100  # of a public drawing's diagonal: diameter of its cutter
-SECONDS_AT_MOST = 300
+SECONDS_AT_MOST = 120  # of processor time, whatever else the machine does
+PATIENCE = 20  # of the clock, times that
 RANDOM_PLATES = 6
 ROUGH = 0.05  # tolerances: what sampling outlines and ways for distances may cost
 MOST_PLACES = 20000  # of a way or of outlines that are looked at
@@ -89,9 +90,8 @@ def converted_outlines(path, program, work, exact):
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("*.json"):
         old.unlink()
-    subprocess.run([program, "convert", str(path), "--curve", "all", "-o", str(folder / "{id}.json"), "-q",
-                    "--drawing", "exact" if exact else "auto"],
-                   capture_output=True, timeout=SECONDS_AT_MOST, check=False)
+    started([program, "convert", str(path), "--curve", "all", "-o", str(folder / "{id}.json"), "-q",
+             "--drawing", "exact" if exact else "auto"])
     contours = [json.loads(one.read_text()) for one in sorted(folder.glob("*.json"))]
     return [(c["pieces"], c["closed"]) for c in contours]
 
@@ -203,13 +203,24 @@ def milled(outlines, program, radius, tolerance):
 
 
 # ------------------------------------------------------------------------------------------ runs
+def limited():
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS_AT_MOST, SECONDS_AT_MOST))
+
+
+def started(command):
+    """A program that is ended after so much processor time: then its code is that of the signal."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE * SECONDS_AT_MOST, check=False,
+                          preexec_fn=limited)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return done, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
 def call(case, program, arguments, output):
     output.unlink(missing_ok=True)
-    begin = time.perf_counter()
-    done = subprocess.run([program, "cut", str(case.path), *arguments, "-o", str(output), "--json"], capture_output=True,
-                          text=True, timeout=SECONDS_AT_MOST, check=False)
+    done, seconds = started([program, "cut", str(case.path), *arguments, "-o", str(output), "--json"])
     outcome = {"name": case.name, "group": case.group, "tolerance": case.tolerance, "exit": done.returncode,
-               "error": "", "text": "", "process_seconds": time.perf_counter() - begin}
+               "error": "", "text": "", "process_seconds": seconds}
     if done.returncode != 0:
         line = next((s for s in done.stderr.splitlines() if s.startswith("obvid: error")), "")
         outcome["error"], _, outcome["text"] = line.removeprefix("obvid: error ").partition(": ")

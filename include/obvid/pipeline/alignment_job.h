@@ -89,11 +89,11 @@ struct AlignmentReport {
 
 /// Station, offset (to the left positive) and coordinates of each point; with a profile also height
 /// and its offset (upwards positive), those of a file in rows of their own.
-[[nodiscard]] std::string deviations_csv(const AlignmentReport& report,
-                                         const std::vector<Vec2>& points);
+[[nodiscard]] DataTable deviation_rows(const AlignmentReport& report,
+                                       const std::vector<Vec2>& points);
 /// Grades and vertical curves: station, length, height, grades in percent, radius, and where the
 /// grades meet.
-[[nodiscard]] std::string profile_csv(const VerticalProfile& profile);
+[[nodiscard]] DataTable profile_rows(const VerticalProfile& profile);
 
 /// Curve, curvature, speed and heights over the station as one SVG file.
 [[nodiscard]] std::string alignment_picture(const AlignmentReport& report);

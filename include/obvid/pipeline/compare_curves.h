@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/pipeline/fit.h"
@@ -66,7 +67,7 @@ struct CurveInput {
                                                      const RunContext& run = {});
 
 /// One row for each place: where it is, and how far each other curve is from it.
-[[nodiscard]] std::string curves_csv(const CurveComparison& compared);
+[[nodiscard]] DataTable curves_rows(const CurveComparison& compared);
 /// Figures of all curves and deviations; docs/formats.md.
 [[nodiscard]] std::string curves_json(const CurveComparison& compared);
 /// The curves over each other, deviations enlarged, and plotted below. `enlarge`: by how much;

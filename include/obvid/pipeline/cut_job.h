@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/cutting/cutting.h"
@@ -43,7 +44,7 @@ struct MadeCut {
 [[nodiscard]] std::string cut_json(const MadeCut& made);
 
 /// A row for each outline that is cut, in the order of the program, with all digits.
-[[nodiscard]] std::string cut_csv(const MadeCut& made);
+[[nodiscard]] DataTable cut_rows(const MadeCut& made);
 
 /// Names as they are typed. Errors: E203.
 struct CutValues {

@@ -7,6 +7,7 @@
 
 #include "obvid/alignment/alignment.h"
 #include "obvid/alignment/profile.h"
+#include "obvid/core/internal/data_table.h"
 #include "obvid/curve/contour.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/pipeline/audit.h"
@@ -35,8 +36,8 @@ struct SpeedLimit {
 
 /// The table of elements: kind, station, length, radii, clothoid parameter, azimuth, coordinates,
 /// and speeds where there is a limit. Radii are positive to the left, empty where it is straight.
-[[nodiscard]] std::string elements_csv(const std::vector<AlignmentElement>& elements,
-                                       const std::optional<SpeedLimit>& limit = {});
+[[nodiscard]] DataTable element_rows(const std::vector<AlignmentElement>& elements,
+                                     const std::optional<SpeedLimit>& limit = {});
 /// An array of objects; angles in rad, lengths in units, curvatures in 1/unit, speeds in km/h.
 void add_elements(JsonText& json, const std::vector<AlignmentElement>& elements,
                   const std::optional<SpeedLimit>& limit = {});

@@ -21,6 +21,12 @@
 namespace obvid {
 
 /// Choices of the formats. Lengths in units of the contour.
+/// What was said while a contour was made: .html pages say it too.
+struct ToldBeside {
+  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
+};
+
 struct ExportOptions {
   std::string name = "contour";  ///< of the curve, where a format has a place for it
   double first_station = 0.0;    ///< of the start, units of the contour; of LandXML
@@ -29,7 +35,8 @@ struct ExportOptions {
   std::vector<PlacedTransition> transitions{};  ///< what clothoids stand for; of LandXML
   PictureTitles picture{};                      ///< of .svg pictures
   PicturePlots plots{};                         ///< that .svg pictures have on request
-  std::string asked{};              ///< what .html pages say was asked for; empty: nothing
+  std::string asked{};  ///< what .html pages say was asked for; empty: nothing
+  ToldBeside told{};
   std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of the
                                     ///< size; of arcs and G-code 2e-5 of it, of G-code at least
                                     ///< 0.002 mm]

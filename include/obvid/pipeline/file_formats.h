@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "obvid/core/internal/file_ending.h"
+
 namespace obvid {
 
 /// Files that are written: pipeline/formats.inc, docs/formats.md. kContour is the file of a surface
@@ -14,9 +16,6 @@ enum class FileFormat {
 #include "obvid/pipeline/formats.inc"
 #undef OBVID_FORMAT
 };
-
-/// The ending of a file's name with its dot, in lower case: ".csv". Empty where there is none.
-[[nodiscard]] std::string ending_of(const std::string& path);
 
 /// Format of contours that a file's name has by its extension. Nothing where there is none.
 [[nodiscard]] std::optional<FileFormat> format_of(std::string_view path);

@@ -85,21 +85,31 @@ Centre centre_over(Wide x, Wide y, double above, int decimals) {
 
 }  // namespace
 
+namespace {
+
+/// Whether one arc from the start of the first is both, but for what rounding leaves of coordinates
+/// and directions: far from the origin that is more than of the arcs themselves.
+bool is_one_arc(const ArcPiece& first, const ArcPiece& second) {
+  constexpr double kSameCircle = 1e-10;  // of the length: what offsetting makes of rounding
+  constexpr double kRoundings = 64.0 * numeric::kUnitRoundoff;  // of coordinates
+  const double length = second.length;
+  const double turn = std::abs(first.kappa) * (first.length + length);
+  const double step = first.theta0 + first.kappa * first.length - second.theta0;
+  const double off = norm(first.end - second.start) +
+                     std::abs(std::remainder(step, kFullTurn)) * length +
+                     0.5 * std::abs(first.kappa - second.kappa) * length * length;
+  const double room = kSameCircle * length + kRoundings * (norm(second.start) + norm(second.end));
+  return off <= room && turn <= kFullTurn + std::abs(first.kappa) * room;
+}
+
+}  // namespace
+
 std::vector<Piece> whole_arcs(const std::vector<Piece>& pieces) {
-  constexpr double kSameCircle = 1e-12;  // of the curvature; rad: rounding
   std::vector<Piece> out;
   for (const Piece& piece : pieces) {
     auto* before = out.empty() ? nullptr : std::get_if<ArcPiece>(&out.back());
     const auto* behind = std::get_if<ArcPiece>(&piece);
-    const auto goes_on = [&] {
-      const double step = before->theta0 + before->kappa * before->length - behind->theta0;
-      const double turn = std::abs(before->kappa) * (before->length + behind->length);
-      return before->end == behind->start &&
-             std::abs(before->kappa - behind->kappa) <= kSameCircle * std::abs(before->kappa) &&
-             std::abs(std::remainder(step, kFullTurn)) <= kSameCircle &&
-             turn <= kFullTurn + kSameCircle;
-    };
-    if (before == nullptr || behind == nullptr || !goes_on()) {
+    if (before == nullptr || behind == nullptr || !is_one_arc(*before, *behind)) {
       out.push_back(piece);
       continue;
     }
@@ -107,6 +117,10 @@ std::vector<Piece> whole_arcs(const std::vector<Piece>& pieces) {
     before->length += behind->length;
   }
   return out;
+}
+
+std::size_t blocks_of_turn(double turn) {
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(turn / kMostBlockTurn)));
 }
 
 std::string fixed(double value, int decimals) {
@@ -160,10 +174,12 @@ void GcodePath::line(GridPlace end) {
 
 void GcodePath::follow_arc(const ArcPiece& arc_piece) {
   const double turn = std::abs(arc_piece.kappa * arc_piece.length);
-  const int parts = std::max(1, static_cast<int>(std::ceil(turn / kMostBlockTurn)));
-  for (int k = 1; k <= parts; ++k) {
+  const std::size_t blocks = blocks_of_turn(turn);
+  const auto parts = static_cast<double>(blocks);
+  for (std::size_t i = 1; i <= blocks; ++i) {
+    const auto k = static_cast<double>(i);
     const Vec2 middle = scale_ * evaluate(arc_piece, (k - 0.5) / parts).point;
-    const Vec2 end = evaluate(arc_piece, static_cast<double>(k) / parts).point;
+    const Vec2 end = evaluate(arc_piece, k / parts).point;
     arc(middle, printed(scale_ * end), arc_piece.kappa > 0.0);
   }
 }

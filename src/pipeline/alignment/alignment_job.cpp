@@ -234,27 +234,21 @@ std::string alignment_picture(const AlignmentReport& report) {
   return alignment_svg(report.stored, {report.name, alignment_verdict(report)}, diagram);
 }
 
-std::string deviations_csv(const AlignmentReport& report, const std::vector<Vec2>& points) {
-  std::string out =
-      report.profile ? "station,offset,x,y,height,height_offset\n" : "station,offset,x,y\n";
+DataTable deviation_rows(const AlignmentReport& report, const std::vector<Vec2>& points) {
+  DataTable out{
+      heads_of(report.profile ? "station,offset,x,y,height,height_offset" : "station,offset,x,y")};
   const bool beside = report.profile && report.profile->of_points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const AlignmentDeviation& d = report.alignment.deviations[i];
-    out += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}", d.station, d.offset, points[i].x,
-                       points[i].y);
-    if (beside) {
-      out += fmt::format(",{:.17g},{:.17g}", report.profile->heights[i].y,
-                         report.profile->profile.offsets[i]);
-    } else if (report.profile) {
-      out += ",,";
-    }
-    out += '\n';
+    out.rows.push_back({d.station, d.offset, points[i].x, points[i].y});
+    if (!beside) continue;
+    out.rows.back().emplace_back(report.profile->heights[i].y);
+    out.rows.back().emplace_back(report.profile->profile.offsets[i]);
   }
   if (!report.profile || beside) return out;
   for (std::size_t i = 0; i < report.profile->heights.size(); ++i) {
     const Vec2 at = report.profile->heights[i];
-    out +=
-        fmt::format("{:.17g},,,,{:.17g},{:.17g}\n", at.x, at.y, report.profile->profile.offsets[i]);
+    out.rows.push_back({at.x, {}, {}, {}, at.y, report.profile->profile.offsets[i]});
   }
   return out;
 }

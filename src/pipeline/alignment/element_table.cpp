@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/element_table.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,9 +13,7 @@
 namespace obvid {
 namespace {
 
-std::string radius_cell(double kappa) {
-  return kappa == 0.0 ? "" : fmt::format("{:.17g}", 1.0 / kappa);
-}
+DataCell radius_cell(double kappa) { return kappa == 0.0 ? DataCell() : DataCell(1.0 / kappa); }
 
 std::optional<AlignmentKind> kind_of_element(const Piece& piece) {
   if (std::holds_alternative<LinePiece>(piece)) return AlignmentKind::kLine;
@@ -76,21 +72,16 @@ std::optional<double> speed_kmh(const AlignmentElement& element, const SpeedLimi
   return kKmhPerMs * std::sqrt(limit.acceleration * limit.metres / kappa);
 }
 
-std::string elements_csv(const std::vector<AlignmentElement>& elements,
-                         const std::optional<SpeedLimit>& limit) {
-  std::string out = "kind,station,length,radius_start,radius_end,A,azimuth_deg,x,y";
-  out += limit ? ",speed_kmh\n" : "\n";
+DataTable element_rows(const std::vector<AlignmentElement>& elements,
+                       const std::optional<SpeedLimit>& limit) {
+  DataTable out{heads_of("kind,station,length,radius_start,radius_end,A,azimuth_deg,x,y")};
+  if (limit) out.heads.emplace_back("speed_kmh");
   for (const AlignmentElement& e : elements) {
     const double parameter = clothoid_parameter(e);
-    out += fmt::format("{},{:.17g},{:.17g},{},{},{},{:.17g},{:.17g},{:.17g}", to_string(e.kind),
-                       e.station, e.length, radius_cell(e.start.kappa), radius_cell(e.kappa1),
-                       parameter > 0.0 ? fmt::format("{:.17g}", parameter) : "",
-                       azimuth_deg(e.start.theta), e.start.point.x, e.start.point.y);
-    if (limit) {
-      const auto speed = speed_kmh(e, *limit);
-      out += speed ? fmt::format(",{:.17g}", *speed) : ",";
-    }
-    out += '\n';
+    out.rows.push_back({to_string(e.kind), e.station, e.length, radius_cell(e.start.kappa),
+                        radius_cell(e.kappa1), parameter > 0.0 ? DataCell(parameter) : DataCell(),
+                        azimuth_deg(e.start.theta), e.start.point.x, e.start.point.y});
+    if (limit) out.rows.back().emplace_back(speed_kmh(e, *limit));
   }
   return out;
 }

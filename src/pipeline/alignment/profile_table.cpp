@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "alignment/profile_table.h"
 
-#include <fmt/format.h>
-
 namespace obvid {
 
-std::string profile_csv(const VerticalProfile& profile) {
-  std::string out =
-      "kind,station,length,height,grade_start_percent,grade_end_percent,radius,pvi_station,"
-      "pvi_height\n";
+DataTable profile_rows(const VerticalProfile& profile) {
+  constexpr double kPercent = 100.0;
+  DataTable out{
+      heads_of("kind,station,length,height,grade_start_percent,grade_end_percent,radius,"
+               "pvi_station,pvi_height")};
   for (const ProfileElement& e : profile.elements) {
-    out += fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", to_string(e.kind), e.station,
-                       e.length, e.height, 100.0 * e.grade0, 100.0 * e.grade1);
-    if (e.kind == ProfileKind::kGrade) {
-      out += ",,,\n";
-      continue;
-    }
+    out.rows.push_back({to_string(e.kind), e.station, e.length, e.height, kPercent * e.grade0,
+                        kPercent * e.grade1});
+    if (e.kind == ProfileKind::kGrade) continue;
     const Vec2 meeting = grades_meet(e, profile.curves);
-    out += fmt::format(",{:.17g},{:.17g},{:.17g}\n", e.radius, meeting.x, meeting.y);
+    for (const double figure : {e.radius, meeting.x, meeting.y}) {
+      out.rows.back().emplace_back(figure);
+    }
   }
   return out;
 }

@@ -218,16 +218,13 @@ std::string cut_json(const MadeCut& made) {
   return json.take();
 }
 
-std::string cut_csv(const MadeCut& made) {
-  std::string out = "order,curve,outline,tool,closed,start_x,start_y,length,left_in_corners\n";
-  std::size_t order = 0;
+DataTable cut_rows(const MadeCut& made) {
+  DataTable out{heads_of("order,curve,outline,tool,closed,start_x,start_y,length,left_in_corners")};
   for (const CutStep& step : made.program.steps) {
-    std::string name = made.outlines[step.outline].name;
-    std::replace(name.begin(), name.end(), '"', '\'');
-    out += fmt::format("{},{},\"{}\",{},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", ++order,
-                       made.curves[step.outline] + 1, name, to_string(step.side),
-                       step.closed ? "yes" : "no", step.start.x, step.start.y, step.length,
-                       step.left_in_corners);
+    out.rows.push_back({out.rows.size() + 1, made.curves[step.outline] + 1,
+                        made.outlines[step.outline].name, to_string(step.side),
+                        step.closed ? "yes" : "no", step.start.x, step.start.y, step.length,
+                        step.left_in_corners});
   }
   return out;
 }

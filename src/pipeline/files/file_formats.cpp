@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
 #include <utility>
 
 #include "files/format_writers.h"
@@ -41,26 +38,9 @@ std::string_view first_of(const FormatRow& row) {
   return all.substr(0, all.find(' '));
 }
 
-bool has_ending(const FormatRow& row, std::string_view path) {
-  std::string_view rest = row.endings;
-  while (!rest.empty()) {
-    const std::string_view one = rest.substr(0, rest.find(' '));
-    if (path.ends_with(one)) return true;
-    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
-  }
-  return false;
-}
-
-std::string in_lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 std::optional<FileFormat> format_in_table(std::string_view path, What what) {
-  const std::string lower = in_lower_case(std::string(path));
   for (const FormatRow& row : kFormats) {
-    if (*(row.*what) != '\0' && has_ending(row, lower)) return row.format;
+    if (*(row.*what) != '\0' && has_ending(path, row.endings)) return row.format;
   }
   return std::nullopt;
 }
@@ -83,10 +63,6 @@ Error not_held_by_format() {
 }  // namespace pipeline_detail
 
 using pipeline_detail::FormatRow;
-
-std::string ending_of(const std::string& path) {
-  return pipeline_detail::in_lower_case(std::filesystem::path(path).extension().string());
-}
 
 std::optional<FileFormat> format_of(std::string_view path) {
   return pipeline_detail::format_in_table(path, &FormatRow::contour);

@@ -5,18 +5,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "obvid/core/internal/shown_text.h"
 #include "obvid/core/version.h"
-#include "obvid/pipeline/internal/job_values.h"
 
 namespace obvid {
 namespace {
 
 constexpr std::size_t kMostRows = 1000;
-constexpr std::size_t kPageDigits = 10;
+constexpr int kPageDigits = 10;
 
 constexpr const char* kPageStyle = R"(<style>
 :root { color-scheme: light dark; --ink: #1c2733; --faint: #5b6773; --paper: #fff; --line: #d5dbe1; --good: #1a7f37; --bad: #c62828; }
@@ -28,6 +26,7 @@ caption { text-align: left; font-weight: 600; font-size: 1.15em; padding: 1em 0 
 th, td { text-align: left; padding: .2em 1.5em .2em 0; border-bottom: 1px solid var(--line); vertical-align: top; font-weight: normal; }
 th { color: var(--faint); }
 .numbers th, .numbers td { text-align: right; }
+#warnings { color: var(--bad); }
 #verdict { font-weight: 600; }
 #verdict.kept { color: var(--good); }
 #verdict.broken { color: var(--bad); }
@@ -40,40 +39,16 @@ std::string figure_row(const std::string& label, const std::string& value) {
                      escaped_xml(value));
 }
 
-/// Cells of a line; those in quotation marks may hold commas, and quotation marks twice.
-std::vector<std::string> cells_of(std::string_view line) {
-  std::vector<std::string> out = {""};
-  bool quoted = false;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    const char c = line[k];
-    if (c == '"' && quoted && k + 1 < line.size() && line[k + 1] == '"') {
-      out.back() += line[++k];
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      out.emplace_back();
-    } else {
-      out.back() += c;
-    }
-  }
-  return out;
+std::string list_of(const char* id, const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return {};
+  std::string out = fmt::format("<ul id=\"{}\">\n", id);
+  for (const std::string& one : sentences) out += "<li>" + escaped_xml(one) + "</li>\n";
+  return out + "</ul>\n";
 }
 
-std::string cell_text(const std::string& cell) {
-  if (cell.empty()) return "-";
-  // what is short, or has no fraction, is as it was meant: names such as 9.10 and 20240131
-  const bool figure = cell.size() > kPageDigits && cell.find_first_of(".eE") != std::string::npos;
-  const auto number = figure ? obvid::typed_number(cell) : std::nullopt;
-  if (!number || !std::isfinite(*number)) return escaped_xml(cell);
-  return fmt::format("{:.{}g}", *number, kPageDigits);
-}
-
-std::string row_text(std::string_view line, const char* tag) {
-  std::string out = "<tr>";
-  for (const std::string& cell : cells_of(line)) {
-    out += fmt::format("<{}>{}</{}>", tag, cell_text(cell), tag);
-  }
-  return out + "</tr>\n";
+std::string cell_text(const DataCell& cell) {
+  const std::string text = cell.text(kPageDigits);
+  return text.empty() ? "-" : escaped_xml(text);
 }
 
 }  // namespace
@@ -85,20 +60,27 @@ std::string figures_of_page(const ReportPage::Figures& figures) {
          "</tbody></table>\n";
 }
 
-std::string table_of_csv(std::string_view id, std::string_view caption, std::string_view csv) {
-  std::vector<std::string_view> lines;
-  while (!csv.empty()) {
-    const auto end = std::min(csv.find('\n'), csv.size());
-    if (end > 0) lines.push_back(csv.substr(0, end));
-    csv.remove_prefix(std::min(end + 1, csv.size()));
-  }
-  if (lines.size() < 2) return {};
-  const std::size_t shown = std::min(lines.size() - 1, kMostRows);
+std::string table_of_page(std::string_view id, std::string_view caption, const DataTable& table) {
+  if (table.rows.empty()) return {};
+  const std::size_t shown = std::min(table.rows.size(), kMostRows);
   std::string out = fmt::format("<table id=\"{}\" class=\"numbers\"><caption>{}", id,
                                 escaped_xml(std::string(caption)));
-  if (shown < lines.size() - 1) out += fmt::format(", the first {} of {}", shown, lines.size() - 1);
-  out += "</caption>\n<thead>" + row_text(lines.front(), "th") + "</thead>\n<tbody>\n";
-  for (std::size_t k = 1; k <= shown; ++k) out += row_text(lines[k], "td");
+  if (shown < table.rows.size()) {
+    out += fmt::format(", the first {} of {}", shown, table.rows.size());
+  }
+  out += "</caption>\n<thead><tr>";
+  for (const std::string& head : table.heads) {
+    out += fmt::format("<th>{}</th>", cell_text(head));
+  }
+  out += "</tr>\n</thead>\n<tbody>\n";
+  for (std::size_t k = 0; k < shown; ++k) {
+    out += "<tr>";
+    const DataRow& row = table.rows[k];
+    for (std::size_t c = 0; c < table.heads.size(); ++c) {
+      out += fmt::format("<td>{}</td>", cell_text(c < row.size() ? row[c] : DataCell{}));
+    }
+    out += "</tr>\n";
+  }
   return out + "</tbody></table>\n";
 }
 
@@ -111,9 +93,11 @@ std::string page_text(const ReportPage& page) {
   constexpr std::array kClasses = {"", " class=\"kept\"", " class=\"broken\""};
   out += fmt::format("<p id=\"verdict\"{}>{}</p>\n", kClasses[static_cast<std::size_t>(page.kind)],
                      escaped_xml(page.verdict));
+  out += list_of("warnings", page.warnings);
   for (const std::string& picture : page.pictures) out += picture;
   out += figures_of_page(page.figures);
   for (const std::string& table : page.tables) out += table;
+  out += list_of("notes", page.notes);
   return out + fmt::format("<footer>Obvid {}</footer>\n</body>\n</html>\n", kVersion);
 }
 

@@ -13,6 +13,7 @@
 #include "files/format_writers.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/core/units.h"
+#include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/promise.h"
@@ -24,78 +25,20 @@ constexpr std::size_t kMostSegments = 1000;  // rows of the table
 
 using Figures = ReportPage::Figures;
 
-std::string length_text(double value, const Contour& contour) {
-  return std::isnan(value) ? "unknown" : significant(value, 4) + " " + contour.units.text();
-}
-
-Figures contour_rows(const Contour& contour) {
-  Figures out;
-  out.emplace_back("contour",
-                   fmt::format("{}, {} through {} in {}", contour.closed ? "closed" : "open",
-                               counted(contour.pieces.size(), "piece", "pieces"),
-                               counted(contour.points.size(), "point", "points"),
-                               counted(contour.runs.size(), "run", "runs")));
-  out.emplace_back("carrier", to_string(contour.carrier));
-  out.emplace_back("lengths in", contour.units.text());
-  return out;
-}
-
-Figures gap_rows(const Contour& contour, const Certificate& certificate) {
-  Figures out;
-  out.emplace_back("joint gaps", gaps_text(contour.carrier, certificate.gaps));
+/// Of a contour without a report: what is seen in it.
+Figures seen_figures(const StoredContour& stored) {
+  const Contour& contour = stored.contour;
+  Figures out = {{"contour", fmt::format("{} through {} in {}",
+                                         counted(contour.pieces.size(), "piece", "pieces"),
+                                         counted(contour.points.size(), "point", "points"),
+                                         counted(contour.runs.size(), "run", "runs"))}};
+  if (!stored.certificate) return out;
+  const Certificate& certificate = *stored.certificate;
   if (certificate.corners > 0) out.emplace_back("corners", std::to_string(certificate.corners));
   if (certificate.self_intersections > 0) {
     out.emplace_back("self-intersections", std::to_string(certificate.self_intersections));
   }
-  return out;
-}
-
-Figures fairness_rows(const FitReport& report) {
-  Figures out;
-  out.emplace_back("vertices", fmt::format("{} ({})", report.vertices,
-                                           vertex_bound_text(report.vertices_lower_bound)));
-  out.emplace_back("inflections", std::to_string(report.inflections));
-  if (report.waviness) {
-    out.emplace_back("waviness", fmt::format("{} hills of the slope of curvature on a run",
-                                             significant(*report.waviness, 4)));
-  }
-  return out;
-}
-
-Figures accuracy_rows(const Contour& contour, const FitReport& report) {
-  Figures out;
-  if (report.largest_move > 0.0) {
-    out.emplace_back("largest move of a point", length_text(report.largest_move, contour));
-  }
-  if (promises_monotone(contour.carrier)) {
-    out.emplace_back("largest width of the region",
-                     fmt::format("{} (tolerance {})", length_text(report.largest_width, contour),
-                                 significant(report.tolerance, 4)));
-    out.emplace_back("largest error with these tangents and curvatures",
-                     length_text(report.largest_deviation, contour));
-    out.emplace_back("bound needed",
-                     counted(report.inserted_points, "inserted element", "inserted elements"));
-  }
-  if (report.carrier_deviation) {
-    out.emplace_back("from the spirals, as measured",
-                     length_text(*report.carrier_deviation, contour));
-  }
-  return out;
-}
-
-Figures given_rows(const GivenReport& given) {
-  Figures out;
-  if (given.headings + given.heading_ranges > 0) {
-    out.emplace_back("given headings met",
-                     fmt::format("{}; largest miss {} rad", given.headings + given.heading_ranges,
-                                 significant(given.heading_miss, 2)));
-  }
-  if (given.curvatures + given.curvature_ranges > 0) {
-    out.emplace_back("given radii met", fmt::format("{}; largest miss {} of the curvature",
-                                                    given.curvatures + given.curvature_ranges,
-                                                    significant(given.curvature_miss, 2)));
-  }
-  if (given.corners > 0) out.emplace_back("given corners met", std::to_string(given.corners));
+  out.emplace_back("joint gaps", gaps_text(contour.carrier, certificate.gaps));
   return out;
 }
 
@@ -156,15 +99,15 @@ std::string lines_and_arcs_table(const Contour& contour) {
 }
 
 Figures figures_of_stored(const StoredContour& stored, const std::string& asked) {
-  Figures out = contour_rows(stored.contour);
-  const auto add = [&](Figures more) { out.insert(out.end(), more.begin(), more.end()); };
+  Figures out;
   if (!asked.empty()) out.emplace_back("asked for", asked);
-  if (stored.report) {
-    add(fairness_rows(*stored.report));
-    add(accuracy_rows(stored.contour, *stored.report));
-    add(given_rows(stored.report->given));
-  }
-  if (stored.certificate) add(gap_rows(stored.contour, *stored.certificate));
+  out.emplace_back("carrier", to_string(stored.contour.carrier));
+  out.emplace_back("closed", stored.contour.closed ? "yes" : "no");
+  out.emplace_back("lengths in", stored.contour.units.text());
+  const bool formed = stored.report && stored.certificate;
+  const Figures more = formed ? fit_figures(stored.contour, *stored.report, *stored.certificate)
+                              : seen_figures(stored);
+  out.insert(out.end(), more.begin(), more.end());
   return out;
 }
 
@@ -180,13 +123,17 @@ void set_verdict(const StoredContour& stored, const std::string& neutral, Report
       stored.certificate->proved ? ReportPage::Verdict::kKept : ReportPage::Verdict::kBroken;
 }
 
-std::string report_page(const ContourExport& e, const std::string& picture) {
+std::string report_page(const ContourExport& e, const std::string& picture, const Exported& notes) {
   const PictureTitles& titles = e.options.picture;
   ReportPage page;
   page.title = titles.name.empty() ? e.options.name : titles.name;
   set_verdict(e.stored, titles.verdict, page);
   page.pictures.push_back(picture);
   page.figures = figures_of_stored(e.stored, e.options.asked);
+  page.warnings = e.options.told.warnings;
+  page.warnings.insert(page.warnings.end(), notes.warnings.begin(), notes.warnings.end());
+  page.notes = e.options.told.remarks;
+  page.notes.insert(page.notes.end(), notes.remarks.begin(), notes.remarks.end());
   page.tables.push_back(lines_and_arcs_table(e.stored.contour));
   if (e.stored.report) page.tables.push_back(segments_table(*e.stored.report));
   return page_text(page);
@@ -200,9 +147,9 @@ Result<Exported> contour_as_report(const ContourExport& e) {
   OBVID_TRY(can_plot(e));
   const auto picture = picture_svg(e.stored, e.options.picture, e.options.plots, e.watch);
   Exported out;
-  out.files.push_back({"", report_page(e, picture)});
   out.remarks = notes->remarks;
   out.warnings = notes->warnings;
+  out.files.push_back({"", report_page(e, picture, out)});
   return out;
 }
 

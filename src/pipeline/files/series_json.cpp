@@ -9,7 +9,6 @@
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/internal/report_json.h"
-#include "obvid/pipeline/internal/summary.h"
 
 namespace obvid {
 namespace {
@@ -89,51 +88,49 @@ void add_given(JsonText& json, const PointSeries& series) {
   json.end_array();
 }
 
-std::string drawn_row(std::size_t number, const std::string& label, const std::string& layer,
-                      const DrawnFigures& f) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}", number, csv_cell(label), csv_cell(layer),
-                     csv_cell(f.kind), f.points, csv_cell(f.length), f.closed ? "yes" : "no",
-                     csv_cell(f.low.x), csv_cell(f.low.y), csv_cell(f.high.x), csv_cell(f.high.y));
+DataRow drawn_row(std::size_t number, const std::string& label, const std::string& layer,
+                  const DrawnFigures& f) {
+  return {number,  label,   layer,    f.kind,  f.points, f.length, f.closed ? "yes" : "no",
+          f.low.x, f.low.y, f.high.x, f.high.y};
 }
 
 }  // namespace
 
-std::string drawing_csv(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
-  std::string out =
-      "curve,name,layer,kind,points,length,closed,x_min,y_min,x_max,y_max,continuity,vertices,"
-      "visible_vertices,inflections,least_kappa,largest_kappa\n";
-  for (std::size_t i = 0; i < audits.size(); ++i) {
-    const CurveAudit& a = audits[i];
-    out += drawn_row(i + 1, a.label, a.layer, figures_of(a));
-    out += a.counted ? fmt::format(",{},{},{},{}", a.continuity, a.vertices, a.visible_vertices,
-                                   a.inflections)
-                     : fmt::format(",{},,,", a.continuity);
-    out += "," + csv_cell(a.least_kappa) + "," + csv_cell(a.largest_kappa) + "\n";
+DataTable drawing_rows(const Drawing& drawing, const std::vector<CurveAudit>& audits) {
+  DataTable out{
+      heads_of("curve,name,layer,kind,points,length,closed,x_min,y_min,x_max,y_max,continuity,"
+               "vertices,visible_vertices,inflections,least_kappa,largest_kappa")};
+  for (const CurveAudit& a : audits) {
+    DataRow& row =
+        out.rows.emplace_back(drawn_row(out.rows.size() + 1, a.label, a.layer, figures_of(a)));
+    row.emplace_back(a.continuity);
+    for (const int count : {a.vertices, a.visible_vertices, a.inflections}) {
+      row.emplace_back(a.counted ? DataCell(count) : DataCell());
+    }
+    row.push_back(finite_cell(a.least_kappa));
+    row.push_back(finite_cell(a.largest_kappa));
   }
-  for (std::size_t i = 0; i < drawing.series.size(); ++i) {
-    const PointSeries& series = drawing.series[i];
-    out += drawn_row(audits.size() + i + 1, series.name, series.layer, figures_of(series));
-    out += ",,,,,,\n";
+  for (const PointSeries& series : drawing.series) {
+    out.rows.push_back(
+        drawn_row(out.rows.size() + 1, series.name, series.layer, figures_of(series)));
   }
   return out;
 }
 
-std::string series_report_csv(const PointSeries& series, const Analysis& analysis) {
-  std::string out =
-      "point,x,y,adjacent_kappa,turning_deg,chord,heading_deg,direction,points_only_error\n";
+DataTable series_rows(const PointSeries& series, const Analysis& analysis) {
+  DataTable out{heads_of(
+      "point,x,y,adjacent_kappa,turning_deg,chord,heading_deg,direction,points_only_error")};
   for (std::size_t i = 0; i < analysis.circles.size(); ++i) {
     const bool end = i == 0 || i + 1 == analysis.circles.size();
-    out += fmt::format("{},{},{},{},{}", i + 1, series.points[i].x, series.points[i].y,
-                       end ? "" : csv_cell(analysis.circles[i].kappa),
-                       csv_cell(turning_at(analysis, i) / kOneDegree));
-    if (i >= analysis.chords.size()) {
-      out += ",,,,\n";
-      continue;
-    }
-    out += fmt::format(",{},{},{},{}\n", csv_cell(analysis.chords[i].length),
-                       csv_cell(analysis.chords[i].omega / kOneDegree),
-                       analysis.change[i] ? std::to_string(*analysis.change[i]) : "",
-                       csv_cell(analysis.points_only_error[i]));
+    DataRow& row =
+        out.rows.emplace_back(DataRow{i + 1, series.points[i].x, series.points[i].y,
+                                      end ? DataCell() : finite_cell(analysis.circles[i].kappa),
+                                      turning_at(analysis, i) / kOneDegree});
+    if (i >= analysis.chords.size()) continue;
+    row.emplace_back(analysis.chords[i].length);
+    row.emplace_back(analysis.chords[i].omega / kOneDegree);
+    row.emplace_back(analysis.change[i] ? DataCell(*analysis.change[i]) : DataCell());
+    row.push_back(finite_cell(analysis.points_only_error[i]));
   }
   return out;
 }

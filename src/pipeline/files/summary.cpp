@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/io/internal/json_text.h"
 
@@ -31,15 +32,6 @@ SummaryCell bound_cell(const char* name, int bound) { return {name, "", std::to_
 std::string code_text(const Error& error) {
   return fmt::format("E{}", static_cast<int>(error.code));
 }
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
-std::string csv_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 std::string summary_csv_head(const std::vector<SummaryCell>& cells) {
   std::string out = "input";

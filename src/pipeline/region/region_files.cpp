@@ -21,10 +21,6 @@
 namespace obvid {
 namespace {
 
-std::string csv_cell(std::optional<double> value) {
-  return value && !std::isnan(*value) ? fmt::format("{}", *value) : "";
-}
-
 /// Headings of a point by the turn in which its own lies between -180 and 180 degrees.
 struct Degrees {
   explicit Degrees(double heading) : shift(std::remainder(heading, kFullTurn) - heading) {}
@@ -47,30 +43,49 @@ std::pair<std::optional<double>, std::optional<double>> radii(
   return {least, greatest};
 }
 
-void add_csv(const RegionPart& part, const char* series, std::string& out) {
+/// Ranges of headings are known to this (`feasible_data`), rad: only what is farther is outside.
+constexpr double kRangeKnownTo = 1e-6;
+
+constexpr int kMarkedDigits = 10;
+constexpr const char* kOpenEnd = "*";  // of a range of headings, on pages
+
+/// Whether ends of ranges that nothing limits have their mark: on pages, where it is explained.
+enum class OpenEnds { kPlain, kMarked };
+
+void add_rows_of(const RegionPart& part, const char* series, OpenEnds ends, DataTable& out) {
+  const auto range_end = [ends](double degrees, bool open) {
+    if (ends == OpenEnds::kPlain) return DataCell(degrees);
+    return DataCell(DataCell(degrees).text(kMarkedDigits) + (open ? kOpenEnd : ""));
+  };
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const RegionPoint& p = part.points[i];
     const auto [least, greatest] = radii(p.curvatures);
     const Degrees degrees(p.theta);
-    out += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{}", series, p.inserted > 0 ? "inserted" : "point",
-        region_point_name(p), p.point.x, p.point.y, csv_cell(radius_of(p.adjacent_kappa)),
-        degrees(p.theta), p.theta_given ? "given" : "chosen",
-        csv_cell(p.headings ? std::optional(degrees(p.headings->low)) : std::nullopt),
-        csv_cell(p.headings ? std::optional(degrees(p.headings->high)) : std::nullopt),
-        csv_cell(least), csv_cell(greatest));
+    DataRow& cells = out.rows.emplace_back(DataRow{
+        series, p.inserted > 0 ? "inserted" : "point", region_point_name(p), p.point.x, p.point.y,
+        radius_of(p.adjacent_kappa), degrees(p.theta),
+        ends == OpenEnds::kMarked ? heading_came_by(p)
+                                  : std::string(p.theta_given ? "given" : "chosen"),
+        p.headings ? range_end(degrees(p.headings->low), p.headings->low_is_open) : DataCell(),
+        p.headings ? range_end(degrees(p.headings->high), p.headings->high_is_open) : DataCell(),
+        least, greatest});
     const auto row = std::find_if(part.rows.begin(), part.rows.end(),
                                   [i](const RegionRow& r) { return r.from == i; });
-    if (row == part.rows.end()) {
-      out += ",,,,,,,,,,,,,\n";
-      continue;
-    }
-    out += fmt::format(
-        ",{},{},{},{},{},{},{},{},{},{},{},{},{}\n", region_segment_name(part, *row),
-        csv_cell(row->chord), csv_cell(row->points_only_error), csv_cell(row->to_apex),
-        csv_cell(row->from_apex), csv_cell(row->lower_height), csv_cell(row->width),
-        csv_cell(row->apex_height), csv_cell(row->tangent_height), csv_cell(row->apex_gap),
-        csv_cell(row->tangent_gap), csv_cell(row->tangent_bound), csv_cell(row->spline_distance));
+    if (row == part.rows.end()) continue;
+    const DataRow segment = {region_segment_name(part, *row),
+                             row->chord,
+                             row->points_only_error,
+                             row->to_apex,
+                             row->from_apex,
+                             row->lower_height,
+                             row->width,
+                             row->apex_height,
+                             row->tangent_height,
+                             row->apex_gap,
+                             row->tangent_gap,
+                             row->tangent_bound,
+                             row->spline_distance};
+    cells.insert(cells.end(), segment.begin(), segment.end());
   }
 }
 
@@ -334,25 +349,87 @@ std::string region_segment_name(const RegionPart& part, const RegionRow& row) {
   return region_point_name(part.points[row.from]) + "-" + region_point_name(part.points[row.to]);
 }
 
-std::string region_csv(const RegionTable& table) {
-  std::string out =
-      "series,row,point,x,y,adjacent_radius,heading_deg,heading,heading_min_deg,heading_max_deg,"
-      "least_radius,greatest_radius,segment,chord,points_only_error,to_apex,from_apex,h,delta,H,Ht,"
-      "Delta,Delta_t,Delta_t_bound,f\n";
-  add_csv(table.user, "points", out);
-  if (table.refined) add_csv(*table.refined, "refined", out);
+std::string heading_came_by(const RegionPoint& point) {
+  if (point.inserted > 0) return "inserted";
+  std::string out = point.theta_given ? "given" : "chosen";
+  if (point.kappa_given) out += point.theta_given ? ", radius too" : ", radius given";
+  const auto beyond = [](double way, bool open) { return !open && way > kRangeKnownTo; };
+  const auto& range = point.headings;
+  const bool outside = range && (beyond(range->low - point.theta, range->low_is_open) ||
+                                 beyond(point.theta - range->high, range->high_is_open));
+  // on an arc there is one heading, and it is that
+  if (outside && range->low < range->high) out += ", OUTSIDE its range";
   return out;
 }
 
-std::string construction_csv(const RegionTable& table) {
-  if (!table.construction) return "";
-  std::string out = "segment";
-  for (const std::string& column : table.construction->columns) out += "," + column;
-  out += ",remark\n";
+std::vector<std::string> region_legend(const RegionTable& table) {
+  return {table.closed ? "range of headings: a curve that keeps all else that is given has none "
+                         "beyond; near the ends of the range there may be none that closes"
+                       : "range of headings: with each of them there is a curve that keeps all "
+                         "other given data",
+          "radii: with the headings of the table",
+          "T: where the tangents at points i and i+1 meet",
+          "h: height of the lower boundary above the chord, delta: width of the region, both over "
+          "the middle of the chord",
+          "H, Ht: height of the triangle of the neighbouring chords, of the tangents; Delta, Delta "
+          "t: the same above the lower boundary",
+          "f: of the cubic spline through the points from the farther boundary"};
+}
+
+FigureRows region_figures(const RegionPart& part, const Units& units) {
+  constexpr int kWidthDigits = 4;
+  double largest = 0.0;
+  std::size_t unknown = 0;
+  for (const RegionRow& row : part.rows) {
+    largest = std::max(largest, row.width.value_or(0.0));
+    if (!row.width) ++unknown;
+  }
+  FigureRows out = {{"largest delta", significant(largest, kWidthDigits) + " " + units.text()}};
+  if (unknown > 0) {
+    out.emplace_back("unknown",
+                     fmt::format("over {}, where a vertex or half a turn lies between points, or "
+                                 "where the headings leave no curve",
+                                 counted(unknown, "segment", "segments")));
+  }
+  const bool open = std::any_of(part.points.begin(), part.points.end(), [](const RegionPoint& p) {
+    return p.headings && (p.headings->low_is_open || p.headings->high_is_open);
+  });
+  if (open) {
+    out.emplace_back(kOpenEnd,
+                     "nothing ends the range there: told up to a right angle from the chord at an "
+                     "end of the series, up to half a turn between points elsewhere");
+  }
+  return out;
+}
+
+namespace {
+
+DataTable rows_of_region(const RegionTable& table, OpenEnds ends) {
+  DataTable out{heads_of(
+      "series,row,point,x,y,adjacent_radius,heading_deg,heading,heading_min_deg,heading_max_deg,"
+      "least_radius,greatest_radius,segment,chord,points_only_error,to_apex,from_apex,h,delta,H,Ht,"
+      "Delta,Delta_t,Delta_t_bound,f")};
+  add_rows_of(table.user, "points", ends, out);
+  if (table.refined) add_rows_of(*table.refined, "refined", ends, out);
+  return out;
+}
+
+}  // namespace
+
+DataTable region_rows(const RegionTable& table) { return rows_of_region(table, OpenEnds::kPlain); }
+
+DataTable construction_rows(const RegionTable& table) {
+  DataTable out;
+  if (!table.construction) return out;
+  out.heads = {"segment"};
+  const auto& columns = table.construction->columns;
+  out.heads.insert(out.heads.end(), columns.begin(), columns.end());
+  out.heads.emplace_back("remark");
   for (const ConstructionRow& row : table.construction->rows) {
-    out += region_segment_name(table.last(), table.last().rows[row.segment]);
-    for (const double value : row.values) out += "," + csv_cell(value);
-    out += ",\"" + row.remark + "\"\n";
+    DataRow& cells = out.rows.emplace_back(
+        DataRow{region_segment_name(table.last(), table.last().rows[row.segment])});
+    cells.insert(cells.end(), row.values.begin(), row.values.end());
+    cells.emplace_back(row.remark);
   }
   return out;
 }
@@ -378,20 +455,33 @@ std::string drawn_wider(const RegionDrawing& drawing) {
 RegionFile region_page(const PointSeries& series, const RegionTable& table,
                        const std::string& asked) {
   const RegionDrawing drawing = region_drawing(series, table);
-  double widest = 0.0;
-  for (const RegionRow& row : table.last().rows) widest = std::max(widest, row.width.value_or(0.0));
+  const FigureRows figures = region_figures(table.last(), series.units);
   ReportPage page;
   page.title = series.name;
-  page.verdict = fmt::format("largest known width of the region {} {}", significant(widest, 4),
-                             series.units.text());
+  page.verdict = "largest known width of the region " + figures.front().second;
   page.pictures.push_back(sketch_svg(drawing.sketch));
   if (!asked.empty()) page.figures.emplace_back("asked for", asked);
   page.figures.emplace_back("lengths in", series.units.text());
   page.figures.emplace_back("points", std::to_string(series.points.size()));
   page.figures.emplace_back("picture", drawn_wider(drawing));
-  page.tables.push_back(
-      table_of_csv("region", "Points and the segments that begin there", region_csv(table)));
-  page.tables.push_back(table_of_csv("construction", "Construction", construction_csv(table)));
+  const FigureRows first = table.refined ? region_figures(table.user, series.units) : figures;
+  page.figures.insert(page.figures.end(), first.begin(), first.end());
+  if (table.refined) {
+    const std::size_t more = table.refined->points.size() - table.user.points.size();
+    page.figures.emplace_back("with more points",
+                              fmt::format("{} inserted", counted(more, "point", "points")));
+    page.figures.insert(page.figures.end(), figures.begin(), figures.end());
+  }
+  page.warnings = series.warnings;
+  page.warnings.insert(page.warnings.end(), table.warnings.begin(), table.warnings.end());
+  page.notes = region_legend(table);
+  if (table.construction) {
+    const auto& more = table.construction->remarks;
+    page.notes.insert(page.notes.end(), more.begin(), more.end());
+  }
+  page.tables.push_back(table_of_page("region", "Points and the segments that begin there",
+                                      rows_of_region(table, OpenEnds::kMarked)));
+  page.tables.push_back(table_of_page("construction", "Construction", construction_rows(table)));
   return {page_text(page), ""};
 }
 
@@ -408,7 +498,8 @@ Result<RegionFile> region_file(const std::string& ending, const PointSeries& ser
   std::transform(kind.begin(), kind.end(), kind.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (kind == "csv") {
-    return RegionFile{table.construction ? construction_csv(table) : region_csv(table), ""};
+    return RegionFile{csv_text(table.construction ? construction_rows(table) : region_rows(table)),
+                      ""};
   }
   if (kind == "tex") return RegionFile{region_latex(series, table), ""};
   if (kind == "json") {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "obvid/core/files.h"
+#include "obvid/core/internal/file_ending.h"
 #include "obvid/exchange/mesh_read.h"
 #include "obvid/io/internal/file_kind.h"
 #include "obvid/pipeline/import.h"
@@ -33,8 +34,7 @@ Result<PointCloud> cloud_of(const SurfaceInput& input) {
 bool holds_surface(const std::string& text, const std::string& name) {
   if (is_mesh(text, name)) return false;
   if (is_json_text(text)) return true;
-  const std::string ending = std::filesystem::path(name).extension().string();
-  return needs_cad(text) || ending == ".cpt" || ending == ".cptw";
+  return needs_cad(text) || has_ending(name, ".cpt .cptw");
 }
 
 }  // namespace obvid::pipeline_detail

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <string>
 
-#include "obvid/core/internal/format_into.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/picture/internal/overlay_svg.h"
 #include "obvid/pipeline/compare_curves.h"
-#include "obvid/pipeline/internal/summary.h"
 
 namespace obvid {
 namespace {
@@ -65,30 +61,27 @@ void add_deviations(JsonText& json, const char* key, const std::vector<CurveDevi
 
 }  // namespace
 
-std::string curves_csv(const CurveComparison& compared) {
-  std::string out = "s,x,y,normal_x,normal_y";
-  if (compared.airfoils) out += ",side,along_chord";
+DataTable curves_rows(const CurveComparison& compared) {
+  DataTable out{heads_of("s,x,y,normal_x,normal_y")};
+  if (compared.airfoils) out.heads.insert(out.heads.end(), {"side", "along_chord"});
   for (std::size_t k = 1; k < compared.curves.size(); ++k) {
-    out += "," + csv_cell("deviation of " + compared.curves[k].name);
+    out.heads.push_back("deviation of " + compared.curves[k].name);
   }
-  if (!compared.on_one_chord.empty()) {
-    for (std::size_t k = 1; k < compared.curves.size(); ++k) {
-      out += "," + csv_cell("on one chord of " + compared.curves[k].name);
+  for (std::size_t k = 1; !compared.on_one_chord.empty() && k < compared.curves.size(); ++k) {
+    out.heads.push_back("on one chord of " + compared.curves[k].name);
+  }
+  const auto& places = compared.as_they_lie.front().places;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const DeviationPlace& at = places[i];
+    DataRow& row =
+        out.rows.emplace_back(DataRow{at.s, at.point.x, at.point.y, at.normal.x, at.normal.y});
+    if (compared.airfoils) {
+      row.emplace_back(side_name(at));
+      row.emplace_back(at.along.value_or(0.0));
     }
-  }
-  out += "\n";
-  const auto& rows = compared.as_they_lie.front().places;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const DeviationPlace& at = rows[i];
-    format_into(out, "{},{},{},{},{}", at.s, at.point.x, at.point.y, at.normal.x, at.normal.y);
-    if (compared.airfoils) format_into(out, ",{},{}", side_name(at), at.along.value_or(0.0));
     for (const auto* all : {&compared.as_they_lie, &compared.on_one_chord}) {
-      for (const CurveDeviation& one : *all) {
-        out += ",";
-        if (const auto& away = one.places[i].deviation) format_into(out, "{}", *away);
-      }
+      for (const CurveDeviation& one : *all) row.emplace_back(one.places[i].deviation);
     }
-    out += "\n";
   }
   return out;
 }

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/exchange/internal/sketch.h"
+#include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/region_table.h"
 #include "obvid/series/point_series.h"
 
@@ -16,13 +19,21 @@ namespace obvid {
 /// "9-10", "9.1-10".
 [[nodiscard]] std::string region_segment_name(const RegionPart& part, const RegionRow& row);
 
+/// How the heading of a point came: "given", "chosen, radius given, OUTSIDE its range", ...
+[[nodiscard]] std::string heading_came_by(const RegionPoint& point);
+/// What the columns of the tables mean.
+[[nodiscard]] std::vector<std::string> region_legend(const RegionTable& table);
+/// What is told of a part as a whole: its largest width, where that is unknown, what "*" means
+/// where a range of headings has it.
+[[nodiscard]] FigureRows region_figures(const RegionPart& part, const Units& units);
+
 /// One row per point with the segment that begins there, lengths in units, angles in degrees, all
 /// digits; an empty cell where nothing is known. Inserted points follow in a second series, whose
 /// rows say `inserted`.
-[[nodiscard]] std::string region_csv(const RegionTable& table);
+[[nodiscard]] DataTable region_rows(const RegionTable& table);
 
 /// The construction's own table, one row per segment; empty without one.
-[[nodiscard]] std::string construction_csv(const RegionTable& table);
+[[nodiscard]] DataTable construction_rows(const RegionTable& table);
 
 /// The same as LaTeX tables (points, segments, the construction) for each series: plain `tabular`,
 /// four decimals of a length of millimetre size, as the papers print them.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "obvid/core/error.h"
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/exchange/drawing.h"
@@ -70,10 +71,9 @@ struct Written {
 /// says of the series that was asked for, if one was.
 /// Every curve and series of a drawing in a row with its figures, full digits, lengths in its
 /// units; curvatures and counts of curves alone.
-[[nodiscard]] std::string drawing_csv(const Drawing& drawing,
-                                      const std::vector<CurveAudit>& audits);
+[[nodiscard]] DataTable drawing_rows(const Drawing& drawing, const std::vector<CurveAudit>& audits);
 /// Every point of a series in a row with its adjacent circle and the chord behind it.
-[[nodiscard]] std::string series_report_csv(const PointSeries& series, const Analysis& analysis);
+[[nodiscard]] DataTable series_rows(const PointSeries& series, const Analysis& analysis);
 [[nodiscard]] std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& audits,
                                      const std::string& points);
 

@@ -31,11 +31,6 @@ struct Summary {
 /// "E401"
 [[nodiscard]] std::string code_text(const Error& error);
 
-/// A cell of CSV: in quotes where it has to be.
-[[nodiscard]] std::string csv_cell(const std::string& text);
-/// Empty where it is no finite number.
-[[nodiscard]] std::string csv_cell(double value);
-
 /// Names of the columns, and the line of one input below them.
 [[nodiscard]] std::string summary_csv_head(const std::vector<SummaryCell>& cells);
 [[nodiscard]] std::string summary_csv(const std::string& name, const Summary& summary);

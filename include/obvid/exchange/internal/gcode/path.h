@@ -13,9 +13,12 @@
 
 namespace obvid::exchange {
 
-/// Of one block, rad: half a turn and what rounding makes of it, so that a circle is two. Arcs that
-/// turn by more are told in parts: ends of one that nearly meet leave its centre to rounding.
+/// Of one block before it is rounded, rad: half a turn and half a degree, so that half circles of
+/// drawings are one block, and circles two. Arcs that turn by more are told in parts: ends of one
+/// that nearly meet leave its centre to rounding.
 inline constexpr double kMostBlockTurn = 3.15;
+/// Blocks of an arc that turns by so much.
+[[nodiscard]] std::size_t blocks_of_turn(double turn);
 
 /// Neighbours on one circle as one arc, of a whole turn at most: circles are drawn in parts. What
 /// comes first stays first.
