@@ -227,12 +227,17 @@ int obvid_why_not(const obvid_input* input, const char* options, const obvid_run
 
 int obvid_suggest(const obvid_input* input, const char* options, const obvid_run* run,
                   char** report, obvid_error** error) {
-  return report_on_points(
-      input, options, kFitting, report, error, [&](PointSeries& series, const Request& request) {
-        return trade_off(series, request.job, context_of(run)).map([&](const TradeOff& found) {
-          return trade_off_json(found, series.warnings, {});
-        });
-      });
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kFitting);
+    OBVID_TRY(request);
+    const Result<PointSeries> series = series_of(*input, *request, true);
+    OBVID_TRY(series);
+    const Result<TradeOff> found = trade_off(*series, request->job, context_of(run));
+    OBVID_TRY(found);
+    hand_out_text(trade_off_json(*found, series->warnings, {}), report);
+    if (const auto failed = not_kept(*found)) return fail(*failed);
+    return {};
+  });
 }
 
 int obvid_series(const obvid_input* input, const char* options, const obvid_run* run, char** report,
