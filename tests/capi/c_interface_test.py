@@ -777,6 +777,31 @@ class Cancelled(unittest.TestCase):
         options = {"start-heading": 170, "start-radius": 0.001, "carrier": "clothoids"}
         self.in_time(lambda run: job("why_not", handle, options, run), 0.3)
 
+    def test_what_the_kernel_reads_and_writes(self):
+        """The kernel works in a process of its own: its time is not ours. Asked to end after a while, in
+        the middle of what takes several times as long."""
+        net = "row,col,x,y,z\n" + "".join(f"{i},{j},{i},{j},{math.sin(0.3 * i) * math.cos(0.2 * j)!r}\n"
+                                          for i in range(120) for j in range(120))
+        made = C.c_void_p()
+        call(lib.obvid_nurbs_make, text_input(net, "net.csv"), None, None, None, C.byref(made), None, None)
+        jobs = []
+        for ending in ("step", "iges", "brep"):
+            def export_it(run, ending=ending):
+                call(lib.obvid_surface_export, made, ending.encode(), None, C.byref(run), C.byref(C.c_void_p()))
+            whole = text_input(surface_file(made, ending).decode(), "s." + ending)
+            jobs += [export_it, lambda run, whole=whole: surface("convert", [whole], None, (), run),
+                     lambda run, whole=whole: job("analyse", whole, None, run)]
+        for work in jobs:
+            begin, asked = time.monotonic(), []
+
+            def cancelled(_):
+                asked.append(time.monotonic() - begin)
+                return int(asked[-1] > 0.1)
+            with self.assertRaises(Failed) as caught:
+                work(Run(None, PROGRESS(0), CANCELLED(cancelled)))
+            self.assertEqual(caught.exception.code, 103, caught.exception)
+            self.assertGreater(asked[-1], 0.1)
+
     def test_leaves_nothing_behind(self):
         handle = points(wave(400))
         before = timeless(fit(handle)[1])
