@@ -293,11 +293,11 @@ int verify_in_space(const StoredSpaceChain& stored, const std::string& name,
   const SpaceChainVerification found = verify(stored);
   std::string shown;
   for (const std::string& path : options.outputs) {
-    const auto done = write_file(path, space_verification_json(stored, found) + "\n");
+    const auto done = write_file(path, space_verification_json(stored, found));
     if (!done) return report(done.error());
   }
   if (options.json) {
-    shown = space_verification_json(stored, found) + "\n";
+    shown = space_verification_json(stored, found);
   } else if (!options.quiet) {
     shown = verification_in_space(stored, found);
   }

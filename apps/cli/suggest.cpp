@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -82,16 +81,6 @@ std::string suggestion_text(const TradeOff& t, const std::vector<std::string>& w
   return text;
 }
 
-/// Exit code of a table without any row that keeps the promise.
-int judge_trade_off(const TradeOff& t) {
-  if (t.recommended) return 0;
-  const bool formed =
-      std::any_of(t.rows.begin(), t.rows.end(), [](const auto& row) { return row.formed; });
-  return report({formed ? ErrorCode::kNotProved : ErrorCode::kNoSpiral,
-                 fmt::format("no tolerance up to 1 % of the size gives a {}", kept_contour(t)), "",
-                 t.rows.empty() ? "" : "at the largest: " + t.rows.back().refusal});
-}
-
 }  // namespace
 
 int suggest(const FitOptions& options) {
@@ -128,7 +117,8 @@ int suggest(const FitOptions& options) {
     text = suggestion_text(*found, *written);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return judge_trade_off(*found);
+  if (const auto failed = not_kept(*found)) return report(*failed);
+  return 0;
 }
 
 }  // namespace obvid

@@ -176,12 +176,10 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
 
 /// Exit code 5 where something is not so that was asked for; the files are written all the same.
 int judge_toolpath(const Made& made) {
-  int code = 0;
-  for (Error error : made.job.path.not_kept) {
-    error.hint = "the files were written" + (error.hint.empty() ? "" : "; " + error.hint);
-    code = report(error);
-  }
-  return code;
+  auto error = not_kept(made.job);
+  if (!error) return 0;
+  error->hint = "the files were written" + (error->hint.empty() ? "" : "; " + error->hint);
+  return report(*error);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ PrivateCopy::~PrivateCopy() = default;  // of none
 OBVID_LATER(Result<PlaneRow> plane_row_named(const std::string&))
 namespace pipeline_detail {
 OBVID_LATER(Result<Drawing> sections_of_mesh(std::string_view, const std::string&,
-                                             const std::vector<PlaneRow>&))
+                                             const std::vector<PlaneRow>&, const RunContext&))
 }  // namespace pipeline_detail
 OBVID_LATER(Result<Drawing> parse_dxf(std::string_view, std::string_view))
 OBVID_LATER(Result<Drawing> parse_svg(std::string_view, std::string_view))

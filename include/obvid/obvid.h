@@ -106,7 +106,8 @@ OBVID_API int obvid_fit(const obvid_input* input, const char* options, const obv
  * would do; `report` is set beside it. 0 and a report of NULL: there is a contour. */
 OBVID_API int obvid_why_not(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
-/* How many vertices which tolerance would need. */
+/* How many vertices which tolerance would need. Fails with OBVID_NO_CONTOUR or OBVID_NOT_PROVED,
+ * the report there, where no tolerance gives a contour that keeps its promise. */
 OBVID_API int obvid_suggest(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
 /* The points that were read and what is given at them; of a drawing those of the

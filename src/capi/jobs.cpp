@@ -33,7 +33,8 @@ constexpr Known kImporting{.import = true};
 constexpr Known kCutting{.import = true, .cut = true};
 constexpr Known kAligning{.import = true, .alignment = true};
 
-Result<PointSeries> series_of(const obvid_input& input, const Request& request, bool drawings) {
+Result<PointSeries> series_of(const obvid_input& input, const Request& request, bool drawings,
+                              const RunContext& run) {
   if (input.space) {
     return fail({ErrorCode::kBadOption, "points in space are formed by obvid_fit_space", "", ""});
   }
@@ -48,8 +49,8 @@ Result<PointSeries> series_of(const obvid_input& input, const Request& request, 
       if (list) place(request.import.placement, *list);
       return list;
     }
-    return input.by_path ? read_series(input.name, request.import)
-                         : parse_series(input.text, input.name, request.import);
+    return input.by_path ? read_series(input.name, request.import, run)
+                         : parse_series(input.text, input.name, request.import, run);
   }();
   if (series && request.units) take_units(*series, *request.units);
   return series;
@@ -63,10 +64,11 @@ Result<StationHeights> heights_of(const obvid_input& input) {
   return out;
 }
 
-Result<Drawing> drawing_of(const obvid_input& input, const Request& request) {
+Result<Drawing> drawing_of(const obvid_input& input, const Request& request,
+                           const RunContext& run) {
   const std::vector<PlaneRow>& planes = request.import.planes;
-  return input.by_path ? read_drawing(input.name, planes)
-                       : parse_drawing(input.text, input.name, planes);
+  return input.by_path ? read_drawing(input.name, planes, run)
+                       : parse_drawing(input.text, input.name, planes, run);
 }
 
 /// One of several curves that are laid over each other.
@@ -74,7 +76,7 @@ Result<CurveInput> curve_of(const obvid_input& input, const Request& request,
                             const RunContext& run) {
   const ReadCurveOptions how{request.import, request.job, request.units};
   if (input.points || input.space) {
-    const Result<PointSeries> series = series_of(input, request, true);
+    const Result<PointSeries> series = series_of(input, request, true, run);
     OBVID_TRY(series);
     return formed_curve(*series, request.job, run);
   }
@@ -89,13 +91,14 @@ void hand_out_text(const std::string& text, char** out) {
 /// A job on a series of points: what is made of them is the report.
 template <class Make>
 int report_on_points(const obvid_input* input, const char* options, const Known& known,
-                     char** report, obvid_error** error, Make&& make) {
+                     const obvid_run* run, char** report, obvid_error** error, Make&& make) {
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, known);
     OBVID_TRY(request);
-    Result<PointSeries> series = series_of(*input, *request, known.import);
+    const RunContext context = context_of(run);
+    Result<PointSeries> series = series_of(*input, *request, known.import, context);
     OBVID_TRY(series);
-    const Result<std::string> text = make(*series, *request);
+    const Result<std::string> text = make(*series, *request, context);
     OBVID_TRY(text);
     hand_out_text(*text, report);
     return {};
@@ -104,7 +107,7 @@ int report_on_points(const obvid_input* input, const char* options, const Known&
 
 Result<std::string> drawing_report(const obvid_input& input, const Request& request,
                                    const RunContext& run) {
-  Result<Drawing> drawing = drawing_of(input, request);
+  Result<Drawing> drawing = drawing_of(input, request, run);
   OBVID_TRY(drawing);
   if (request.units) {
     if (auto told = take_units(drawing->units, *request.units)) drawing->warnings.push_back(*told);
@@ -135,7 +138,7 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
                        (!input.points && is_drawing_text(input.text, input.name) &&
                         file_kind(input.text) != FileKind::kContour);
   if (foreign) {
-    Result<Drawing> drawing = drawing_of(input, request);
+    Result<Drawing> drawing = drawing_of(input, request, run);
     OBVID_TRY(drawing);
     auto drawn = drawn_contour(std::move(*drawing), request.import, input.name, run);
     OBVID_TRY(drawn);
@@ -180,9 +183,9 @@ int obvid_fit(const obvid_input* input, const char* options, const obvid_run* ru
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kForming);
     OBVID_TRY(request);
-    const Result<PointSeries> series = series_of(*input, *request, true);
-    OBVID_TRY(series);
     const RunContext context = context_of(run);
+    const Result<PointSeries> series = series_of(*input, *request, true, context);
+    OBVID_TRY(series);
     Result<Fit> made = formed(*series, *request, context);
     OBVID_TRY(made);
     Watch watch(context);
@@ -210,10 +213,10 @@ int obvid_why_not(const obvid_input* input, const char* options, const obvid_run
   const int failed = guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kFitting);
     OBVID_TRY(request);
-    const Result<PointSeries> series = series_of(*input, *request, true);
+    const RunContext context = context_of(run);
+    const Result<PointSeries> series = series_of(*input, *request, true, context);
     OBVID_TRY(series);
     if (report != nullptr) *report = nullptr;
-    const RunContext context = context_of(run);
     const Result<Fit> made = fit(*series, request->job, RunContext({}, context.cancelled));
     if (made) return {};
     if (category(made.error().code) != ErrorCategory::kNoContour) return fail(made.error());
@@ -228,22 +231,28 @@ int obvid_why_not(const obvid_input* input, const char* options, const obvid_run
 
 int obvid_suggest(const obvid_input* input, const char* options, const obvid_run* run,
                   char** report, obvid_error** error) {
-  return report_on_points(
-      input, options, kFitting, report, error, [&](PointSeries& series, const Request& request) {
-        return trade_off(series, request.job, context_of(run)).map([&](const TradeOff& found) {
-          return trade_off_json(found, series.warnings, {});
-        });
-      });
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kFitting);
+    OBVID_TRY(request);
+    const RunContext context = context_of(run);
+    const Result<PointSeries> series = series_of(*input, *request, true, context);
+    OBVID_TRY(series);
+    const Result<TradeOff> found = trade_off(*series, request->job, context);
+    OBVID_TRY(found);
+    hand_out_text(trade_off_json(*found, series->warnings, {}), report);
+    if (const auto failed = not_kept(*found)) return fail(*failed);
+    return {};
+  });
 }
 
 int obvid_series(const obvid_input* input, const char* options, const obvid_run* run, char** report,
                  obvid_error** error) {
-  return report_on_points(
-      input, options, kImporting, report, error,
-      [&](PointSeries& series, const Request& /*request*/) -> Result<std::string> {
-        OBVID_TRY(may_go_on(context_of(run)));  // it takes no longer than reading
-        return series_json(series);
-      });
+  return report_on_points(input, options, kImporting, run, report, error,
+                          [&](PointSeries& series, const Request& /*request*/,
+                              const RunContext& context) -> Result<std::string> {
+                            OBVID_TRY(may_go_on(context));  // it takes no longer than reading
+                            return series_json(series);
+                          });
 }
 
 int obvid_analyse(const obvid_input* input, const char* options, const obvid_run* run,
@@ -257,7 +266,7 @@ int obvid_analyse(const obvid_input* input, const char* options, const obvid_run
       const bool drawing =
           input->by_path || (!input->points && is_drawing_text(input->text, input->name));
       if (drawing) return drawing_report(*input, *request, context);
-      Result<PointSeries> series = series_of(*input, *request, false);
+      Result<PointSeries> series = series_of(*input, *request, false, context);
       OBVID_TRY(series);
       OBVID_TRY(may_go_on(context));
       return points_report(*series, context);
@@ -271,9 +280,9 @@ int obvid_analyse(const obvid_input* input, const char* options, const obvid_run
 int obvid_region(const obvid_input* input, const char* options, const obvid_run* run, char** report,
                  obvid_error** error) {
   return report_on_points(
-      input, options, kWorksheet, report, error,
-      [&](PointSeries& series, const Request& request) -> Result<std::string> {
-        const RunContext context = context_of(run);
+      input, options, kWorksheet, run, report, error,
+      [&](PointSeries& series, const Request& request,
+          const RunContext& context) -> Result<std::string> {
         const auto found = region_table(series, request.worksheet, context);
         if (!found) {
           return fail(explained(series, request.worksheet, found.error(), context));
@@ -288,12 +297,13 @@ int obvid_cut(const obvid_input* const* inputs, size_t count, const char* option
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kCutting);
     OBVID_TRY(request);
+    const RunContext context = context_of(run);
     std::vector<Drawing> drawings;
     for (size_t i = 0; i < count; ++i) {
       if (inputs[i] == nullptr) {
         return fail({ErrorCode::kUsage, "an input is NULL", std::to_string(i), ""});
       }
-      Result<Drawing> drawing = drawing_of(*inputs[i], *request);
+      Result<Drawing> drawing = drawing_of(*inputs[i], *request, context);
       OBVID_TRY(drawing);
       drawings.push_back(std::move(*drawing));
     }
@@ -302,7 +312,6 @@ int obvid_cut(const obvid_input* const* inputs, size_t count, const char* option
     if (count > 0) {
       job.plan.name = std::filesystem::path(inputs[0]->name).filename().string();
     }
-    const RunContext context = context_of(run);
     auto made = make_cut(std::move(drawings), request->import, job, context);
     OBVID_TRY(made);
     Watch watch(context);
@@ -329,7 +338,8 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     Result<Request> request = request_of(options, kAligning);
     OBVID_TRY(request);
     request->import = with_heights(request->import);
-    Result<PointSeries> series = series_of(*input, *request, true);
+    const RunContext context = context_of(run);
+    Result<PointSeries> series = series_of(*input, *request, true, context);
     OBVID_TRY(series);
     AlignmentJob& job = request->alignment;
     std::vector<std::string> warnings = series->warnings;
@@ -339,7 +349,7 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
       warnings.insert(warnings.end(), read->warnings.begin(), read->warnings.end());
       job.heights = std::move(*read);
     }
-    const auto made = alignment_report(*series, job, context_of(run));
+    const auto made = alignment_report(*series, job, context);
     OBVID_TRY(made);
     auto out = std::make_unique<obvid_contour>();
     out->stored = made->stored;
@@ -370,13 +380,12 @@ int obvid_worksheet(const obvid_input* input, const char* options, const char* e
   return guarded(error, [&]() -> Result<void> {
     const Result<Request> request = request_of(options, kWorksheet);
     OBVID_TRY(request);
-    const Result<PointSeries> series = series_of(*input, *request, true);
+    const RunContext context = context_of(run);
+    const Result<PointSeries> series = series_of(*input, *request, true, context);
     OBVID_TRY(series);
-    const auto found = region_table(*series, request->worksheet, context_of(run));
-    if (!found) {
-      return fail(explained(*series, request->worksheet, found.error(), context_of(run)));
-    }
-    auto made = region_file(ending == nullptr ? "" : ending, *series, *found, context_of(run));
+    const auto found = region_table(*series, request->worksheet, context);
+    if (!found) return fail(explained(*series, request->worksheet, found.error(), context));
+    auto made = region_file(ending == nullptr ? "" : ending, *series, *found, context);
     OBVID_TRY(made);
     auto out = std::make_unique<obvid_files>();
     out->files.push_back({"", std::move(made->text)});
@@ -389,9 +398,11 @@ int obvid_worksheet(const obvid_input* input, const char* options, const char* e
 int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,
                   char** report, obvid_error** error) {
   return report_on_points(
-      input, options, kFitting, report, error, [&](PointSeries& series, const Request& request) {
-        return compare_carriers(series, request.job, context_of(run))
-            .map([&](const Comparison& found) { return comparison_json(series, found); });
+      input, options, kFitting, run, report, error,
+      [&](PointSeries& series, const Request& request, const RunContext& context) {
+        return compare_carriers(series, request.job, context).map([&](const Comparison& found) {
+          return comparison_json(series, found);
+        });
       });
 }
 

@@ -144,6 +144,7 @@ int obvid_surface_toolpath(const obvid_surface* surface, const char* options, co
     OBVID_TRY(request);
     auto made = make_toolpath(surface->model, request->toolpath, context_of(run));
     OBVID_TRY(made);
+    const auto failed = not_kept(*made);
     if (report != nullptr) *report = text_of(toolpath_report_json(*made, {}));
     if (files != nullptr) {
       auto out = std::make_unique<obvid_files>();
@@ -151,7 +152,7 @@ int obvid_surface_toolpath(const obvid_surface* surface, const char* options, co
       out->files.push_back({"", std::move(made->path.program.text)});
       *files = out.release();
     }
-    if (!made->path.not_kept.empty()) return fail(made->path.not_kept.front());
+    if (failed) return fail(*failed);
     return {};
   });
 }

@@ -209,6 +209,9 @@ class AgainstTheProgram(unittest.TestCase):
         table = obvid.suggest(SERIES)
         theirs = json.loads(program("fit", SERIES, "--suggest", "--json")[0])
         self.assertEqual([r.tolerance for r in table], [r["tolerance"] for r in theirs["rows"]])
+        none = obvid.suggest(SERIES, carrier="arcs", convex=True, start_heading=170)
+        self.assertFalse(any(row.formed for row in none))
+        self.assertTrue(all(row.refusal for row in none))
 
     def test_curves_over_each_other_are_those_of_the_program(self):
         paths = [os.path.join(SOURCES, "examples", name) for name in ("naca2412.dat", "wing_template.dat")]

@@ -541,10 +541,17 @@ def compare_curves(
 
 
 def suggest(points: Points, **options: Any) -> List[Suggestion]:
-    """How many vertices which tolerance would need. Options of `fit`."""
+    """How many vertices which tolerance would need; a tolerance that gives no contour has a row that says
+    so. Options of `fit`."""
     watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
     source = _prepared(points, options)
-    return suggestions(_report("suggest", source, _fit_options(source, options), watched))
+    try:
+        values = _report("suggest", source, _fit_options(source, options), watched)
+    except ObvidError as none_kept:
+        if none_kept.report is None:
+            raise
+        values = none_kept.report
+    return suggestions(values)
 
 
 def why_not(points: Points, **options: Any) -> Optional[NoContourError]:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/exchange/drawing.h"
 #include "obvid/io/read_points.h"
 #include "obvid/mesh/plane_row.h"
@@ -22,15 +23,17 @@ namespace obvid {
 /// Curves and series of points of a drawing, the curve of a stored contour, or the sections of a
 /// mesh (STL, PLY, OBJ) with planes: each chain of edges a series in the coordinates of its plane.
 /// Errors: those of the formats; E203 planes for what is no mesh; E311 a mesh that none of them
-/// meets, or without planes.
+/// meets, or without planes; E103.
 [[nodiscard]] Result<Drawing> read_drawing(const std::string& path,
-                                           const std::vector<PlaneRow>& planes = {});
+                                           const std::vector<PlaneRow>& planes = {},
+                                           const RunContext& run = {});
 
 /// The same for a text in memory; `name` stands in errors, and its ending tells OBJ. STEP, IGES and
 /// BREP go through a file in the system's folder for such (PrivateCopy).
 [[nodiscard]] bool is_drawing_text(std::string_view text, std::string_view name = {});
 [[nodiscard]] Result<Drawing> parse_drawing(const std::string& text, const std::string& name,
-                                            const std::vector<PlaneRow>& planes = {});
+                                            const std::vector<PlaneRow>& planes = {},
+                                            const RunContext& run = {});
 [[nodiscard]] bool needs_cad(std::string_view text);
 
 /// Which curve or series of points of a drawing is meant.
@@ -93,8 +96,10 @@ struct ImportOptions {
 /// Points to fit: of a text file as they are, of a drawing its longest series or curve, sampled.
 /// Warnings say what was chosen. Errors: those of the formats; E203 when there is no such curve.
 [[nodiscard]] Result<PointSeries> read_series(const std::string& path,
-                                              const ImportOptions& options = {});
+                                              const ImportOptions& options = {},
+                                              const RunContext& run = {});
 [[nodiscard]] Result<PointSeries> parse_series(const std::string& text, const std::string& name,
-                                               const ImportOptions& options = {});
+                                               const ImportOptions& options = {},
+                                               const RunContext& run = {});
 
 }  // namespace obvid

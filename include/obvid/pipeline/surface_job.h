@@ -185,7 +185,8 @@ enum class ReadTrims { kTakenOff, kKept };
 /// `warnings` get what was left out.
 [[nodiscard]] Result<SurfaceModel> read_surface(const SurfaceInput& input,
                                                 std::vector<std::string>& warnings,
-                                                ReadTrims trims = ReadTrims::kTakenOff);
+                                                ReadTrims trims = ReadTrims::kTakenOff,
+                                                const RunContext& run = {});
 
 /// A curve of space from a file: a contour, a curve of a drawing, or points: in a plane the fair
 /// contour through them, else the C2 cubic by chord lengths (with a warning).
@@ -195,7 +196,7 @@ struct ReadCurve {
   SpaceCurve curve;
   std::vector<std::string> warnings;
 };
-[[nodiscard]] Result<ReadCurve> read_space_curve(const SurfaceInput& input,
-                                                 const CurveReading& how);
+[[nodiscard]] Result<ReadCurve> read_space_curve(const SurfaceInput& input, const CurveReading& how,
+                                                 const RunContext& run = {});
 
 }  // namespace obvid

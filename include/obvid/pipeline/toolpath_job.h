@@ -38,6 +38,10 @@ struct MadeToolpath {
 [[nodiscard]] Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
                                                  const RunContext& run = {});
 
+/// What of the path is not as it was asked for, all of it in one error (E502): gouges, more left
+/// than the scallop, places that the cutter does not reach.
+[[nodiscard]] std::optional<Error> not_kept(const MadeToolpath& made);
+
 /// The path as it is drawn over the surface: thinned out within four tolerances.
 [[nodiscard]] std::vector<ScenePolyline> drawn(const Toolpath& path);
 

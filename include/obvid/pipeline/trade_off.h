@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/picture/internal/trade_off_svg.h"
@@ -22,6 +27,10 @@ namespace obvid {
 /// for a drawing whose pieces all stay as they are.
 [[nodiscard]] Result<TradeOff> trade_off(const PointSeries& series, const FitJob& job,
                                          const RunContext& run = {}, TradeOff* finished = nullptr);
+
+/// Why no row is recommended: E501 where contours were formed that do not keep what the carrier
+/// promises, E401 where none was. Whoever shows the table ends with it.
+[[nodiscard]] std::optional<Error> not_kept(const TradeOff& t);
 
 /// How the recommended row is found, in words for the user.
 [[nodiscard]] std::string trade_off_rule(const TradeOff& t);

@@ -103,6 +103,15 @@ bool stays_as_drawn(const PointSeries& series, const FitJob& job) {
 
 }  // namespace
 
+std::optional<Error> not_kept(const TradeOff& t) {
+  if (t.recommended) return std::nullopt;
+  const bool formed =
+      std::any_of(t.rows.begin(), t.rows.end(), [](const auto& row) { return row.formed; });
+  return error(formed ? ErrorCode::kNotProved : ErrorCode::kNoSpiral,
+               fmt::format("no tolerance up to 1 % of the size gives a {}", kept_contour(t)))
+      .hint(t.rows.empty() ? "" : "at the largest: " + t.rows.back().refusal);
+}
+
 std::string trade_off_rule(const TradeOff& t) {
   return fmt::format(
       "of the {} the one farthest below the straight line from the first to the last, in a chart "

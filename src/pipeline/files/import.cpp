@@ -80,10 +80,10 @@ Result<void> check_no_planes(const std::vector<PlaneRow>& planes, const std::str
 bool is_drawn(FileKind kind) { return kind != FileKind::kPoints && kind != FileKind::kOther; }
 
 Result<Drawing> parsed_by_kind(const std::string& text, const std::string& path,
-                               const std::vector<PlaneRow>& planes) {
+                               const std::vector<PlaneRow>& planes, const RunContext& run) {
   const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
   if (!is_drawn(kind) && is_mesh(text, text.size(), path)) {
-    return pipeline_detail::sections_of_mesh(text, path, planes);
+    return pipeline_detail::sections_of_mesh(text, path, planes, run);
   }
   OBVID_TRY(check_no_planes(planes, path));
   switch (kind) {
@@ -112,8 +112,9 @@ Result<Drawing> parsed_by_kind(const std::string& text, const std::string& path,
 
 /// Its name is the file's, wherever that lies: pictures have it as title.
 Result<Drawing> from_text(const std::string& text, const std::string& path,
-                          const std::vector<PlaneRow>& planes) {
-  auto drawing = parsed_by_kind(text, path, planes);
+                          const std::vector<PlaneRow>& planes, const RunContext& run) {
+  OBVID_TRY(may_go_on(run));
+  auto drawing = parsed_by_kind(text, path, planes, run);
   OBVID_TRY(drawing);
   if (drawing->name == path) drawing->name = name_of(path);
   return drawing;
@@ -122,8 +123,6 @@ Result<Drawing> from_text(const std::string& text, const std::string& path,
 bool is_cad(FileKind kind) {
   return kind == FileKind::kStep || kind == FileKind::kIges || kind == FileKind::kBrep;
 }
-
-Result<Drawing> read_curves_of_cad(const std::string& path) { return read_cad(path); }
 
 // ---- points of a drawing ----------------------------------------------------------------------
 
@@ -521,15 +520,16 @@ bool is_drawing(const std::string& path) {
   return !head.empty() && !none && is_mesh(head, size, path);
 }
 
-Result<Drawing> read_drawing(const std::string& path, const std::vector<PlaneRow>& planes) {
+Result<Drawing> read_drawing(const std::string& path, const std::vector<PlaneRow>& planes,
+                             const RunContext& run) {
   const FileKind kind = file_kind(head_of(path));
   if (is_cad(kind)) {
     OBVID_TRY(check_no_planes(planes, path));
-    return read_cad(path);
+    return read_cad(path, {{}, run.cancelled});
   }
   const auto text = read_file(path);
   OBVID_TRY(text);
-  return from_text(*text, path, planes);
+  return from_text(*text, path, planes, run);
 }
 
 bool is_drawing_text(std::string_view text, std::string_view name) {
@@ -539,35 +539,36 @@ bool is_drawing_text(std::string_view text, std::string_view name) {
 bool needs_cad(std::string_view text) { return is_cad(file_kind(text.substr(0, kHead))); }
 
 Result<Drawing> parse_drawing(const std::string& text, const std::string& name,
-                              const std::vector<PlaneRow>& planes) {
-  if (!needs_cad(text)) return from_text(text, name, planes);
+                              const std::vector<PlaneRow>& planes, const RunContext& run) {
+  if (!needs_cad(text)) return from_text(text, name, planes, run);
   OBVID_TRY(check_no_planes(planes, name));
-  return pipeline_detail::cad_of_text(text, name, read_curves_of_cad);
+  return pipeline_detail::cad_of_text(text, name, &read_cad, {{}, run.cancelled});
 }
 
 Result<PointSeries> parse_series(const std::string& text, const std::string& name,
-                                 const ImportOptions& options) {
+                                 const ImportOptions& options, const RunContext& run) {
   const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
   if (!is_drawing_text(text, name) || kind == FileKind::kContour) {
     OBVID_TRY(check_no_planes(options.planes, name));
     return placed(parse_points(text, name, options.list), options);
   }
-  auto drawing = parse_drawing(text, name, options.planes);
+  auto drawing = parse_drawing(text, name, options.planes, run);
   OBVID_TRY(drawing);
   return points_of_drawing(*drawing, options, name);
 }
 
-Result<PointSeries> read_series(const std::string& path, const ImportOptions& options) {
+Result<PointSeries> read_series(const std::string& path, const ImportOptions& options,
+                                const RunContext& run) {
   if (path == "-") {  // read once
     const auto text = read_file(path);
     OBVID_TRY(text);
-    return parse_series(*text, "standard input", options);
+    return parse_series(*text, "standard input", options, run);
   }
   if (!is_drawing(path) || file_kind(head_of(path)) == FileKind::kContour) {
     OBVID_TRY(check_no_planes(options.planes, path));
     return placed(read_points(path, options.list), options);
   }
-  auto drawing = read_drawing(path, options.planes);
+  auto drawing = read_drawing(path, options.planes, run);
   OBVID_TRY(drawing);
   return points_of_drawing(*drawing, options, path);
 }

@@ -72,7 +72,7 @@ std::string coordinates_text(const std::vector<PlaneRow>& planes) {
 }  // namespace
 
 Result<Drawing> sections_of_mesh(std::string_view text, const std::string& path,
-                                 const std::vector<PlaneRow>& planes) {
+                                 const std::vector<PlaneRow>& planes, const RunContext& run) {
   const auto mesh = parse_mesh(text, path);
   OBVID_TRY(mesh);
   if (planes.empty()) return fail(uncut(*mesh, path));
@@ -81,6 +81,7 @@ Result<Drawing> sections_of_mesh(std::string_view text, const std::string& path,
   std::size_t all = 0, empty = 0;
   for (const PlaneRow& row : planes) {
     for (std::size_t i = 0; i < row.count(); ++i) {
+      OBVID_TRY(may_go_on(run));
       const auto chains = cut_mesh(*mesh, plane_across(row.axis, row.at(i)));
       OBVID_TRY(chains);
       ++all;

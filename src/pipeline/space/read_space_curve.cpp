@@ -34,10 +34,12 @@ Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, s
   return curve;
 }
 
-Result<ReadCurve> from_drawing(const SurfaceInput& input, const CurveReading& how) {
+Result<ReadCurve> from_drawing(const SurfaceInput& input, const CurveReading& how,
+                               const RunContext& run) {
   const std::string& path = input.name;
-  const Result<Drawing> drawing = input.text ? parse_drawing(*input.text, path, how.import.planes)
-                                             : read_drawing(path, how.import.planes);
+  const Result<Drawing> drawing = input.text
+                                      ? parse_drawing(*input.text, path, how.import.planes, run)
+                                      : read_drawing(path, how.import.planes, run);
   OBVID_TRY(drawing);
   const auto chosen = chosen_curve(*drawing, how.import.curve, path);
   OBVID_TRY(chosen);
@@ -70,7 +72,8 @@ Result<ReadCurve> spline_through(const SpaceSeries& series) {
   return ReadCurve{series.name, series.units, std::move(*curve), {}};
 }
 
-Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how) {
+Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how,
+                              const RunContext& run) {
   const std::string& path = input.name;
   const auto section = pipeline_detail::section_of(input);
   OBVID_TRY(section);
@@ -99,7 +102,7 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how
     return ReadCurve{
         series.name, series.units, line_between(series.points.front(), series.points.back()), {}};
   }
-  const Result<Fit> made = fit(flat, how.sections);
+  const Result<Fit> made = fit(flat, how.sections, {Progress{}, run.cancelled});
   if (!made && how.plain_when_refused && category(made.error().code) == ErrorCategory::kNoContour) {
     auto curve = spline_through(series);
     if (!curve) return curve;
@@ -124,10 +127,12 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how
 
 }  // namespace
 
-Result<ReadCurve> read_space_curve(const SurfaceInput& input, const CurveReading& how) {
+Result<ReadCurve> read_space_curve(const SurfaceInput& input, const CurveReading& how,
+                                   const RunContext& run) {
+  OBVID_TRY(may_go_on(run));
   const bool drawing = input.text ? is_drawing_text(*input.text, input.name)
                                   : input.is_file() && is_drawing(input.name);
-  return drawing ? from_drawing(input, how) : from_points(input, how);
+  return drawing ? from_drawing(input, how, run) : from_points(input, how, run);
 }
 
 }  // namespace obvid

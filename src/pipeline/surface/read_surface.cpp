@@ -15,14 +15,9 @@
 namespace obvid {
 namespace {
 
-Result<CadSurfaces> read_faces(const std::string& path) { return read_cad_surfaces(path); }
-
-}  // namespace
-
-namespace {
-
 /// With all trims.
-Result<SurfaceModel> read_trimmed(const SurfaceInput& input, std::vector<std::string>& warnings) {
+Result<SurfaceModel> read_trimmed(const SurfaceInput& input, std::vector<std::string>& warnings,
+                                  const RunContext& run) {
   const std::string& path = input.name;
   if (input.points) {
     return error(ErrorCode::kUnsupported, "points are no surface")
@@ -44,8 +39,9 @@ Result<SurfaceModel> read_trimmed(const SurfaceInput& input, std::vector<std::st
     }
     return net;
   }
-  auto surfaces =
-      input.text ? pipeline_detail::cad_of_text(*text, path, read_faces) : read_cad_surfaces(path);
+  const CadRun cad{{}, run.cancelled};
+  auto surfaces = input.text ? pipeline_detail::cad_of_text(*text, path, &read_cad_surfaces, cad)
+                             : read_cad_surfaces(path, cad);
   OBVID_TRY(surfaces);
   warnings.insert(warnings.end(), surfaces->warnings.begin(), surfaces->warnings.end());
   return std::move(surfaces->model);
@@ -54,8 +50,9 @@ Result<SurfaceModel> read_trimmed(const SurfaceInput& input, std::vector<std::st
 }  // namespace
 
 Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::string>& warnings,
-                                  ReadTrims trims) {
-  auto model = read_trimmed(input, warnings);
+                                  ReadTrims trims, const RunContext& run) {
+  OBVID_TRY(may_go_on(run));
+  auto model = read_trimmed(input, warnings, run);
   if (!model || trims == ReadTrims::kKept) return model;
   for (std::string& told : take_off_trims(*model)) warnings.push_back(std::move(told));
   return model;

@@ -19,7 +19,8 @@ struct Reference {
 };
 
 /// What a file of measured points or a stored surface holds.
-Result<Reference> reference_of(const SurfaceInput& against, std::vector<std::string>& warnings) {
+Result<Reference> reference_of(const SurfaceInput& against, std::vector<std::string>& warnings,
+                               const RunContext& run) {
   SurfaceInput input = against;
   if (input.is_file()) {
     auto text = read_file(input.name);
@@ -28,7 +29,7 @@ Result<Reference> reference_of(const SurfaceInput& against, std::vector<std::str
   }
   Reference out;
   if (input.text && pipeline_detail::holds_surface(*input.text, input.name)) {
-    auto surface = read_surface(input, warnings);
+    auto surface = read_surface(input, warnings, ReadTrims::kTakenOff, run);
     OBVID_TRY(surface);
     out.units = surface->units;
     out.surface = std::move(*surface);
@@ -49,7 +50,7 @@ Result<Reference> reference_of(const SurfaceInput& against, std::vector<std::str
 Result<SurfaceDeviation> measured_against(const SurfaceModel& model, const SurfaceInput& against,
                                           std::size_t samples, std::vector<std::string>& warnings,
                                           const RunContext& run) {
-  auto reference = reference_of(against, warnings);
+  auto reference = reference_of(against, warnings, run);
   OBVID_TRY(reference);
   const std::array both{model.units, reference->units};
   OBVID_TRY(common_units(both, against.name));

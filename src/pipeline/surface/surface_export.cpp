@@ -68,7 +68,7 @@ Result<std::string> surface_of_kernel(const SurfaceExport& e, CadFormat format) 
   CadWriteOptions cad;
   cad.units = e.model.units.name;
   cad.format = format;
-  return cad_surface_text(e.model, cad);
+  return cad_surface_text(e.model, cad, {{}, e.run.cancelled});
 }
 
 /// A file made of triangles: `make` is called when they are there.

@@ -108,7 +108,7 @@ Result<std::size_t> face_named(const SurfaceModel& model, const std::string& nam
 
 Result<MadeSurface> made_fillet(const RolledBall& by, const SurfaceJob& job,
                                 const RunContext& run) {
-  auto read = as_read(job);
+  auto read = as_read(job, run);
   OBVID_TRY(read);
   MadeSurface made = std::move(*read);
   std::array<std::size_t, 2> at{};

@@ -10,6 +10,7 @@ namespace obvid {
 
 Result<MadeSurface> make_surface(const SurfaceJob& job, const RunContext& run) {
   OBVID_TRY(pipeline_detail::check_noise_in_space(job.curves.sections));
+  OBVID_TRY(may_go_on(run));
   auto made = std::visit(
       [&](const auto& kind) { return pipeline_detail::make_kind(kind, job, run); }, job.kind);
   if (made && job.units) {

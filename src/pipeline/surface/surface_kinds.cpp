@@ -18,10 +18,10 @@ namespace obvid::pipeline_detail {
 namespace {
 
 Result<std::vector<ReadCurve>> read_curves(const std::vector<SurfaceInput>& inputs,
-                                           const CurveReading& how) {
+                                           const CurveReading& how, const RunContext& run) {
   std::vector<ReadCurve> curves;
   for (const SurfaceInput& input : inputs) {
-    auto curve = read_space_curve(input, how);
+    auto curve = read_space_curve(input, how, run);
     OBVID_TRY(curve);
     curves.push_back(std::move(*curve));
   }
@@ -139,9 +139,9 @@ ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
   return line;
 }
 
-Result<MadeSurface> as_read(const SurfaceJob& job) {
+Result<MadeSurface> as_read(const SurfaceJob& job, const RunContext& run) {
   MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept);
+  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept, run);
   OBVID_TRY(model);
   made.model = std::move(*model);
   return made;
@@ -168,7 +168,7 @@ Result<MadeSurface> make_kind(const RuledKind& kind, const SurfaceJob& job, cons
     if (made) made->kind = "ruled surface between two fair contours";
     return made;
   }
-  auto curves = read_curves(job.inputs, job.curves);
+  auto curves = read_curves(job.inputs, job.curves, run);
   OBVID_TRY(curves);
   const SpaceCurve& first = curves->front().curve;
   RuledSurface ruled{first, kind.direction ? moved_curve(first, *kind.direction)
@@ -182,9 +182,10 @@ Result<MadeSurface> make_kind(const RuledKind& kind, const SurfaceJob& job, cons
   return made;
 }
 
-Result<MadeSurface> make_kind(const RevolveKind& kind, const SurfaceJob& job, const RunContext&) {
+Result<MadeSurface> make_kind(const RevolveKind& kind, const SurfaceJob& job,
+                              const RunContext& run) {
   OBVID_TRY(need(job, 1, 1, "one profile"));
-  auto curves = read_curves(job.inputs, job.curves);
+  auto curves = read_curves(job.inputs, job.curves, run);
   OBVID_TRY(curves);
   const RevolutionSurface surface{curves->front().curve, kind.axis_point, kind.axis_direction,
                                   kind.angle};
@@ -202,9 +203,9 @@ Result<MadeSurface> make_kind(const RevolveKind& kind, const SurfaceJob& job, co
   return made;
 }
 
-Result<MadeSurface> make_kind(const CoonsKind&, const SurfaceJob& job, const RunContext&) {
+Result<MadeSurface> make_kind(const CoonsKind&, const SurfaceJob& job, const RunContext& run) {
   OBVID_TRY(need(job, 4, 4, "four border curves"));
-  auto curves = read_curves(job.inputs, job.curves);
+  auto curves = read_curves(job.inputs, job.curves, run);
   OBVID_TRY(curves);
   const double size = size_of_all(*curves);
   const auto patch =
@@ -216,10 +217,11 @@ Result<MadeSurface> make_kind(const CoonsKind&, const SurfaceJob& job, const Run
   return made;
 }
 
-Result<MadeSurface> make_kind(const GordonKind& kind, const SurfaceJob& job, const RunContext&) {
-  auto first = read_curves(job.inputs, job.curves);
+Result<MadeSurface> make_kind(const GordonKind& kind, const SurfaceJob& job,
+                              const RunContext& run) {
+  auto first = read_curves(job.inputs, job.curves, run);
   OBVID_TRY(first);
-  auto second = read_curves(kind.across, job.curves);
+  auto second = read_curves(kind.across, job.curves, run);
   OBVID_TRY(second);
   const double size = std::max(size_of_all(*first), size_of_all(*second));
   const auto net = gordon_from(geometry(*first), geometry(*second),
@@ -235,13 +237,15 @@ Result<MadeSurface> make_kind(const GordonKind& kind, const SurfaceJob& job, con
   return made;
 }
 
-Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job, const RunContext&) {
+Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job,
+                              const RunContext& run) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings);
+  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kTakenOff, run);
   OBVID_TRY(model);
   made.model = std::move(*model);
   for (SurfacePatch& patch : made.model.patches) {
+    OBVID_TRY(may_go_on(run));
     const OffsetCheck found = check_offset(patch.surface, kind.distance);
     if (!found.folds.empty()) return fail(folds(patch, found, kind.distance));
     const double size = obvid::size_of(patch.surface);
@@ -277,9 +281,9 @@ Result<MadeSurface> make_kind(const MatchKind& kind, const SurfaceJob& job, cons
   return made_matched({kind.border, kind.to, kind.order}, job, run);
 }
 
-Result<MadeSurface> make_kind(const ConvertKind&, const SurfaceJob& job, const RunContext&) {
+Result<MadeSurface> make_kind(const ConvertKind&, const SurfaceJob& job, const RunContext& run) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
-  auto read = as_read(job);
+  auto read = as_read(job, run);
   OBVID_TRY(read);
   MadeSurface made = std::move(*read);
   made.kind = "as stored";

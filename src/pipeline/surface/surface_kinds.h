@@ -38,7 +38,7 @@ inline constexpr double kSurfaceTolerance = 1e-5;
                                                    const SurfaceJob& job, const RunContext& run);
 
 /// The job's surface as it was read, trims kept, to be changed.
-[[nodiscard]] Result<MadeSurface> as_read(const SurfaceJob& job);
+[[nodiscard]] Result<MadeSurface> as_read(const SurfaceJob& job, const RunContext& run);
 
 /// What a surface is trimmed by.
 struct TrimmedBy {

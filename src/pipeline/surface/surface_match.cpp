@@ -61,7 +61,7 @@ std::vector<std::string> lost_joints(const SurfaceModel& model, const Topology& 
 
 Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job,
                                  const RunContext& run) {
-  auto read = as_read(job);
+  auto read = as_read(job, run);
   OBVID_TRY(read);
   MadeSurface made = std::move(*read);
   const auto at = face_named(made.model, by.border.face, "--border");

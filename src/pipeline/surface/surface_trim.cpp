@@ -50,7 +50,7 @@ Result<Sums> sums_of(const SurfaceModel& model, const RunContext& run) {
 
 Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
                                  const RunContext& run) {
-  auto read = as_read(job);
+  auto read = as_read(job, run);
   OBVID_TRY(read);
   MadeSurface made = std::move(*read);
   const TrimOptions options{job.tolerance.value_or(kTrimTolerance * obvid::size_of(made.model)),
@@ -64,7 +64,7 @@ Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
     return {};
   };
   if (by.contour) {
-    auto curve = read_space_curve(*by.contour, job.curves);
+    auto curve = read_space_curve(*by.contour, job.curves, run);
     OBVID_TRY(curve);
     const std::array both{made.model.units, curve->units};
     OBVID_TRY(common_units(both, curve->name));

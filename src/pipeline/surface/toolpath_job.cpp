@@ -97,6 +97,21 @@ Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob&
   return made;
 }
 
+std::optional<Error> not_kept(const MadeToolpath& made) {
+  const std::vector<Error>& all = made.path.not_kept;
+  if (all.empty()) return std::nullopt;
+  Error out = all.front();
+  const auto append = [](std::string& to, const std::string& more) {
+    if (!to.empty() && !more.empty()) to += "; ";
+    to += more;
+  };
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    append(out.what, all[i].what);
+    append(out.hint, all[i].hint);
+  }
+  return out;
+}
+
 std::vector<ScenePolyline> drawn(const Toolpath& path) {
   constexpr double kThinned = 4.0;  // tolerances: not seen in a picture
   std::vector<ScenePolyline> lines;

@@ -157,16 +157,16 @@ Result<CurveInput> drawn_curve(Drawing drawing, const ReadCurveOptions& how,
 Result<CurveInput> read_curve(const std::string& path, const ReadCurveOptions& how,
                               const RunContext& run) {
   const CurveFile source{
-      path, is_drawing(path), [&] { return read_drawing(path, how.import.planes); },
-      [&] { return read_series(path, how.import); }, [&] { return read_file(path); }};
+      path, is_drawing(path), [&] { return read_drawing(path, how.import.planes, run); },
+      [&] { return read_series(path, how.import, run); }, [&] { return read_file(path); }};
   return curve_from(source, how, run);
 }
 
 Result<CurveInput> parse_curve(const std::string& text, const std::string& name,
                                const ReadCurveOptions& how, const RunContext& run) {
   const CurveFile source{name, is_drawing_text(text, name),
-                         [&] { return parse_drawing(text, name, how.import.planes); },
-                         [&] { return parse_series(text, name, how.import); },
+                         [&] { return parse_drawing(text, name, how.import.planes, run); },
+                         [&] { return parse_series(text, name, how.import, run); },
                          [&] { return Result<std::string>(text); }};
   return curve_from(source, how, run);
 }
