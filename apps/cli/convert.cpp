@@ -25,14 +25,9 @@ bool is_foreign(const ConvertOptions& options) {
   return !has_ending(options.input, ".json") || !options.import.placement.changes_nothing();
 }
 
-/// What is told beside a curve: notes, and what may be wrong.
-struct Told {
-  std::vector<std::string> remarks, warnings;
-};
-
 /// A curve of a drawing as it is, with what can be proved about it.
 Result<StoredContour> from_drawing(const ConvertOptions& options, ExportOptions& formats,
-                                   Told& told) {
+                                   ToldBeside& told) {
   const Result<Drawing> drawing = read_drawing(options.input, options.import.planes);
   OBVID_TRY(drawing);
   auto drawn = drawn_contour(*drawing, options.import, options.input);
@@ -52,8 +47,8 @@ struct Converted {
   std::vector<std::string> warnings;
 };
 
-Result<Converted> converted(const ConvertOptions& options, Result<StoredContour> stored, Told told,
-                            ExportOptions formats) {
+Result<Converted> converted(const ConvertOptions& options, Result<StoredContour> stored,
+                            ToldBeside told, ExportOptions formats) {
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   OBVID_TRY(outputs);
   OBVID_TRY(stored);
@@ -66,7 +61,7 @@ Result<Converted> converted(const ConvertOptions& options, Result<StoredContour>
     }
   }
   FileNotes notes;
-  formats.told = {remarks, out.warnings};
+  formats.told = {out.remarks, out.warnings};
   if (!options.profile.empty()) {
     formats.told.remarks.insert(formats.told.remarks.begin(), options.profile);
   }
@@ -109,7 +104,7 @@ Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
   options.outputs = outputs;
   if (one.curve) options.import.curve = {one.curve, {}, false};
   ExportOptions formats = formats_of(options);
-  Told told;
+  ToldBeside told;
   Result<StoredContour> stored = [&]() -> Result<StoredContour> {
     if (is_foreign(options)) return from_drawing(options, formats, told);
     const auto text = read_file(options.input);
@@ -166,7 +161,7 @@ int run(const ConvertOptions& options) {
     return tell(options, converted(options, std::get<StoredContour>(std::move(*stored)), {},
                                    std::move(formats)));
   }
-  Told told;
+  ToldBeside told;
   auto stored = from_drawing(options, formats, told);
   return tell(options, converted(options, std::move(stored), std::move(told), std::move(formats)));
 }
