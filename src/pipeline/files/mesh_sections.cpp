@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "obvid/core/internal/figures.h"
@@ -20,8 +21,10 @@ std::string extent_text(const TriangleMesh& mesh, char axis) {
   const auto bounds = bounds_of(mesh);
   if (!bounds) return {};
   const Vec3 normal = plane_across(axis, 0.0).normal();
-  return fmt::format("{} = {} to {}", axis, significant(dot(bounds->low, normal), kBoundDigits),
-                     significant(dot(bounds->high, normal), kBoundDigits));
+  const double low = dot(bounds->low, normal), high = dot(bounds->high, normal);
+  if (low == high) return fmt::format("{} = {} alone", axis, significant(low, kBoundDigits));
+  return fmt::format("{} = {} to {}", axis, significant(low, kBoundDigits),
+                     significant(high, kBoundDigits));
 }
 
 /// Axes across which planes lie, each once.
@@ -33,11 +36,37 @@ std::string axes_of(const std::vector<PlaneRow>& planes) {
   return out;
 }
 
+/// Where a mesh lies that has no extent along the axis.
+std::optional<double> flat_at(const TriangleMesh& mesh, char axis) {
+  const auto bounds = bounds_of(mesh);
+  if (!bounds) return std::nullopt;
+  const Vec3 normal = plane_across(axis, 0.0).normal();
+  const double low = dot(bounds->low, normal), high = dot(bounds->high, normal);
+  return low == high ? std::optional(low) : std::nullopt;
+}
+
+/// An axis across which a plane lies in a mesh that is flat there.
+std::optional<char> flat_across(const TriangleMesh& mesh, const std::vector<PlaneRow>& planes) {
+  for (const PlaneRow& row : planes) {
+    const auto flat = flat_at(mesh, row.axis);
+    for (std::size_t i = 0; flat && i < row.count(); ++i) {
+      if (row.at(i) == *flat) return row.axis;
+    }
+  }
+  return std::nullopt;
+}
+
 Error missed(const TriangleMesh& mesh, const std::vector<PlaneRow>& planes,
              const std::string& path) {
   std::string lies;
   for (const char axis : axes_of(planes)) {
-    lies += (lies.empty() ? "it lies from " : " and ") + extent_text(mesh, axis);
+    lies += (lies.empty() ? "it lies at " : " and ") + extent_text(mesh, axis);
+  }
+  if (const auto axis = flat_across(mesh, planes)) {
+    return {ErrorCode::kNothingThere,
+            fmt::format("all of the mesh lies in the plane {}: it has no sections there",
+                        plane_name(*axis, *flat_at(mesh, *axis))),
+            path, "cut it across another axis"};
   }
   return {ErrorCode::kNothingThere, "no plane of --cut meets the mesh", path, lies};
 }
@@ -45,7 +74,7 @@ Error missed(const TriangleMesh& mesh, const std::vector<PlaneRow>& planes,
 Error uncut(const TriangleMesh& mesh, const std::string& path) {
   return {ErrorCode::kNothingThere, "a mesh has no curve until a plane cuts it", path,
           fmt::format("say where: --cut z=12 for one plane, --cut z=FROM:STEP:TO for many, x and y "
-                      "likewise; it lies from {}, {} and {}",
+                      "likewise; it lies at {}, {} and {}",
                       extent_text(mesh, 'x'), extent_text(mesh, 'y'), extent_text(mesh, 'z'))};
 }
 
