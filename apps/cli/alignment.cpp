@@ -155,7 +155,7 @@ int run(const AlignmentCommand& command) {
                    "give heights in a column z, or a file of them by --profile"});
   }
   ExportOptions formats;
-  formats.name = series->label.empty() ? series->name : series->label;
+  formats.name = made->name;
   formats.picture = {series->name, alignment_verdict(*made)};
   formats.first_station = made->alignment.elements.front().station;
   formats.transitions = made->transitions;

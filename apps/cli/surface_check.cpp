@@ -88,8 +88,11 @@ Table line_table(const SurfaceCheck& check) {
 }
 
 std::string coordinates_text(Vec3 p) {
+  constexpr double kTold = 1e-6;  // of the largest coordinate: less is rounding of the place
+  const double least = kTold * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const auto text = [least](double c) { return significant(std::abs(c) < least ? 0.0 : c, 5); };
   p = p + Vec3{};  // -0 becomes 0
-  return fmt::format("{}, {}, {}", significant(p.x, 5), significant(p.y, 5), significant(p.z, 5));
+  return fmt::format("{}, {}, {}", text(p.x), text(p.y), text(p.z));
 }
 
 /// Extremes of curvature over all patches, and where they are.

@@ -170,7 +170,7 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   auto profile = pipeline_detail::profile_report(series, *alignment, job, out.remarks, run);
   OBVID_TRY(profile);
   out.profile = std::move(*profile);
-  out.name = series.name;
+  out.name = series.label.empty() ? series.name : series.label;
   out.units = series.units;
   out.tolerance = *std::max_element(tolerance->begin(), tolerance->end());
   const double near = kNearTransition * *std::min_element(tolerance->begin(), tolerance->end());

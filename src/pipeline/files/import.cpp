@@ -394,7 +394,8 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
   PointSeries out;
   if (chosen < drawing.curves.size()) {
     out = pipeline_detail::series_of(drawing.curves[chosen], options.use, options.tolerance);
-    out.label = drawing.curves[chosen].label;
+    const DrawnCurve& curve = drawing.curves[chosen];
+    out.label = curve.name.empty() ? curve.label : curve.name;
   } else {
     out = drawing.series[chosen - drawing.curves.size()];
     if (!options.list.heights) out.fixed.clear();  // of maps: heights, which alignments take
