@@ -47,7 +47,7 @@ class Cutting {
         watch_(run),
         units_(outlines.front().contour.units),
         inches_(units_.name == "in"),
-        scale_(*unit_ratio(units_.name, inches_ ? "in" : "mm")),
+        scale_(*exchange::machine_units_in(units_)),
         defaults_(inches_ ? kInches : kMillimetres) {}
 
   Result<CutProgram> run() {
@@ -63,8 +63,8 @@ class Cutting {
                               options_.direction == CutDirection::kClimb};
     const std::vector<Visit> visits = ordered(tracks_, visiting, watch_);
     if (watch_.cancelled()) return fail(cancelled_error());
-    decimals_ =
-        options_.decimals.value_or(exchange::gcode_decimals(options_.tolerance * scale_, inches_));
+    decimals_ = options_.decimals.value_or(exchange::gcode_decimals(
+        exchange::kDigitOfTolerance * (options_.tolerance * scale_), inches_));
     CutBlocks blocks = blocks_of(tracks_.all, visits, rules_);
     if (options_.motion == GcodeMotion::kSplines) {
       const SplineRules splines{spline_tolerance(options_.tolerance) * scale_,
@@ -263,9 +263,9 @@ class Cutting {
         tool_text(out.report.levels),
         fmt::format("{}, about {:.1f} min", counted(out.steps.size(), "outline", "outlines"),
                     out.report.minutes)};
-    if (!units_.known()) remarks.emplace_back("the unit is assumed");
-    if (!inches_ && scale_ != 1.0)
-      remarks.push_back("converted from " + gcode_comment(units_.name));
+    for (std::string& one : exchange::gcode_unit_remarks(units_)) {
+      remarks.push_back(std::move(one));
+    }
     return exchange::gcode_head(options_.controller, inches_, remarks);
   }
 
