@@ -63,7 +63,7 @@ class Cutting {
                               options_.direction == CutDirection::kClimb};
     const std::vector<Visit> visits = ordered(tracks_, visiting, watch_);
     if (watch_.cancelled()) return fail(cancelled_error());
-    decimals_ = options_.decimals.value_or(exchange::gcode_decimals(
+    decimals_ = options_.decimals.value_or(exchange::decimals_of_digit(
         exchange::kDigitOfTolerance * (options_.tolerance * scale_), inches_));
     CutBlocks blocks = blocks_of(tracks_.all, visits, rules_);
     if (options_.motion == GcodeMotion::kSplines) {

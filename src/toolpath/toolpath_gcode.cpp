@@ -73,7 +73,7 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
   const double scale = *unit, print = path.print_within * scale;
   const bool inches = path.units.name == "in";
   const int decimals =
-      options.decimals.value_or(exchange::gcode_decimals(kDigitsOfPrint * print, inches));
+      options.decimals.value_or(exchange::decimals_of_digit(kDigitsOfPrint * print, inches));
   const double within = print - std::pow(10.0, -decimals);
   if (!(within > 0.0)) {
     return error(ErrorCode::kToleranceNotReached,

@@ -28,7 +28,7 @@ std::vector<std::string> gcode_unit_remarks(const Units& units) {
   return out;
 }
 
-int gcode_decimals(double digit, bool inches) {
+int decimals_of_digit(double digit, bool inches) {
   constexpr double kDigitRounding = 1e-9;  // 0.0001 asks for 4, not for 4.0000000001
   const double digits = -std::log10(digit);
   return static_cast<int>(std::clamp<double>(std::ceil(digits - kDigitRounding),

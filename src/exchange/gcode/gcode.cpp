@@ -32,7 +32,7 @@ class Program {
   Program(const Contour& contour, const GcodeOptions& options, Watch* watch)
       : contour_(contour), options_(options), watch_(watch), inches_(contour.units.name == "in") {
     scale_ = *exchange::machine_units_in(contour.units);
-    decimals_ = options.decimals.value_or(exchange::gcode_decimals(
+    decimals_ = options.decimals.value_or(exchange::decimals_of_digit(
         exchange::kDigitOfTolerance * (options.tolerance * scale_), inches_));
     unit_ = std::pow(10.0, -decimals_) / scale_;
   }

@@ -27,7 +27,7 @@ inline constexpr int kLeastGcodeDecimals = 3, kMostGcodeDecimals = 6;
 inline constexpr double kDigitOfTolerance = 0.1;
 /// The fewest decimals, at least 3 (of inches 4), whose last digit is worth no more than `digit`,
 /// in units of the machine.
-[[nodiscard]] int gcode_decimals(double digit, bool inches);
+[[nodiscard]] int decimals_of_digit(double digit, bool inches);
 
 /// Units of the machine in a unit of lengths: inches in inches, else millimetres. Error E203: it
 /// has no length in metres.
