@@ -61,16 +61,13 @@ Result<std::vector<std::string>> write_nurbs(const NurbsReport& report,
     warn(warnings);
     return written->files;
   }
-  std::vector<std::string> texts;
+  std::vector<Output> files;
   for (const std::string& path : options.outputs) {
     auto text = nurbs_file(report, path, options.units.value_or(Units{}), options.samples);
     OBVID_TRY(text);
-    texts.push_back(std::move(*text));
+    files.push_back({path, {}, std::move(*text)});
   }
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    OBVID_TRY(write_file(options.outputs[i], texts[i]));
-  }
-  return options.outputs;
+  return write_files(files);
 }
 
 }  // namespace

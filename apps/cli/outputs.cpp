@@ -79,16 +79,22 @@ Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
   return out;
 }
 
+Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs) {
+  std::vector<std::string> names;
+  for (const Output& output : outputs) {
+    OBVID_TRY(write_file(output.path, output.text));
+    names.push_back(output.path);
+  }
+  return names;
+}
+
 Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs,
                                              const std::string& input) {
   std::vector<std::string> names;
   for (const Output& output : outputs) names.push_back(output.path);
   // again: formats that make several files have made names of their own
   OBVID_TRY(check_outputs(names, {&input, 1}));
-  for (const Output& output : outputs) {
-    OBVID_TRY(write_file(output.path, output.text));
-  }
-  return names;
+  return write_files(outputs);
 }
 
 }  // namespace obvid

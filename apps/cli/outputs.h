@@ -48,5 +48,7 @@ struct FileNotes {
 /// nothing is written, where the input or another output would be replaced.
 [[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs,
                                                            const std::string& input);
+/// The same where inputs and outputs are known to differ.
+[[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs);
 
 }  // namespace obvid

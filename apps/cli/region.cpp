@@ -15,6 +15,7 @@
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/region_files.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "outputs.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -218,9 +219,9 @@ int run(const RegionOptions& options) {
     }
     files.push_back({path, std::move(*file)});
   }
-  for (const NamedFile& one : files) {
-    if (auto done = write_file(one.path, one.file.text); !done) return report(done.error());
-  }
+  std::vector<Output> outputs;
+  for (const NamedFile& one : files) outputs.push_back({one.path, {}, one.file.text});
+  if (auto done = write_files(outputs); !done) return report(done.error());
   std::string text;
   if (options.json) {
     auto json = region_json(*series, *region, {});

@@ -292,10 +292,11 @@ int verify_in_space(const StoredSpaceChain& stored, const std::string& name,
                     const VerifyOptions& options) {
   const SpaceChainVerification found = verify(stored);
   std::string shown;
+  std::vector<Output> files;
   for (const std::string& path : options.outputs) {
-    const auto done = write_file(path, space_verification_json(stored, found));
-    if (!done) return report(done.error());
+    files.push_back({path, {}, space_verification_json(stored, found)});
   }
+  if (auto done = write_files(files); !done) return report(done.error());
   if (options.json) {
     shown = space_verification_json(stored, found);
   } else if (!options.quiet) {

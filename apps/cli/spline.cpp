@@ -116,7 +116,7 @@ Result<void> write_graph(const TableSpline& made, const std::vector<std::string>
 
 Result<void> write_spline(const TableSpline& made, const SplineOptions& options) {
   std::vector<std::string> drawn;
-  std::vector<std::pair<std::string, std::string>> texts;
+  std::vector<Output> texts;
   for (const std::string& path : options.outputs) {
     if (is_graph_file(made, path)) {
       drawn.push_back(path);
@@ -124,10 +124,10 @@ Result<void> write_spline(const TableSpline& made, const SplineOptions& options)
     }
     auto text = table_spline_file(made, path, options.samples);
     OBVID_TRY(text);
-    texts.emplace_back(path, std::move(*text));
+    texts.push_back({path, {}, std::move(*text)});
   }
   OBVID_TRY(write_graph(made, drawn, options));
-  for (const auto& [path, text] : texts) OBVID_TRY(write_file(path, text));
+  OBVID_TRY(write_files(texts));
   return {};
 }
 

@@ -33,7 +33,7 @@ int run(const SurfaceOptions& options) {
   if (const auto* second = second_inputs(options.job)) {
     for (const SurfaceInput& input : *second) inputs.push_back(input.name);
   }
-  Result<std::vector<SurfaceOutput>> outputs = surface_outputs_of(options.outputs, inputs);
+  Result<std::vector<Output>> outputs = surface_outputs_of(options.outputs, inputs);
   if (!outputs) return report(outputs.error());
   ProgressBar bar(options.progress);
   bar.tell("reading", 0.0);

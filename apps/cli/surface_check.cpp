@@ -175,12 +175,12 @@ Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
   return table;
 }
 
-Result<std::vector<SurfaceOutput>> pictures_of(const SurfaceCheckOptions& options) {
+Result<std::vector<Output>> pictures_of(const SurfaceCheckOptions& options) {
   std::vector<std::string> inputs{options.input};
   if (options.job.against) inputs.push_back(options.job.against->name);
   auto outputs = surface_outputs_of(options.outputs, inputs);
   if (!outputs) return outputs;
-  for (const SurfaceOutput& output : *outputs) {
+  for (const Output& output : *outputs) {
     const bool picture =
         output.format == FileFormat::kPicture || output.format == FileFormat::kPage;
     if (picture) continue;

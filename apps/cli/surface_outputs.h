@@ -8,23 +8,19 @@
 #include "obvid/core/result.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/surface_export.h"
+#include "outputs.h"
 
 namespace obvid {
 
-struct SurfaceOutput {
-  std::string path;
-  FileFormat format = FileFormat::kContour;
-};
-
 /// Formats by endings. Errors: E202 for endings without format, E203 where an input would be
 /// replaced.
-[[nodiscard]] Result<std::vector<SurfaceOutput>> surface_outputs_of(
+[[nodiscard]] Result<std::vector<Output>> surface_outputs_of(
     const std::vector<std::string>& paths, const std::vector<std::string>& inputs);
 
 /// Forms all texts, then writes all files, each whole or not at all. `warnings` get what may be
 /// wrong about them.
 [[nodiscard]] Result<Written> write_surface(const SurfaceModel& model,
-                                            const std::vector<SurfaceOutput>& outputs,
+                                            const std::vector<Output>& outputs,
                                             const SurfaceExportOptions& options,
                                             const Progress& progress,
                                             std::vector<std::string>& warnings);

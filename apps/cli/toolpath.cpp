@@ -19,15 +19,9 @@
 namespace obvid {
 namespace {
 
-struct ToolpathOutput {
-  std::string path;
-  FileFormat format = FileFormat::kGcode;
-  std::string text;
-};
-
-Result<std::vector<ToolpathOutput>> outputs_of(const ToolpathCommand& command) {
+Result<std::vector<Output>> outputs_of(const ToolpathCommand& command) {
   OBVID_TRY(check_outputs(command.outputs, {&command.input, 1}));
-  std::vector<ToolpathOutput> outputs;
+  std::vector<Output> outputs;
   for (const std::string& path : command.outputs) {
     const auto format = toolpath_format_of(path);
     if (!format) {
@@ -47,7 +41,7 @@ struct Made {
   std::vector<std::string> warnings;
 };
 
-Result<void> fill(ToolpathOutput& output, Made& made, SurfaceExporter& exporter) {
+Result<void> fill(Output& output, Made& made, SurfaceExporter& exporter) {
   if (output.format == FileFormat::kGcode) {
     output.text = made.job.path.program.text;
     return {};
@@ -58,7 +52,7 @@ Result<void> fill(ToolpathOutput& output, Made& made, SurfaceExporter& exporter)
   return {};
 }
 
-Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutput>& outputs,
+Result<Made> made_from(const ToolpathCommand& command, std::vector<Output>& outputs,
                        ProgressBar& bar) {
   Made made;
   bar.tell("reading", 0.0);
@@ -74,7 +68,7 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<ToolpathOutpu
   formats.lines = drawn(made.job.path);
   SurfaceExporter exporter(made.model, formats, bar.progress());
   bar.tell("writing", 1.0);
-  for (ToolpathOutput& output : outputs) {
+  for (Output& output : outputs) {
     OBVID_TRY(fill(output, made, exporter));
   }
   return made;
@@ -115,7 +109,7 @@ std::string rest_text(const ToolpathReport& r, const std::string& unit) {
 
 std::string toolpath_text(const Made& made, const std::vector<std::string>& files, bool earlier) {
   const ToolpathReport& r = made.job.path.report;
-  const std::string& unit = made.job.path.units;
+  const std::string unit = made.job.path.units.text();
   Facts facts;
   const bool rough = std::isnan(r.hidden_area);
   facts.add("passes",
@@ -193,22 +187,16 @@ int run(const ToolpathCommand& command) {
     bar.clear();
     return report(made.error());
   }
-  std::vector<std::string> files;
-  for (const ToolpathOutput& output : *outputs) {
-    if (auto done = write_file(output.path, output.text); !done) {
-      bar.clear();
-      return report(done.error());
-    }
-    files.push_back(output.path);
-  }
+  const auto files = write_files(*outputs);
   bar.clear();
+  if (!files) return report(files.error());
   warn(made->warnings);
   std::string text;
   if (command.json) {
     made->job.warnings = made->warnings;
-    text = toolpath_report_json(made->job, {files, made->remarks});
+    text = toolpath_report_json(made->job, {*files, made->remarks});
   } else if (!command.quiet) {
-    text = toolpath_text(*made, files, command.job.rest_of.has_value());
+    text = toolpath_text(*made, *files, command.job.rest_of.has_value());
   }
   if (auto done = put(text); !done) return report(done.error());
   return judge_toolpath(*made);

@@ -12,6 +12,7 @@
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/space_fit.h"
 #include "obvid/pipeline/stored.h"
+#include "outputs.h"
 #include "several.h"
 #include "space_fit.h"
 #include "table.h"
@@ -183,10 +184,11 @@ int run(const VerifyOptions& options) {
   const auto* stored = &std::get<StoredContour>(*read);
   const Verification found = verify(*stored);
   std::string shown;
+  std::vector<Output> files;
   for (const std::string& path : options.outputs) {
-    const auto done = write_file(path, verification_json(*stored, found));
-    if (!done) return report(done.error());
+    files.push_back({path, {}, verification_json(*stored, found)});
   }
+  if (auto done = write_files(files); !done) return report(done.error());
   if (options.json) {
     shown = verification_json(*stored, found);
   } else if (!options.quiet) {

@@ -46,12 +46,12 @@ class Cutting {
         watch_(run),
         units_(outlines.front().contour.units),
         inches_(units_.name == "in"),
-        scale_(*unit_ratio(units_.name, inches_ ? "in" : "mm")),
+        scale_(*exchange::machine_units_in(units_)),
         defaults_(inches_ ? kInches : kMillimetres) {}
 
   Result<CutProgram> run() {
-    decimals_ =
-        options_.decimals.value_or(exchange::gcode_decimals(options_.tolerance * scale_, inches_));
+    decimals_ = options_.decimals.value_or(exchange::decimals_of_digit(
+        exchange::kDigitOfTolerance * (options_.tolerance * scale_), inches_));
     OBVID_TRY(check_lengths());
     watch_.tell("outlines", 0.0);
     auto tracks = tracks_of(outlines_, options_, scale_, watch_);
@@ -307,9 +307,9 @@ class Cutting {
         tool_text(out.report.levels),
         fmt::format("{}, about {:.1f} min", counted(out.steps.size(), "outline", "outlines"),
                     out.report.minutes)};
-    if (!units_.known()) remarks.emplace_back("the unit is assumed");
-    if (!inches_ && scale_ != 1.0)
-      remarks.push_back("converted from " + gcode_comment(units_.name));
+    for (std::string& one : exchange::gcode_unit_remarks(units_)) {
+      remarks.push_back(std::move(one));
+    }
     return exchange::gcode_head(options_.controller, inches_, remarks);
   }
 

@@ -109,10 +109,7 @@ Result<void> check_cut_options(const CutOptions& o) {
     return bad("a cut runs along arcs or splines", "--motion", 0.0, "arcs, or splines");
   }
   if (o.motion == GcodeMotion::kSplines) OBVID_TRY(exchange::check_g5(o.controller));
-  if (o.decimals && (*o.decimals < 1 || *o.decimals > exchange::kMostGcodeDecimals)) {
-    return bad("decimals must be 1 to 6", "--decimals", *o.decimals, "");
-  }
-  return {};
+  return exchange::check_gcode_decimals(o.decimals);
 }
 
 std::vector<std::string> idle_cut_options(const CutOptions& o) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "obvid/geom/internal/box.h"
 #include "read_points_reader.h"
 
 namespace obvid {
@@ -228,11 +229,8 @@ void RowReader::warn_about_meaning() {
                                         shown(layout_.no_unit), known_units()));
   }
   if (raw_.points.empty() || raw_.units.known()) return;
-  Vec2 low = raw_.points.front(), high = low;
-  for (const Vec2 p : raw_.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
+  Box2 box;
+  for (const Vec2 p : raw_.points) box.add(p);
   // places on the globe lie far from its origin, within a part of a degree
   constexpr double kMostDegrees = 0.5, kPart = 0.02;
   const auto place = [&](double from, double to, double limit) {
@@ -240,8 +238,8 @@ void RowReader::warn_about_meaning() {
     return to - from <= std::min(kMostDegrees, kPart * far) &&
            std::max(std::abs(from), std::abs(to)) <= limit;
   };
-  const bool lon_lat = place(low.x, high.x, 180.0) && place(low.y, high.y, 90.0);
-  const bool lat_lon = place(low.x, high.x, 90.0) && place(low.y, high.y, 180.0);
+  const bool lon_lat = place(box.low.x, box.high.x, 180.0) && place(box.low.y, box.high.y, 90.0);
+  const bool lat_lon = place(box.low.x, box.high.x, 90.0) && place(box.low.y, box.high.y, 180.0);
   if (degrees_named_ || lon_lat || lat_lon) {
     raw_.warnings.emplace_back(
         "The coordinates look like longitude and latitude in degrees, which are no lengths: as GPX "

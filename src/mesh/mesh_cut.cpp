@@ -205,15 +205,12 @@ double chain_length(const MeshSection& chain) {
 
 }  // namespace
 
-Result<MeshBounds> bounds_of(const TriangleMesh& mesh) {
+Result<Box3> bounds_of(const TriangleMesh& mesh) {
   if (mesh.points.empty()) {
     return fail({ErrorCode::kTooFewPoints, "a mesh without points", "", ""});
   }
-  MeshBounds out{mesh.points.front(), mesh.points.front()};
-  for (const Vec3& p : mesh.points) {
-    out.low = {std::min(out.low.x, p.x), std::min(out.low.y, p.y), std::min(out.low.z, p.z)};
-    out.high = {std::max(out.high.x, p.x), std::max(out.high.y, p.y), std::max(out.high.z, p.z)};
-  }
+  Box3 out;
+  out.add_all(mesh.points);
   return out;
 }
 

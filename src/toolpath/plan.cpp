@@ -8,8 +8,8 @@
 
 #include "entry.h"
 #include "leftover.h"
-#include "machine_units.h"
 #include "moves.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/exchange/internal/gcode/motion_time.h"
 #include "obvid/toolpath/toolpath.h"
 #include "pass_families.h"
@@ -221,7 +221,7 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
   }
   if (r.gouge.found > out.tolerance) {
     add(fmt::format("the program cuts {:.3g} {} into the surface at {}, {:.3g} are allowed",
-                    r.gouge.found, out.units, place_text(r.gouge.place), out.tolerance),
+                    r.gouge.found, out.units.text(), place_text(r.gouge.place), out.tolerance),
         r.gouge.found, "do not run it; a smaller --tolerance may keep it");
   }
   if (options.scallop && !std::isfinite(r.scallop.found)) {
@@ -231,7 +231,8 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
         r.scallop.found, "a ball cutter or another angle leaves less");
   } else if (options.scallop && r.scallop.found > *options.scallop) {
     add(fmt::format("the residual scallop height is {:.3g} {} at {}, where {:.3g} was asked for",
-                    r.scallop.found, out.units, place_text(r.scallop.place), *options.scallop),
+                    r.scallop.found, out.units.text(), place_text(r.scallop.place),
+                    *options.scallop),
         r.scallop.found,
         "a ball cutter, another strategy or angle, or a smaller --step-over "
         "leaves less");
@@ -250,13 +251,13 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
     add(fmt::format(
             "about {:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
             "most at {}",
-            100.0 * r.unreached_area / r.surface_area, r.unreached_depth, out.units,
+            100.0 * r.unreached_area / r.surface_area, r.unreached_depth, out.units.text(),
             place_text(r.unreached_place)),
         r.unreached_depth, "a smaller cutter reaches more");
   }
   if (r.flat_area > 0.0) {
     const std::string left = std::isfinite(r.flat_left)
-                                 ? fmt::format("up to {:.3g} {}", r.flat_left, out.units)
+                                 ? fmt::format("up to {:.3g} {}", r.flat_left, out.units.text())
                                  : "no pass comes over it";
     add(fmt::format("about {:.3g} % of the surface is flatter than levels are for and keeps too "
                     "much: {} at {}",
@@ -279,7 +280,7 @@ Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nea
   out.program = std::move(*program);
   out.report.minutes = out.program.minutes;
   const auto seen = check_program(part, cells, reach, left, out.program.text,
-                                  machine_scale(out.units), options, run);
+                                  *exchange::machine_units_in(out.units), options, run);
   OBVID_TRY(seen);
   take_over(*seen, cells.spacing(), out.report);
   return {};
@@ -313,13 +314,13 @@ void tell_leftover(const Leftover& left, ToolpathReport& out) {
 Toolpath begun(const SurfaceModel& model, const ToolpathOptions& options) {
   Toolpath out;
   out.name = model.name;
-  out.units = model.units.name;
+  out.units = model.units;
   out.cutter = options.cutter;
   out.tolerance = options.tolerance;
   out.spindle = options.spindle;
   out.acceleration = options.acceleration;
   out.print_within = print_within(options);
-  const ToolpathFeeds usual = default_feeds(model.units.name);
+  const ToolpathFeeds usual = default_feeds(model.units);
   out.feeds = {options.feed.value_or(usual.pass), options.plunge_feed.value_or(usual.plunge),
                options.rapid_feed.value_or(usual.rapid)};
   return out;
@@ -424,10 +425,7 @@ Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
   if (model.patches.empty()) {
     return error(ErrorCode::kNothingThere, "the model has no patches");
   }
-  if (machine_scale(model.units.name) == 0.0) {
-    return error(ErrorCode::kUnsupported, "machines do not know the unit " + model.units.name)
-        .hint("known are um, mm, cm, m, km, in, ft");
-  }
+  OBVID_TRY(exchange::machine_units_in(model.units));
   return planned(model, options, *cutter, run);
 }
 

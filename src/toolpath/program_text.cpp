@@ -8,15 +8,17 @@
 
 #include "biarc.h"
 #include "moves.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
+#include "obvid/exchange/internal/gcode/gcode_limits.h"
+#include "obvid/exchange/internal/gcode/path.h"
 
 namespace obvid::toolpath {
 namespace {
 
-constexpr int kCentreDecimals = 5;
-constexpr double kLowestArc = 0.5;         // last digits: height of arcs that are told as such
-constexpr double kShortestChord = 20.0;    // last digits: below, rounding turns an arc too much
-constexpr double kSmallestRadius = 0.002;  // a radius that LinuxCNC takes for none, and some
-constexpr double kLargestRadius = 1e4;     // machine units: beyond, centres need more digits
+using exchange::fixed;
+using exchange::kLeastCentreDecimals;
+
+constexpr double kLargestRadius = 1e4;  // machine units: beyond, centres need more digits
 /// Cosine of half the turn of the flattest arcs that are told as one: less than half a turn.
 constexpr double kMostLean = 0.2;
 constexpr std::size_t kMostAhead = 512;  // points that one biarc stands for: bounds the search
@@ -25,12 +27,6 @@ constexpr double kCornerCosine = 0.98;   // sharper ones end a biarc
 double round_to(double value, int decimals) {
   const double places = std::pow(10.0, decimals);
   return std::round(value * places) / places;
-}
-
-std::string fixed(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
-  return zero && text[0] == '-' ? text.substr(1) : text;
 }
 
 }  // namespace
@@ -116,7 +112,7 @@ void ProgramText::line(bool rapid, Vec3 to) {
 
 void ProgramText::feed(double value) {
   if (value == feed_) return;
-  text_ += "F" + fixed(value, 3) + "\n";
+  text_ += "F" + fixed(value, exchange::kLeastGcodeDecimals) + "\n";
   feed_ = value;
 }
 
@@ -172,16 +168,17 @@ ProgramText::Block ProgramText::block(Vec2 from, Vec2 middle, Vec2 to) const {
   out.to = {round_to(to.x, decimals_), round_to(to.y, decimals_)};
   const Vec2 chord = out.to - from;
   const double length = norm(chord);
-  if (length < kShortestChord * unit_) return out;
+  if (length < exchange::kShortestChord * unit_) return out;
   const Vec2 across = left_normal(chord) / length;
   const double height = dot(middle - from, across);  // below the chord, turning left: negative
-  if (std::abs(height) < kLowestArc * unit_) return out;
+  if (std::abs(height) < exchange::kLowestArc * unit_) return out;
   const double radius = 0.5 * std::abs(height) + 0.125 * length * length / std::abs(height);
-  if (radius < kSmallestRadius || radius > kLargestRadius) return out;
+  if (radius < exchange::kSmallestRadius || radius > kLargestRadius) return out;
   out.arc = true;
   out.left = height < 0.0;
   const Vec2 centre = 0.5 * chord + (height + (out.left ? radius : -radius)) * across;
-  out.to_centre = {round_to(centre.x, kCentreDecimals), round_to(centre.y, kCentreDecimals)};
+  out.to_centre = {round_to(centre.x, kLeastCentreDecimals),
+                   round_to(centre.y, kLeastCentreDecimals)};
   return out;
 }
 
@@ -219,8 +216,8 @@ void ProgramText::print(const Flat& flat, const Block& block) {
   plane(flat.plane);
   text_ += fmt::format("{}{} {}{} K{}\n", counter_clockwise ? "G3" : "G2", words(end),
                        flat.plane == PassPlane::kXz ? "I" : "J",
-                       fixed(block.to_centre.x, kCentreDecimals),
-                       fixed(block.to_centre.y, kCentreDecimals));
+                       fixed(block.to_centre.x, kLeastCentreDecimals),
+                       fixed(block.to_centre.y, kLeastCentreDecimals));
   ++blocks_;
   ++arc_blocks_;
   const double turn = block.turn();

@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "machine_units.h"
 #include "obvid/core/version.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/toolpath/toolpath.h"
@@ -16,7 +15,6 @@ namespace obvid {
 namespace {
 
 constexpr double kDigitsOfPrint = 1.0 / 3.0;  // of what printing may, the last digit's worth
-constexpr double kDigitRounding = 1e-9;       // 0.003 asks for 3 decimals, not for 3.0000000001
 
 std::string cutter_text(const Toolpath& path, double scale) {
   const double d = path.cutter.diameter * scale;
@@ -33,13 +31,15 @@ std::string cutter_text(const Toolpath& path, double scale) {
 
 std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, double scale,
                  double minutes) {
-  const bool inches = path.units == "in";
+  const bool inches = path.units.name == "in";
   std::vector<std::string> remarks{
       fmt::format("Obvid {}: {}", kVersion, gcode_comment(options.name)),
       cutter_text(path, scale) + ", places are those of the tip",
       fmt::format("{} passes, about {:.1f} min, within {:.3g} {}", path.report.passes, minutes,
                   path.tolerance * scale, inches ? "in" : "mm")};
-  if (!inches && scale != 1.0) remarks.push_back("converted from " + gcode_comment(path.units));
+  for (std::string& one : exchange::gcode_unit_remarks(path.units)) {
+    remarks.push_back(std::move(one));
+  }
   return exchange::gcode_head(options.controller, inches, remarks);
 }
 
@@ -61,34 +61,30 @@ void write_moves(const Toolpath& path, double scale, toolpath::ProgramText& prog
 
 }  // namespace
 
+ToolpathFeeds default_feeds(const Units& units) {
+  const bool inches = units.name == "in";
+  return {default_feed(units.name), inches ? 12.0 : 300.0, inches ? 200.0 : 5000.0};
+}
+
 Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOptions& options) {
-  const double scale = toolpath::machine_scale(path.units);
-  if (scale == 0.0) {
-    return error(ErrorCode::kUnsupported, "machines do not know the unit " + path.units)
-        .hint("known are um, mm, cm, m, km, in, ft");
-  }
-  if (options.decimals &&
-      (*options.decimals < 1 || *options.decimals > exchange::kMostGcodeDecimals)) {
-    return error(ErrorCode::kBadOption,
-                 fmt::format("decimals must be 1 to {}", exchange::kMostGcodeDecimals))
-        .value(static_cast<double>(*options.decimals));
-  }
-  const double print = path.print_within * scale;
-  const int least = exchange::kLeastGcodeDecimals + (path.units == "in" ? 1 : 0);
-  const double digits = std::ceil(-std::log10(kDigitsOfPrint * print) - kDigitRounding);
-  const int decimals = options.decimals.value_or(
-      static_cast<int>(std::clamp<double>(digits, least, exchange::kMostGcodeDecimals)));
+  const auto unit = exchange::machine_units_in(path.units);
+  OBVID_TRY(unit);
+  OBVID_TRY(exchange::check_gcode_decimals(options.decimals));
+  const double scale = *unit, print = path.print_within * scale;
+  const bool inches = path.units.name == "in";
+  const int decimals =
+      options.decimals.value_or(exchange::decimals_of_digit(kDigitsOfPrint * print, inches));
   const double within = print - std::pow(10.0, -decimals);
   if (!(within > 0.0)) {
     return error(ErrorCode::kToleranceNotReached,
                  fmt::format("{} decimals do not keep a tolerance of {:g} {}", decimals,
-                             path.tolerance, path.units))
+                             path.tolerance, path.units.text()))
         .hint("print more decimals, or allow a larger tolerance")
         .value(path.tolerance);
   }
-  const exchange::MotionRules machine{
-      path.feeds.rapid, exchange::machine_acceleration(path.acceleration, path.units == "in"),
-      path.tolerance * scale};
+  const exchange::MotionRules machine{path.feeds.rapid,
+                                      exchange::machine_acceleration(path.acceleration, inches),
+                                      path.tolerance * scale};
   toolpath::ProgramText program(decimals, within, options.arcs, machine);
   write_moves(path, scale, program);
   ToolpathGcode out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/alignment/transition.h"
+#include "../common/shared_data.h"
 
 #include <gtest/gtest.h>
 
@@ -323,9 +324,8 @@ double stated_curvature(const std::string& name, int field) {
 }
 
 TEST(TransitionPublicFiles, EachIsOneElementWithItsRadii) {
-  const std::filesystem::path folder =
-      std::filesystem::path(OBVID_SHARED_DATA) / "rail_transition_curves";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  SKIP_WITHOUT("rail_transition_curves");
+  const auto folder = shared_data() / "rail_transition_curves";
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "../common/text.h"
 #include "built_cad.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/certify/certify.h"
@@ -169,8 +170,7 @@ TEST_F(ContourFiles, FindsContoursOfEveryCarrierThatIsOneCurve) {
 }
 
 TEST_F(ContourFiles, FindsArcsAsArcsInOpenAndClosedContours) {
-  std::ifstream stored(std::string(OBVID_TEST_DATA) + "/contours/arcs_closed.json");
-  const std::string text{std::istreambuf_iterator<char>(stored), {}};
+  const std::string text = text_of_file(OBVID_TEST_DATA "/contours/arcs_closed.json");
   const auto closed = contour_from_json(text, "arcs_closed.json");
   ASSERT_TRUE(closed) << to_line(closed.error());
   ASSERT_TRUE(closed->contour.closed);

@@ -18,6 +18,7 @@
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/toolpath/toolpath.h"
 
 namespace obvid {
 namespace {
@@ -290,6 +291,40 @@ TEST_F(EveryUnit, OfAProgramIsMillimetresOrInches) {
   }
 }
 
+/// A pass of a tool: 40 units along x, 30 along y.
+Toolpath pass_in(const Units& units) {
+  Toolpath path;
+  path.units = units;
+  path.tolerance = 0.01;
+  path.print_within = 0.005;
+  path.feeds = default_feeds(units);
+  path.moves.push_back({ToolMove::kRapid, PassPlane::kNone, {{0, 0, 5}, {0, 0, 0}}});
+  path.moves.push_back({ToolMove::kPass, PassPlane::kNone, {{0, 0, 0}, {40, 0, 0}, {40, 30, 0}}});
+  return path;
+}
+
+TEST_F(EveryUnit, OfAToolPathIsMillimetresOrInchesAsOfOtherPrograms) {
+  for (const LengthOfUnit& unit : kLengthUnits) {
+    if (40.0 * unit.metres < 1e-3) continue;  // decimals: at least 1e-6 mm or in
+    const Toolpath path = pass_in(unit.name);
+    const auto program = toolpath_gcode(path);
+    ASSERT_TRUE(program) << unit.name << to_line(program.error());
+    const std::string& text = program->text;
+    const std::string name = unit.name;
+    EXPECT_EQ(text.find("G20") != std::string::npos, name == "in");
+    EXPECT_EQ(text.find("(converted from " + name + ")") != std::string::npos,
+              name != "in" && name != "mm");
+    EXPECT_EQ(text.find("assumed"), std::string::npos);
+    const std::vector<Vec2> places = places_in_gcode(text);
+    ASSERT_GE(places.size(), 3U);
+    EXPECT_LE(norm(places.back() - unit.metres * Vec2{40, 30}), path.print_within * unit.metres);
+    EXPECT_LE(norm(places.front()), path.print_within * unit.metres);
+  }
+  const auto assumed = toolpath_gcode(pass_in(Units()));
+  ASSERT_TRUE(assumed);
+  EXPECT_NE(assumed->text.find("(the unit is assumed)"), std::string::npos);
+}
+
 TEST_F(EveryUnit, OfAMacroIsMetres) {
   for (const LengthOfUnit& unit : kLengthUnits) {
     const Contour contour = outline(unit.name);
@@ -354,6 +389,9 @@ TEST_F(EveryUnit, WithoutALengthIsRefusedWhereLengthsAreTrue) {
       ASSERT_FALSE(out) << unit;
       EXPECT_EQ(out.error().code, ErrorCode::kBadOption) << unit;
     }
+    const auto milled = toolpath_gcode(pass_in(unit));
+    ASSERT_FALSE(milled) << unit;
+    EXPECT_EQ(milled.error().code, ErrorCode::kBadOption) << unit;
     for (const FileFormat format : {FileFormat::kOpenDrive, FileFormat::kLandXml}) {
       const auto out = export_contour({road(unit), std::nullopt, std::nullopt}, format, options);
       ASSERT_FALSE(out) << unit;

@@ -12,6 +12,9 @@
 #include <sstream>
 #include <tuple>
 
+#include "../common/programs.h"
+#include "../common/shared_data.h"
+#include "../common/text.h"
 #include "faces_fixture.h"
 #include "obvid/cad/internal/cad.h"
 
@@ -104,14 +107,8 @@ void expect_found(const fs::path& file, const SurfaceModel& model) {
   command << kFacesFile << "='" << file.string() << "' " << kModel << "=" << model.name << " "
           << kUnits << "=" << model.units.name << " " << fs::read_symlink("/proc/self/exe").string()
           << " --gtest_filter=FaceReader.* 2>&1 </dev/null";
-  std::string out;
-  FILE* pipe = ::popen(command.str().c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  char buffer[4096];
-  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
-    out.append(buffer, n);
-  }
-  EXPECT_EQ(::pclose(pipe), 0) << file.filename() << "\n" << out;
+  const auto [out, status] = ran(command.str());
+  EXPECT_EQ(status, 0) << file.filename() << "\n" << out;
   EXPECT_NE(out.find("[  PASSED  ] 1 test"), std::string::npos) << out;
 }
 
@@ -225,12 +222,10 @@ TEST_F(FaceFiles, WhatIsNoSurfaceIsRefusedByName) {
 TEST_F(FaceFiles, DamagedFilesAreRefusedAndNothingCrashes) {
   for (const CadFormat format : kAllCadFormats) {
     const fs::path file = written(box_model().model, format);
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
+    const std::string text = text_of_file(file);
     constexpr std::size_t kCuts = 12;
     for (std::size_t k = 0; k < kCuts; ++k) {
-      std::ofstream(file, std::ios::binary) << text.str().substr(0, text.str().size() * k / kCuts);
+      std::ofstream(file, std::ios::binary) << text.substr(0, text.size() * k / kCuts);
       const auto read = read_cad_surfaces(file.string());
       if (!read) {
         EXPECT_FALSE(to_line(read.error()).empty());
@@ -242,8 +237,8 @@ TEST_F(FaceFiles, DamagedFilesAreRefusedAndNothingCrashes) {
 }
 
 TEST_F(FaceFiles, PublicFilesAreReadOrRefusedWithAReason) {
-  const fs::path folder = fs::path(OBVID_SHARED_DATA) / "cad_iges_step";
-  if (!fs::exists(folder)) GTEST_SKIP() << "the public data are not there";
+  SKIP_WITHOUT("cad_iges_step");
+  const auto folder = shared_data() / "cad_iges_step";
   int read_ones = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".csv") continue;

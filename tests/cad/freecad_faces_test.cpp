@@ -12,8 +12,9 @@
 #include <sstream>
 #include <string>
 
+#include "../common/programs.h"
+#include "../common/shared_data.h"
 #include "built_cad.h"
-#include "command_output.h"
 #include "faces_models.h"
 #include "obvid/cad/internal/cad.h"
 
@@ -60,7 +61,7 @@ std::string patch_points_json(const SurfaceModel& model, double scale) {
 class FacesInFreecad : public testing::Test {
  protected:
   void SetUp() override {
-    if (output_of("command -v freecadcmd").empty()) GTEST_SKIP() << "FreeCAD is not installed";
+    SKIP_WITHOUT_PROGRAM("freecadcmd");
     if (kCadIsMissing) GTEST_SKIP() << kCadMissing;
     std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
     ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
@@ -182,8 +183,8 @@ TEST_F(FacesInFreecad, UnitsKeepTheLengths) {
 
 /// Planes, cylinders, spheres and tori of files that other systems wrote.
 TEST_F(FacesInFreecad, FacesReadFromPublicFilesLieOnTheirs) {
-  const fs::path folder = fs::path(OBVID_SHARED_DATA) / "cad_iges_step";
-  if (!fs::exists(folder)) GTEST_SKIP() << "the public data are not there";
+  SKIP_WITHOUT("cad_iges_step");
+  const auto folder = shared_data() / "cad_iges_step";
   for (const char* name :
        {"stepcode_HEAD_BACK.stp", "stepcode_TAIL_TURBINE.stp", "pythonocc_splinecage.stp",
         "pygem_test_pipe.step", "pythonocc_surf114.igs", "occt_wing.brep"}) {

@@ -15,7 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "command_output.h"
+#include "../common/programs.h"
+#include "../common/shared_data.h"
 #include "faces_fixture.h"
 #include "obvid/io/read_points.h"
 #include "obvid/io/read_sections.h"
@@ -28,15 +29,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string public_file(const std::string& path) {
-  return (fs::path(OBVID_SHARED_DATA) / path).string();
-}
+std::string public_file(const std::string& path) { return (shared_data() / path).string(); }
 
 class SkinsInFreecad : public FaceFiles {
  protected:
   void SetUp() override {
-    if (!fs::exists(OBVID_SHARED_DATA)) GTEST_SKIP() << "the public data are not there";
-    if (output_of("command -v freecadcmd").empty()) GTEST_SKIP() << "FreeCAD is not installed";
+    SKIP_WITHOUT("");
+    SKIP_WITHOUT_PROGRAM("freecadcmd");
     FaceFiles::SetUp();
   }
 

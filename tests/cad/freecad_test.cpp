@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "../common/programs.h"
 #include "built_cad.h"
-#include "command_output.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
@@ -93,7 +93,7 @@ std::string contour_points_json(const Contour& contour, double scale) {
 class InFreecad : public testing::Test {
  protected:
   void SetUp() override {
-    if (output_of("command -v freecadcmd").empty()) GTEST_SKIP() << "FreeCAD is not installed";
+    SKIP_WITHOUT_PROGRAM("freecadcmd");
     std::string pattern = (fs::temp_directory_path() / "obvid-test-XXXXXX").string();
     ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;

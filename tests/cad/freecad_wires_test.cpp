@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "../common/drawn_files.h"
-#include "command_output.h"
+#include "../common/programs.h"
 #include "obvid/exchange/internal/step/write.h"
 
 namespace obvid {
@@ -75,7 +75,7 @@ std::map<std::string, FoundShape> found_by_freecad(const std::string& files) {
 }
 
 TEST(WiresInFreecad, AreOneCurveAndTheirFacesOneShell) {
-  if (output_of("command -v freecadcmd").empty()) GTEST_SKIP() << "FreeCAD is not installed";
+  SKIP_WITHOUT_PROGRAM("freecadcmd");
   constexpr double kWidth = 2.0, kInch = 25.4;
   std::string files;
   for (const WireCase& one : wire_cases()) {

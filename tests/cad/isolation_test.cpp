@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "../common/text.h"
 #include "built_cad.h"
 #include "obvid/cad/internal/cad.h"
 #include "test_folder.h"
@@ -55,14 +56,6 @@ std::vector<CadCurve> line_of(double length) {
 double length_in(const Drawing& drawing) {
   return norm(end_point(drawing.curves.at(0).pieces.at(0)) -
               start_point(drawing.curves.at(0).pieces.at(0)));
-}
-
-/// Contents of a file of /proc.
-std::string told(const std::string& path) {
-  std::ifstream stream(path);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 TEST_F(CadIsolation, ThreadsWriteAndReadAtOnceInDifferentUnitsAndFormats) {
@@ -117,7 +110,7 @@ TEST_F(CadIsolation, AHostWithMuchMemoryReadsAsWell) {
 
 TEST_F(CadIsolation, NothingOfTheKernelIsInThisProcess) {
   ASSERT_TRUE(cad_text(line_of(2.0), {CadFormat::kIges, "mm", 0.0}));
-  const std::string maps = told("/proc/self/maps");
+  const std::string maps = text_of_file("/proc/self/maps");
   ASSERT_NE(maps.find("libc.so"), std::string::npos);
   EXPECT_EQ(maps.find("libTK"), std::string::npos);
 }
@@ -146,12 +139,12 @@ TEST_F(CadIsolation, ReadingEndsWithTheTimeItIsGiven) {
 /// Process number of the only child, or 0.
 pid_t child_of(pid_t process) {
   const std::string number = std::to_string(process);
-  return std::atoi(told("/proc/" + number + "/task/" + number + "/children").c_str());
+  return std::atoi(text_of_file("/proc/" + number + "/task/" + number + "/children").c_str());
 }
 
 /// Running, and not only waiting for its end to be noticed.
 bool is_alive(pid_t process) {
-  const std::string state = told("/proc/" + std::to_string(process) + "/stat");
+  const std::string state = text_of_file("/proc/" + std::to_string(process) + "/stat");
   const std::size_t name = state.rfind(')');
   return name != std::string::npos && state.substr(name + 2, 1) != "Z";
 }
@@ -177,7 +170,7 @@ TEST_F(CadIsolation, TheHelperEndsWhenTheProgramIsKilled) {
   // it has taken its job when it waits for the file: a second thread watches for our end
   const bool works =
       started && comes_true([&] {
-        return told("/proc/" + std::to_string(helper) + "/status").find("Threads:\t2") !=
+        return text_of_file("/proc/" + std::to_string(helper) + "/status").find("Threads:\t2") !=
                std::string::npos;
       });
   ::kill(program, SIGKILL);

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "../common/shared_data.h"
 #include "../common/ten_points.h"
 #include "built_cad.h"
 #include "obvid/cad/internal/cad.h"
@@ -266,8 +267,8 @@ TEST_F(CadFiles, DamagedFilesAreRefusedAndNothingCrashes) {
 }
 
 TEST_F(CadFiles, PublicFilesAreReadOrRefusedWithAReason) {
-  const fs::path folder = fs::path(OBVID_SHARED_DATA) / "cad_iges_step";
-  if (!fs::exists(folder)) GTEST_SKIP() << "the public data are not there";
+  SKIP_WITHOUT("cad_iges_step");
+  const auto folder = shared_data() / "cad_iges_step";
   int read = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string path = entry.path().string();

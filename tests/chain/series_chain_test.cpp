@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "../pipeline/oracle_curves.h"
+#include "../common/oracle_curves.h"
 #include "feasible_series.h"
 
 namespace obvid {

@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-#include "../pipeline/oracle_curves.h"
+#include "../common/oracle_curves.h"
 
 namespace obvid {
 namespace {

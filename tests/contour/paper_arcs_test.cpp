@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../region/paper_fit.h"
+#include "../common/paper_fit.h"
 #include "obvid/contour/arcs.h"
 
 namespace obvid::paper {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../region/paper_series.h"
+#include "../common/paper_series.h"
 #include "obvid/contour/bsplines.h"
 #include "obvid/region/internal/boundary_distance.h"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "../common/extended_curvature.h"
-#include "../pipeline/oracle_curves.h"
+#include "../common/oracle_curves.h"
 #include "obvid/certify/certify.h"
 
 namespace obvid {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../pipeline/oracle_curves.h"
+#include "../common/oracle_curves.h"
 #include "clothoid_data.h"
 #include "obvid/contour/clothoids.h"
 #include "turned_elements.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/core/error.h"
+#include "../common/text.h"
 
 #include <gtest/gtest.h>
 
@@ -14,13 +15,6 @@
 
 namespace obvid {
 namespace {
-
-std::string read_text(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 TEST(ErrorLine, HoldsCodePlaceAndHintInTheDocumentedOrder) {
   const Error error{ErrorCode::kBadNumber, "`1.2.3` is not a number", "part.csv:12:7",
@@ -51,7 +45,7 @@ TEST(ErrorTexts, StandInAscendingOrderWithoutRepetition) {
 
 // The header is the list of codes; reading it here notices a code that was added without a text.
 TEST(ErrorTexts, ExplainEveryCodeOfTheHeader) {
-  const std::string header = read_text(OBVID_SOURCE_DIR "/include/obvid/core/error.h");
+  const std::string header = text_of_file(OBVID_SOURCE_DIR "/include/obvid/core/error.h");
   const std::regex enumerator(R"(\bk[A-Z]\w* = (\d{3}),)");
   std::set<int> declared;
   for (std::sregex_iterator it(header.begin(), header.end(), enumerator), end; it != end; ++it) {
@@ -140,7 +134,7 @@ TEST(Result, CarriesAValueOrTheReasonWhyThereIsNone) {
 }
 
 TEST(Version, IsTheOneOfTheVersionFile) {
-  std::string stated = read_text(OBVID_SOURCE_DIR "/VERSION");
+  std::string stated = text_of_file(OBVID_SOURCE_DIR "/VERSION");
   while (!stated.empty() && stated.back() == '\n') stated.pop_back();
   EXPECT_EQ(stated, kVersion);
 }

@@ -8,16 +8,10 @@
 #include <sstream>
 #include <string>
 
+#include "../common/text.h"
 #include "obvid/exchange/drawing.h"
 
 namespace obvid {
-
-inline std::string slurp(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// Whether one of the warnings has these words.
 inline bool warns(const Drawing& drawing, const std::string& part) {

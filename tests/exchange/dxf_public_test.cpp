@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 
+#include "../common/shared_data.h"
 #include "obvid/exchange/internal/dxf/read.h"
 
 namespace obvid {
@@ -92,7 +93,7 @@ const Refused kRefused[] = {
 };
 
 std::optional<std::string> bytes_of(const char* file) {
-  std::ifstream in(fs::path(OBVID_SHARED_DATA) / "cad_dxf" / file, std::ios::binary);
+  std::ifstream in(shared_data() / "cad_dxf" / file, std::ios::binary);
   if (!in) return std::nullopt;
   std::ostringstream text;
   text << in.rdbuf();
@@ -139,9 +140,7 @@ struct Extent {
 };
 
 TEST(DxfPublicFiles, AreReadAsEzdxfReadsThem) {
-  if (!fs::exists(fs::path(OBVID_SHARED_DATA) / "cad_dxf")) {
-    GTEST_SKIP() << "public data sets not found in " OBVID_SHARED_DATA;
-  }
+  SKIP_WITHOUT("cad_dxf");
   for (const Expected& expected : kRead) {
     const auto bytes = bytes_of(expected.file);
     ASSERT_TRUE(bytes) << expected.file;
@@ -164,8 +163,9 @@ TEST(DxfPublicFiles, AreReadAsEzdxfReadsThem) {
 
 TEST(DxfPublicFiles, OfR9WithCoordinatesInAnotherOrder) {
   // ezdxf wants y behind x, and does not read it; grep counts 13 LINE and 9 ARC
+  SKIP_WITHOUT("cad_dxf");
   const auto bytes = bytes_of("ezdxf_AC1003_LINE_Example.dxf");
-  if (!bytes) GTEST_SKIP() << "public data sets not found in " OBVID_SHARED_DATA;
+  ASSERT_TRUE(bytes);
   const auto drawing = parse_dxf(*bytes, "R9");
   ASSERT_TRUE(drawing);
   Kinds kinds;
@@ -174,9 +174,10 @@ TEST(DxfPublicFiles, OfR9WithCoordinatesInAnotherOrder) {
 }
 
 TEST(DxfPublicFiles, AreRefusedWithAPreciseReason) {
+  SKIP_WITHOUT("cad_dxf");
   for (const Refused& refused : kRefused) {
     const auto bytes = bytes_of(refused.file);
-    if (!bytes) GTEST_SKIP() << "public data sets not found in " OBVID_SHARED_DATA;
+    ASSERT_TRUE(bytes) << refused.file;
     const auto drawing = parse_dxf(*bytes, refused.file);
     ASSERT_FALSE(drawing) << refused.file;
     EXPECT_EQ(drawing.error().code, ErrorCode::kNothingThere);
@@ -185,8 +186,8 @@ TEST(DxfPublicFiles, AreRefusedWithAPreciseReason) {
 }
 
 TEST(DxfPublicFiles, NoneIsForgottenHere) {
-  const fs::path folder = fs::path(OBVID_SHARED_DATA) / "cad_dxf";
-  if (!fs::exists(folder)) GTEST_SKIP() << "public data sets not found in " OBVID_SHARED_DATA;
+  SKIP_WITHOUT("cad_dxf");
+  const auto folder = shared_data() / "cad_dxf";
   const auto files = std::distance(fs::directory_iterator(folder), fs::directory_iterator());
   EXPECT_EQ(files, std::ssize(kRead) + std::ssize(kRefused) + 1);
 }

@@ -2,6 +2,7 @@
 // DXF files of contours: no entry in ezdxf's audit, and the same curve through ezdxf and back.
 #include "../common/angles.h"
 #include "../common/arcs.h"
+#include "../common/programs.h"
 #include "obvid/exchange/internal/dxf/write.h"
 
 #include <gmock/gmock.h>
@@ -135,13 +136,8 @@ class DxfFilesByEzdxf : public testing::Test {
 
   static std::string judged(const std::string& task, const std::string& rest) {
     const std::string command = std::string("/usr/bin/python3 -B '") + OBVID_SOURCE_DIR +
-                                "/tests/exchange/dxf_audit.py' " + task + " " + rest + " 2>&1";
-    std::string out;
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    if (pipe == nullptr) return "no pipe";
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) out += static_cast<char>(c);
-    if (::pclose(pipe) != 0) out += "\nfailed";
-    return out;
+                                "/tests/exchange/dxf_audit.py' " + task + " " + rest;
+    return judged_by(command);
   }
 
   /// Points that ezdxf finds on the curves of a file.

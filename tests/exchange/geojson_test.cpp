@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/geo/geojson.h"
+#include "../common/shared_data.h"
 #include "drawing_checks.h"
 
 #include <gtest/gtest.h>
@@ -128,11 +129,11 @@ std::vector<GeoPoint> positions_of(const std::string& text) {
 }
 
 TEST(GeoJsonPublicFiles, CircuitsHaveTheirPointsAndLengths) {
-  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "tracks_f1_geojson";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  SKIP_WITHOUT("tracks_f1_geojson");
+  const auto folder = shared_data() / "tracks_f1_geojson";
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string text = slurp(entry.path());
+    const std::string text = text_of_file(entry.path());
     const auto d = parse_geojson(text, entry.path().filename().string());
     ASSERT_TRUE(d.has_value()) << entry.path() << d.error().what;
     ASSERT_EQ(d->series.size(), 1U);
@@ -152,9 +153,9 @@ TEST(GeoJsonPublicFiles, CircuitsHaveTheirPointsAndLengths) {
 }
 
 TEST(GeoJsonPublicFiles, CutAnywhereTheyAreRefused) {
-  const auto path = std::filesystem::path(OBVID_SHARED_DATA) / "tracks_f1_geojson/tr-2005.geojson";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the public data set is not here";
-  const std::string text = slurp(path);
+  SKIP_WITHOUT("tracks_f1_geojson/tr-2005.geojson");
+  const auto path = shared_data() / "tracks_f1_geojson/tr-2005.geojson";
+  const std::string text = text_of_file(path);
   for (std::size_t n = 0; n < text.rfind('}'); ++n) {
     EXPECT_FALSE(parse_geojson(text.substr(0, n), "cut").has_value()) << n;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/geo/gpx.h"
+#include "../common/shared_data.h"
 #include "drawing_checks.h"
 
 #include <gtest/gtest.h>
@@ -100,8 +101,8 @@ TEST(Gpx, BrokenFilesAreRefused) {
 }
 
 TEST(GpxPublicFiles, EachHasItsPoints) {
-  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "gps_gpx";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  SKIP_WITHOUT("gps_gpx");
+  const auto folder = shared_data() / "gps_gpx";
   // Points as counted by another XML parser; none repeats the one before it.
   const std::vector<std::pair<const char*, std::size_t>> expected = {
       {"Mojstrovka", 184},
@@ -109,7 +110,7 @@ TEST(GpxPublicFiles, EachHasItsPoints) {
       {"route", 55},
       {"track-with-extremes", 25}};
   for (const auto& [name, count] : expected) {
-    const auto d = parse_gpx(slurp(folder / (std::string(name) + ".gpx")), name);
+    const auto d = parse_gpx(text_of_file(folder / (std::string(name) + ".gpx")), name);
     ASSERT_TRUE(d.has_value()) << name << d.error().what;
     ASSERT_EQ(d->series.size(), 1U) << name;
     EXPECT_EQ(d->series[0].points.size(), count) << name;
@@ -118,9 +119,9 @@ TEST(GpxPublicFiles, EachHasItsPoints) {
 }
 
 TEST(GpxPublicFiles, CutAnywhereTheyAreRefused) {
-  const auto path = std::filesystem::path(OBVID_SHARED_DATA) / "gps_gpx/track-with-extremes.gpx";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the public data set is not here";
-  const std::string text = slurp(path);
+  SKIP_WITHOUT("gps_gpx/track-with-extremes.gpx");
+  const auto path = shared_data() / "gps_gpx/track-with-extremes.gpx";
+  const std::string text = text_of_file(path);
   const std::size_t end = text.rfind("</gpx>");
   ASSERT_NE(end, std::string::npos);
   for (std::size_t n = 0; n < end + 6; ++n) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/road/landxml.h"
+#include "../common/programs.h"
+#include "../common/shared_data.h"
 #include "drawing_checks.h"
 
 #include <fmt/format.h>
@@ -353,10 +355,10 @@ constexpr Counts kPublicAlignments[] = {{"j_landxml_sample.xml", "m", 1, 4, 5, 9
                                         {"subdivision.xml", "ft", 89, 379, 73, 0, 93637.277310}};
 
 TEST(LandXmlPublicFiles, EachHasItsElementsAndLength) {
-  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "landxml";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  SKIP_WITHOUT("landxml");
+  const auto folder = shared_data() / "landxml";
   for (const Counts& expected : kPublicAlignments) {
-    const auto d = parse_landxml(slurp(folder / expected.file), expected.file);
+    const auto d = parse_landxml(text_of_file(folder / expected.file), expected.file);
     ASSERT_TRUE(d.has_value()) << expected.file << d.error().what;
     EXPECT_EQ(d->units, expected.unit);
     EXPECT_EQ(d->curves.size(), expected.curves) << expected.file;
@@ -380,9 +382,9 @@ TEST(LandXmlPublicFiles, EachHasItsElementsAndLength) {
 /// The alignment is G2 by design (INF, 250, INF, 150, ...): headings and curvatures agree at every
 /// joint to the eight decimals of its coordinates, which proves rotation, order and radii.
 TEST(LandXmlPublicFiles, TheJapaneseAlignmentIsCurvatureContinuous) {
-  const auto path = std::filesystem::path(OBVID_SHARED_DATA) / "landxml/j_landxml_sample.xml";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the public data set is not here";
-  const Drawing d = read_landxml_text(slurp(path));
+  SKIP_WITHOUT("landxml/j_landxml_sample.xml");
+  const auto path = shared_data() / "landxml/j_landxml_sample.xml";
+  const Drawing d = read_landxml_text(text_of_file(path));
   EXPECT_TRUE(d.warnings.empty());
   const auto& pieces = d.curves[0].pieces;
   ASSERT_EQ(pieces.size(), 18U);
@@ -395,9 +397,9 @@ TEST(LandXmlPublicFiles, TheJapaneseAlignmentIsCurvatureContinuous) {
 }
 
 TEST(LandXmlPublicFiles, CutAnywhereTheyAreRefused) {
-  const auto path = std::filesystem::path(OBVID_SHARED_DATA) / "landxml/polyline.xml";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the public data set is not here";
-  const std::string text = slurp(path);
+  SKIP_WITHOUT("landxml/polyline.xml");
+  const auto path = shared_data() / "landxml/polyline.xml";
+  const std::string text = text_of_file(path);
   for (std::size_t n = 0; n < text.rfind('>'); ++n) {
     EXPECT_FALSE(parse_landxml(text.substr(0, n), "cut").has_value()) << n;
   }
@@ -446,7 +448,7 @@ TEST(LandXmlWrite, ContoursComeBackTheSameInTheirUnit) {
 }
 
 TEST(LandXmlWrite, FilesFollowTheSchemaAndAreSmoothInEveryUnit) {
-  if (!has_python()) GTEST_SKIP() << "python3 is not here";
+  SKIP_WITHOUT_PROGRAM("python3");
   for (const Written& one : contours_to_write()) {
     SCOPED_TRACE(std::string(one.contour.units.name) + " in " + one.unit);
     auto text = landxml_text(one.contour, {"a <name> & \"more\"", "2024-02-29", "12:00:00"});
@@ -456,7 +458,7 @@ TEST(LandXmlWrite, FilesFollowTheSchemaAndAreSmoothInEveryUnit) {
 }
 
 TEST(LandXmlWrite, TheJudgeSeesATurnToTheOtherSideAndAUnitOfTheOtherSystem) {
-  if (!has_python()) GTEST_SKIP() << "python3 is not here";
+  SKIP_WITHOUT_PROGRAM("python3");
   std::set<bool> systems;
   for (const Written& one : contours_to_write()) {
     const auto text = landxml_text(one.contour);

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "../common/angles.h"
-#include "../mesh/mesh_checks.h"
-#include "../mesh/shapes.h"
+#include "../common/mesh_checks.h"
+#include "../common/mesh_shapes.h"
 #include "obvid/exchange/internal/mesh/files.h"
 
 namespace obvid {

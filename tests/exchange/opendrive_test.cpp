@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/road/opendrive.h"
+#include "../common/programs.h"
+#include "../common/shared_data.h"
 #include "drawing_checks.h"
 
 #include <gtest/gtest.h>
@@ -52,8 +54,8 @@ TEST(OpenDriveRead, Poly3EndsAtItsArcLength) {
       read_opendrive_text(road_of(geometry("s='0' x='5' y='0' hdg='0' length='11.477935746963718'",
                                            "<poly3 a='0' b='0' c='0.05' d='0'/>")));
   const Vec2 end = end_point(d.curves[0].pieces[0]);
-  EXPECT_NEAR(end.x, 15.0, 1e-8);
-  EXPECT_NEAR(end.y, 5.0, 1e-8);
+  EXPECT_NEAR(end.x, 15.0, 1e-12);
+  EXPECT_NEAR(end.y, 5.0, 1e-12);
 }
 
 TEST(OpenDriveRead, ParamPoly3IsTheSameCubicInBothRanges) {
@@ -171,10 +173,10 @@ constexpr RoadCounts kPublicRoads[] = {
 };
 
 TEST(OpenDrivePublicFiles, EachHasItsElementsAndLength) {
-  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "roads_opendrive";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  SKIP_WITHOUT("roads_opendrive");
+  const auto folder = shared_data() / "roads_opendrive";
   for (const RoadCounts& expected : kPublicRoads) {
-    const auto d = parse_opendrive(slurp(folder / expected.file), expected.file);
+    const auto d = parse_opendrive(text_of_file(folder / expected.file), expected.file);
     ASSERT_TRUE(d.has_value()) << expected.file << d.error().what;
     EXPECT_EQ(d->curves.size(), expected.roads) << expected.file;
     for (const std::string& warning : d->warnings) {
@@ -206,12 +208,12 @@ TEST(OpenDrivePublicFiles, EachHasItsElementsAndLength) {
 /// The next element starts where the formula of this one ends: gaps are those of the files, at most
 /// 1.5 mm (data set's own description), except in the file that is there for its faults.
 TEST(OpenDrivePublicFiles, ElementsMeetTheNextOnes) {
-  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "roads_opendrive";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  SKIP_WITHOUT("roads_opendrive");
+  const auto folder = shared_data() / "roads_opendrive";
   std::size_t joints = 0;
   for (const RoadCounts& expected : kPublicRoads) {
     if (std::string(expected.file).starts_with("asam")) continue;
-    const auto d = parse_opendrive(slurp(folder / expected.file), expected.file);
+    const auto d = parse_opendrive(text_of_file(folder / expected.file), expected.file);
     for (const DrawnCurve& curve : d->curves) {
       for (std::size_t i = 1; i < curve.pieces.size(); ++i, ++joints) {
         EXPECT_LT(norm(start_point(curve.pieces[i]) - end_point(curve.pieces[i - 1])), 2e-3)
@@ -241,7 +243,7 @@ TEST(OpenDriveWrite, ContoursComeBackTheSame) {
 }
 
 TEST(OpenDriveWrite, FilesFollowTheSchemaAndAreSmooth) {
-  if (!has_python()) GTEST_SKIP() << "python3 is not here";
+  SKIP_WITHOUT_PROGRAM("python3");
   for (const Contour& contour : {stored("clothoids_open.json"), stored("clothoids_closed.json"),
                                  stored("clothoids_wave.json"), every_kind()}) {
     const auto text = opendrive_text(contour, {"a <name> & \"more\"", 3.5});
@@ -266,7 +268,7 @@ TEST(OpenDriveWrite, ACornerBeginsALinkedRoadAndAClosedContourIsLinkedToItself) 
   const Drawing d = read_opendrive_text(*text);
   ASSERT_EQ(d.curves.size(), 2U);
   EXPECT_EQ(d.curves[0].pieces.size(), 2U);
-  if (has_python()) {
+  if (is_installed("python3")) {
     EXPECT_EQ(judged("check_opendrive.py", *text), "");
   }
   EXPECT_NE(text->find("<successor elementType=\"road\" elementId=\"2\" contactPoint=\"start\"/>"),

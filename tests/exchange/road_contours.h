@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/programs.h"
 #include "drawing_checks.h"
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/exchange/drawing.h"
@@ -23,7 +24,7 @@ namespace obvid {
 
 inline Contour stored(const std::string& name) {
   const auto path = std::filesystem::path(OBVID_TEST_DATA) / "contours" / name;
-  auto contour = contour_from_json(slurp(path), name);
+  auto contour = contour_from_json(text_of_file(path), name);
   EXPECT_TRUE(contour.has_value()) << name;
   return contour ? contour->contour : Contour{};
 }
@@ -138,18 +139,10 @@ inline std::string judged(const std::string& script, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
   const std::string command = "python3 '" + std::string(OBVID_SOURCE_DIR) + "/tests/exchange/" +
                               script + "' '" + file.string() + "' 2>&1";
-  std::string out;
-  if (FILE* pipe = popen(command.c_str(), "r")) {
-    char buffer[512];
-    while (fgets(buffer, sizeof buffer, pipe) != nullptr) out += buffer;
-    if (pclose(pipe) != 0 && out.empty()) out = "the script failed";
-  } else {
-    out = "cannot run python3";
-  }
+  RanCommand done = ran(command);
+  if (done.status != 0 && done.printed.empty()) done.printed = "the script failed";
   std::filesystem::remove(file);
-  return out;
+  return done.printed;
 }
-
-inline bool has_python() { return std::system("python3 -c '' > /dev/null 2>&1") == 0; }
 
 }  // namespace obvid

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // STEP files of curves: their grammar, entities, numbers, names and units. That kernels read the
 // same curves is tested in tests/cad.
+#include "../common/programs.h"
 #include "obvid/exchange/internal/step/write.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +76,7 @@ bool holds(std::string text, const std::string& part) {
 }
 
 TEST(StepWrite, FilesKeepTheGrammarAndTheRulesOfTheSchemas) {
-  if (!has_python()) GTEST_SKIP() << "python3 is not here";
+  SKIP_WITHOUT_PROGRAM("python3");
   for (const CadCurve& curve : all_curves()) {
     for (const double face : {0.0, 2.0}) {
       const StepOptions options{face > 0.0 ? StepSchema::kAp242 : StepSchema::kAp214,
@@ -86,7 +87,7 @@ TEST(StepWrite, FilesKeepTheGrammarAndTheRulesOfTheSchemas) {
 }
 
 TEST(StepWrite, TheJudgeOfFilesSeesWhatIsWrong) {
-  if (!has_python()) GTEST_SKIP() << "python3 is not here";
+  SKIP_WITHOUT_PROGRAM("python3");
   const std::string slot = written_step(all_curves()[4], {StepSchema::kAp214, "mm", 1.0});
   const std::string cubic = written_step(all_curves()[1]);
   const auto blamed = [](std::string text, const std::string& from, const std::string& to) {
@@ -128,7 +129,7 @@ TEST(StepWrite, NamesKeepTheirLettersMarksAndBackslashes) {
   const std::string name = R"('Gr\X2\00F600DF\X0\e ''a'' \\  \X4\0001F600\X0\')";
   EXPECT_TRUE(holds(text, "FILE_NAME(" + name));
   EXPECT_TRUE(holds(text, "PRODUCT(" + name));
-  if (has_python()) {
+  if (is_installed("python3")) {
     EXPECT_EQ(judged("check_step.py", text), "");
   }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/shared_data.h"
 #include "drawing_checks.h"
 #include "obvid/exchange/internal/svg/read.h"
 
@@ -356,11 +357,11 @@ constexpr ExpectedPicture kPublicPictures[] = {
 };
 
 TEST(SvgPublicFiles, EachDrawsWhatItsNameSays) {
-  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "cad_svg";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  SKIP_WITHOUT("cad_svg");
+  const auto folder = shared_data() / "cad_svg";
   for (const ExpectedPicture& expected : kPublicPictures) {
     const auto path = folder / (std::string("resvg_") + expected.file + ".svg");
-    const auto drawing = parse_svg(slurp(path), expected.file);
+    const auto drawing = parse_svg(text_of_file(path), expected.file);
     ASSERT_TRUE(drawing.has_value()) << expected.file << ": " << drawing.error().what;
     std::size_t pieces = 0;
     for (const DrawnCurve& curve : drawing->curves) pieces += curve.pieces.size();
@@ -375,11 +376,11 @@ TEST(SvgPublicFiles, EachDrawsWhatItsNameSays) {
 
 /// In these the second shape covers the first one: the same curve written in another way.
 TEST(SvgPublicFiles, TheCoveringShapeIsTheCoveredOne) {
-  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "cad_svg";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  SKIP_WITHOUT("cad_svg");
+  const auto folder = shared_data() / "cad_svg";
   for (const char* name : {"path_M-A-trimmed", "path_extra-spaces",
                            "path_no-commawsp-between-and-after-arc-flags", "polygon_simple-case"}) {
-    const auto d = parse_svg(slurp(folder / (std::string("resvg_") + name + ".svg")), name);
+    const auto d = parse_svg(text_of_file(folder / (std::string("resvg_") + name + ".svg")), name);
     ASSERT_TRUE(d.has_value());
     const auto &a = d->curves[0].pieces, &b = d->curves[1].pieces;
     ASSERT_EQ(a.size(), b.size());
@@ -390,10 +391,10 @@ TEST(SvgPublicFiles, TheCoveringShapeIsTheCoveredOne) {
 }
 
 TEST(SvgPublicFiles, CutAnywhereTheyAreRefusedOrRead) {
-  const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "cad_svg";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data set is not here";
+  SKIP_WITHOUT("cad_svg");
+  const auto folder = shared_data() / "cad_svg";
   std::size_t refused = 0;
-  const std::string text = slurp(folder / "resvg_path_M-A-trimmed.svg");
+  const std::string text = text_of_file(folder / "resvg_path_M-A-trimmed.svg");
   for (std::size_t n = 0; n + 8 < text.size(); ++n) {
     if (!parse_svg(text.substr(0, n), "cut.svg")) ++refused;
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <random>
 
+#include "../common/shared_data.h"
 #include "obvid/idspline/internal/id_spline.h"
 #include "obvid/io/read_points.h"
 
@@ -87,13 +88,11 @@ TEST(IdSplineOrder, IsDegreePlusOneForValuesAndOneMoreOrLessForIntegralsAndSlope
 class PublishedSeries : public testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::is_directory(kFolder)) {
-      GTEST_SKIP() << "the public data sets are not here";
-    }
+    SKIP_WITHOUT("published_series");
     for (const char* name :
          {"akima1970", "akima_uneven_a", "akima_uneven_b", "fritsch_carlson_rpn15a", "spaeth10",
           "titanium_heat12", "titanium_heat49", "pchip_four_points"}) {
-      const auto series = read_points(kFolder + "/" + name + ".csv");
+      const auto series = read_points((kFolder / (std::string(name) + ".csv")).string());
       ASSERT_TRUE(series) << name;
       IdSplineData data;
       for (const Vec2 p : series->points) {
@@ -104,7 +103,7 @@ class PublishedSeries : public testing::Test {
     }
   }
 
-  const std::string kFolder = std::string(OBVID_SHARED_DATA) + "/published_series";
+  const std::filesystem::path kFolder = shared_data() / "published_series";
   std::vector<IdSplineData> all_;
 };
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "../common/shared_data.h"
+#include "../common/text.h"
 #include "obvid/io/read_points.h"
 
 namespace obvid {
@@ -29,14 +30,9 @@ std::vector<fs::path> files_of(const std::string& set) {
   return files;
 }
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 // Every line that is two numbers and nothing else, by the C library's conversion.
 std::vector<Vec2> naive_pairs(const fs::path& file) {
-  std::string content = content_of(file);
+  std::string content = text_of_file(file);
   std::replace(content.begin(), content.end(), '\r', '\n');
   std::istringstream lines(content);
   std::vector<Vec2> pairs;
@@ -74,7 +70,7 @@ std::vector<Vec2> expected_points(const fs::path& file, const std::string& forma
     return joined(rows, upper);
   }
   if (file.extension() == ".af") {
-    const bool symmetric = content_of(file).find("1\tSym Flag") != std::string::npos;
+    const bool symmetric = text_of_file(file).find("1\tSym Flag") != std::string::npos;
     const std::size_t upper = symmetric ? rows.size() : rows.size() / 2;
     for (std::size_t i = 0; symmetric && i < upper; ++i) rows.push_back({rows[i].x, -rows[i].y});
     return joined(rows, upper);
@@ -174,7 +170,7 @@ TEST(PublicData, ASurveyOfSeveralScansIsRefusedAndOneOfItsScansIsReadWithItsInte
   EXPECT_EQ(whole.error().code, ErrorCode::kUnsupported);
   EXPECT_NE(whole.error().hint.find("x,y,u95"), std::string::npos);
   // First scan: window number, mean axial velocity, and its 95 % interval (columns 1, 3 and 5).
-  std::istringstream lines(content_of(file));
+  std::istringstream lines(text_of_file(file));
   std::string text = "x,y,u95\n";
   for (std::string line; std::getline(lines, line);) {
     std::istringstream row(line);

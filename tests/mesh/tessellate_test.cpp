@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "../common/angles.h"
-#include "mesh_checks.h"
+#include "../common/mesh_checks.h"
+#include "../common/mesh_shapes.h"
 #include "obvid/mesh/mesh.h"
-#include "shapes.h"
 
 namespace obvid {
 namespace {

@@ -12,11 +12,9 @@
 #include <string>
 #include <vector>
 
-namespace obvid {
+#include "../common/programs.h"
 
-inline bool installed(const std::string& program) {
-  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
-}
+namespace obvid {
 
 /// A folder of its own and the judge.
 class Judged : public testing::Test {
@@ -41,12 +39,7 @@ class Judged : public testing::Test {
     std::string command =
         std::string("/usr/bin/python3 -B '") + OBVID_SOURCE_DIR + "/tests/picture/page_judge.py'";
     for (const std::string& a : arguments) command += " '" + a + "'";
-    std::string out;
-    std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) return "no pipe";
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) out += static_cast<char>(c);
-    if (::pclose(pipe) != 0) out += "\nfailed";
-    return out;
+    return judged_by(command);
   }
 
   struct Spot {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "../common/programs.h"
 #include "obvid/picture/internal/surface_page.h"
 #include "page_judge.h"
 #include "surface_samples.h"
@@ -15,7 +16,7 @@ namespace {
 class SurfacePageInBrowser : public Judged {
  protected:
   void SetUp() override {
-    if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
+    SKIP_WITHOUT_PROGRAM("chromium");
     Judged::SetUp();
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of surfaces: outlines and colours of known shapes, what is hidden, sizes, errors.
 #include "obvid/picture/surface_svg.h"
+#include "../common/programs.h"
 
 #include <gtest/gtest.h>
 
@@ -345,7 +346,7 @@ TEST(SurfacePicture, DegenerateSurfacesAreNoHarm) {
 class SurfacePictureByRsvg : public Judged {
  protected:
   void SetUp() override {
-    if (!installed("rsvg-convert")) GTEST_SKIP() << "rsvg-convert is not installed";
+    SKIP_WITHOUT_PROGRAM("rsvg-convert");
     Judged::SetUp();
   }
   std::string rendered(const std::string& svg) const {

@@ -10,9 +10,9 @@
 
 #include "../common/angles.h"
 #include "../common/long_runs.h"
+#include "../common/oracle_curves.h"
 #include "obvid/certify/certify.h"
 #include "obvid/pipeline/fit.h"
-#include "oracle_curves.h"
 #include "rounding_words.h"
 
 namespace obvid {

@@ -12,11 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "../common/oracle_curves.h"
 #include "../common/ten_points.h"
+#include "../common/text.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/compare.h"
 #include "obvid/pipeline/fit.h"
-#include "oracle_curves.h"
 #include "verify/report.h"
 
 namespace obvid {
@@ -238,10 +239,8 @@ TEST(ErrorBound, ShortPiecesAtTheOriginAreSeenWithAllTheirDigits) {
   // the last part ends with a piece of 0.0003 at the origin, 4 from the start of the part, where a
   // coordinate as exact as its own would need 13 bits more. The width by 50 digits from the
   // coordinates in the file
-  std::ifstream file(std::string(OBVID_TEST_DATA) + "/contours/bspline_polygon.json");
-  std::stringstream text;
-  text << file.rdbuf();
-  const auto stored = contour_from_json(text.str(), "bspline_polygon.json");
+  const std::string text = text_of_file(OBVID_TEST_DATA "/contours/bspline_polygon.json");
+  const auto stored = contour_from_json(text, "bspline_polygon.json");
   ASSERT_TRUE(stored) << to_line(stored.error());
   Watch watch;
   const auto report = pipeline_detail::measure(stored->contour, 6.402e-6, watch);

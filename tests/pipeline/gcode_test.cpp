@@ -13,6 +13,7 @@
 
 #include "../common/angles.h"
 #include "../common/long_runs.h"
+#include "../common/shared_data.h"
 #include "../common/ten_points.h"
 #include "obvid/exchange/internal/gcode/gcode.h"
 #include "obvid/exchange/internal/gcode/path.h"
@@ -297,8 +298,8 @@ TEST(Gcode, ReferenceSeriesKeepsToleranceAndRulesOfControllers) {
 }
 
 TEST(Gcode, AirfoilsAndRailsNeedFiveTimesFewerBlocksThanLines) {
-  const fs::path data = OBVID_SHARED_DATA;
-  if (!fs::exists(data / "airfoils_uiuc_selig")) GTEST_SKIP() << "the public data are not there";
+  SKIP_WITHOUT("airfoils_uiuc_selig");
+  const fs::path data = shared_data();
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(data / "airfoils_uiuc_selig")) {
     files.push_back(entry.path());

@@ -9,12 +9,13 @@
 
 #include "../common/angles.h"
 #include "../common/long_runs.h"
+#include "../common/oracle_curves.h"
+#include "../common/shared_data.h"
 #include "../common/ten_points.h"
 #include "obvid/curve/internal/joined_nurbs.h"
 #include "obvid/curve/nurbs.h"
 #include "obvid/io/read_points.h"
 #include "obvid/pipeline/fit.h"
-#include "oracle_curves.h"
 
 namespace obvid {
 namespace {
@@ -294,9 +295,8 @@ TEST(JoinedNurbs, EveryCarrierButClothoidsIsOneCurve) {
 }
 
 TEST(JoinedNurbs, PublicAirfoilsKeepTheirWeightsInRange) {
-  const std::filesystem::path folder =
-      std::filesystem::path(OBVID_SHARED_DATA) / "airfoils_uiuc_selig";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the public data are not there";
+  SKIP_WITHOUT("airfoils_uiuc_selig");
+  const auto folder = shared_data() / "airfoils_uiuc_selig";
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     files.push_back(entry.path());

@@ -12,12 +12,12 @@
 
 #include "../common/angles.h"
 #include "../common/long_runs.h"
+#include "../common/oracle_curves.h"
 #include "../common/ten_points.h"
 #include "obvid/certify/certify.h"
 #include "obvid/contour/bsplines/monotone.h"
 #include "obvid/curve/nurbs.h"
 #include "obvid/pipeline/fit.h"
-#include "oracle_curves.h"
 
 namespace obvid {
 namespace {

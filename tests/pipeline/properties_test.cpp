@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "../common/angles.h"
+#include "../common/oracle_curves.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/region/internal/boundary_distance.h"
 #include "obvid/region/internal/segment_region.h"
-#include "oracle_curves.h"
 
 namespace obvid {
 namespace {

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "../common/text.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
 
@@ -21,9 +22,9 @@ namespace {
 using nlohmann::json;
 
 std::string text_of(const std::string& name) {
-  std::ifstream file(std::string(OBVID_TEST_DATA) + "/refuse/" + name);
-  EXPECT_TRUE(file.good()) << name;
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::string text = text_of_file(OBVID_TEST_DATA "/refuse/" + name);
+  EXPECT_FALSE(text.empty()) << name;
+  return text;
 }
 
 /// Code and words with which the file is refused; empty when it is accepted.

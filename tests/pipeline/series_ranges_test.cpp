@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "../common/long_runs.h"
+#include "../common/oracle_curves.h"
 #include "../common/ten_points.h"
 #include "obvid/pipeline/fit.h"
-#include "oracle_curves.h"
 
 namespace obvid {
 namespace {

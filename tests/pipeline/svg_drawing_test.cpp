@@ -10,7 +10,9 @@
 #include <iterator>
 #include <string>
 
+#include "../common/programs.h"
 #include "../common/ten_points.h"
+#include "../common/text.h"
 #include "obvid/exchange/internal/svg/drawing.h"
 #include "obvid/exchange/internal/svg/read.h"
 #include "obvid/pipeline/fit.h"
@@ -114,25 +116,19 @@ class Rendered : public testing::Test {
     std::ofstream(folder_ / "d.svg") << made->text;
   }
   void TearDown() override { fs::remove_all(folder_); }
-  static bool there(const char* program) {
-    return std::system((std::string("command -v ") + program + " >/dev/null 2>&1").c_str()) == 0;
-  }
-  [[nodiscard]] std::string png() const {
-    std::ifstream file(folder_ / "d.png", std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  [[nodiscard]] std::string png() const { return text_of_file(folder_ / "d.png"); }
   fs::path folder_;
 };
 
 TEST_F(Rendered, ByRsvg) {
-  if (!there("rsvg-convert")) GTEST_SKIP() << "rsvg-convert is not installed";
+  SKIP_WITHOUT_PROGRAM("rsvg-convert");
   const std::string d = folder_.string();
   EXPECT_EQ(std::system(("rsvg-convert -w 400 " + d + "/d.svg -o " + d + "/d.png").c_str()), 0);
   EXPECT_GT(png().size(), 1500U);  // an empty sheet of this size takes some 700 bytes
 }
 
 TEST_F(Rendered, ByChromium) {
-  if (!there("chromium")) GTEST_SKIP() << "chromium is not installed";
+  SKIP_WITHOUT_PROGRAM("chromium");
   const std::string d = folder_.string();
   const std::string command =
       "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-background-networking "

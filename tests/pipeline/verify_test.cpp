@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "../common/ten_points.h"
+#include "../common/text.h"
 #include "obvid/certify/certify.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/pipeline/fit.h"
@@ -149,9 +150,7 @@ TEST(VerifyStored, EveryFileOfTheTestContoursIsAsItClaims) {
   std::size_t files = 0;
   for (const auto& entry :
        std::filesystem::directory_iterator(std::string(OBVID_TEST_DATA) + "/contours")) {
-    std::ifstream file(entry.path());
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    EXPECT_EQ(refusal(text), "") << entry.path().filename();
+    EXPECT_EQ(refusal(text_of_file(entry.path())), "") << entry.path().filename();
     ++files;
   }
   EXPECT_GT(files, 0U);

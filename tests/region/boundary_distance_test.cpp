@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "paper_fit.h"
+#include "../common/paper_fit.h"
 
 namespace obvid {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "paper_fit.h"
+#include "../common/paper_fit.h"
 
 namespace obvid::paper {
 namespace {

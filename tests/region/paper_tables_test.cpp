@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "paper_fit.h"
+#include "../common/paper_fit.h"
 
 namespace obvid::paper {
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/shared_data.h"
 #include "obvid/io/read_points.h"
 #include "obvid/series/internal/sections.h"
 
@@ -25,10 +26,8 @@ fs::path shared_data() {
 constexpr double kRounding = 5e-6;
 
 TEST(PublicAirfoils, LeadingEdgesAreNoCornersAndRepeatedTrailingEdgesAre) {
-  const fs::path folder = shared_data() / "airfoils_uiuc_selig";
-  if (!fs::exists(folder)) {
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)";
-  }
+  SKIP_WITHOUT("airfoils_uiuc_selig");
+  const auto folder = shared_data() / "airfoils_uiuc_selig";
   std::size_t read = 0, closed = 0, elsewhere = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
     auto series = read_points(entry.path().string());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/surface_builders/internal/approximate.h"
+#include "../common/shared_data.h"
 
 #include <gtest/gtest.h>
 
@@ -351,15 +352,9 @@ std::vector<std::vector<double>> matrix_in(const std::filesystem::path& path, bo
   return rows;
 }
 
-std::filesystem::path shared_data() {
-  const char* const folder = std::getenv("OBVID_SHARED_DATA");
-  return folder != nullptr ? folder : OBVID_SHARED_DATA;
-}
-
 TEST(Approximation, OfTheVolcanoHasFarFewerControlPointsThanHeights) {
+  SKIP_WITHOUT("surfaces/volcano.csv");
   const auto path = shared_data() / "surfaces/volcano.csv";
-  if (!std::filesystem::exists(path))
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)";
   const auto heights = matrix_in(path, true);
   ASSERT_EQ(heights.size(), 87u);
   PointGrid grid{heights[0].size(), heights.size(), {}, "volcano"};
@@ -384,9 +379,8 @@ TEST(Approximation, OfTheVolcanoHasFarFewerControlPointsThanHeights) {
 }
 
 TEST(Approximation, OfPublicHullsStaysWithinTheTolerance) {
+  SKIP_WITHOUT("hulls_grids");
   const auto folder = shared_data() / "hulls_grids";
-  if (!std::filesystem::exists(folder))
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)";
   for (const std::string name : {"Series60Offset", "TrawlerOffset"}) {
     const auto x = matrix_in(folder / (name + "_x.dat"), false);
     const auto y = matrix_in(folder / (name + "_y.dat"), false);

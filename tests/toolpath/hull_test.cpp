@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/shared_data.h"
 #include "cutting.h"
 #include "obvid/core/files.h"
 #include "obvid/io/internal/read_grid.h"
@@ -88,10 +89,8 @@ FoundOnHull simulated(const std::vector<test::Sample>& samples, const test::NcRu
 class Hull : public testing::TestWithParam<ToolpathStrategy> {};
 
 TEST_P(Hull, HalfOfSeries60IsNotGougedAndItsCuspsStayBelowTheScallop) {
+  SKIP_WITHOUT("hulls_grids/Series60Offset_x.dat");
   const auto file = shared_data() / "hulls_grids" / "Series60Offset_x.dat";
-  if (!std::filesystem::exists(file)) {
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)";
-  }
   const NurbsSurface surface = lying_hull(file);
   ASSERT_FALSE(surface.points.empty());
   ToolpathOptions options;
@@ -128,10 +127,8 @@ INSTANTIATE_TEST_SUITE_P(Balls, Hull,
                                          ToolpathStrategy::kConstantScallop));
 
 TEST(LongGentleHull, IsNotGougedByArcsThatArePrintedAsLines) {
+  SKIP_WITHOUT("found/files/gouge_case_surface.json");
   const auto file = shared_data() / "found" / "files" / "gouge_case_surface.json";
-  if (!std::filesystem::exists(file)) {
-    GTEST_SKIP() << "the public data sets are missing (OBVID_SHARED_DATA)";
-  }
   const auto text = read_file(file.string());
   ASSERT_TRUE(text);
   const auto stored = surface_from_json(*text, file.string());

@@ -116,6 +116,10 @@ TEST(ToolpathGcode, InchesAndConvertedUnitsAndDecimalsTooFew) {
   auto path = plan(model, o);
   ASSERT_TRUE(path);
   EXPECT_NE(toolpath_gcode(*path)->text.find("G20 "), std::string::npos);
+  path->units = "mil";
+  EXPECT_NE(toolpath_gcode(*path)->text.find("(converted from mil)"), std::string::npos);
+  model.units = "px";
+  EXPECT_EQ(plan(model, o).error().code, ErrorCode::kBadOption);
   path->units = "cm";
   EXPECT_NE(toolpath_gcode(*path)->text.find("(converted from cm)"), std::string::npos);
   ToolpathGcodeOptions few;

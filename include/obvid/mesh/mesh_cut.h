@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/geom/internal/box.h"
 #include "obvid/geom/vec3.h"
 
 namespace obvid {
@@ -18,13 +19,8 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Smallest box with sides along the axes.
-struct MeshBounds {
-  Vec3 low, high;
-};
-
-/// Of all points. Error: E304 there are none.
-[[nodiscard]] Result<MeshBounds> bounds_of(const TriangleMesh& mesh);
+/// The box of all points. Error: E304 there are none.
+[[nodiscard]] Result<Box3> bounds_of(const TriangleMesh& mesh);
 
 /// A chain of edges of a plane section, in the coordinates of the plane.
 struct MeshSection {

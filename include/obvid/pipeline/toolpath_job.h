@@ -32,9 +32,9 @@ struct MadeToolpath {
 };
 
 /// The tool path of a surface. Errors: those of `plan`; E203 where it would take more than 20,000
-/// passes: a typing error in a length, most likely (`value`: the passes). A surface in a unit that
-/// machines do not know is refused by `plan`. Reentrant; uses as many threads as `plan.threads`
-/// says.
+/// passes: a typing error in a length, most likely (`value`: the passes). A surface in a unit
+/// without a length in metres is refused by `plan`. Reentrant; uses as many threads as
+/// `plan.threads` says.
 [[nodiscard]] Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
                                                  const RunContext& run = {});
 

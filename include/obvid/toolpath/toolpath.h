@@ -9,6 +9,7 @@
 
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
+#include "obvid/core/units.h"
 #include "obvid/surface/surface.h"
 #include "obvid/toolpath/internal/toolpath_gcode.h"
 
@@ -42,9 +43,7 @@ struct ToolpathFeeds {
   double pass = 0.0, plunge = 0.0;
   double rapid = 0.0;  ///< for the estimate of time only
 };
-[[nodiscard]] ToolpathFeeds default_feeds(const std::string& units);
-/// Millimetres of a unit; 0: machines do not know it.
-[[nodiscard]] double millimetres_of(const std::string& units);
+[[nodiscard]] ToolpathFeeds default_feeds(const Units& units);
 
 /// Lengths in units of the model.
 struct ToolpathOptions {
@@ -163,7 +162,7 @@ struct ToolpathReport {
 
 struct Toolpath {
   std::string name;
-  std::string units;
+  Units units;
   Cutter cutter;
   double tolerance = 0.0;
   double print_within = 0.0;  ///< units: of printed blocks from the points of the moves
@@ -190,9 +189,9 @@ struct Toolpath {
 /// cutter stays clear of part and allowance; it goes down outside the stock or along ramps, and
 /// rapid moves stay at the safe height. With an allowance, gouges are cuts into part and allowance,
 /// and heights of what stays count from the allowance.
-/// Errors: E203 sizes, feeds, heights or options that do not go together; E311 no patches; E310 a
-/// unit that machines do not know; E502 more triangles or points than allowed, or decimals too few
-/// for the tolerance; those of `tessellate`.
+/// Errors: E203 sizes, feeds, heights or options that do not go together, and a unit without a
+/// length in metres; E311 no patches; E502 more triangles or points than allowed, or decimals too
+/// few for the tolerance; those of `tessellate`.
 [[nodiscard]] Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
                                     const RunContext& run = {});
 

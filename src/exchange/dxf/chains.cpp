@@ -11,6 +11,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "obvid/geom/internal/box.h"
+
 namespace obvid::dxf {
 namespace {
 
@@ -89,19 +91,14 @@ class Joiner {
 
  private:
   void measure() {
-    constexpr double kFar = std::numeric_limits<double>::max();
-    Vec2 low{kFar, kFar}, high{-kFar, -kFar};
+    Box2 box;
     for (const Link& link : links_) {
       for (const Piece& piece : link.pieces) {
-        for (const double t : {0.0, 0.5, 1.0}) {
-          const Vec2 p = evaluate(piece, t).point;
-          low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-          high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-        }
+        for (const double t : {0.0, 0.5, 1.0}) box.add(evaluate(piece, t).point);
       }
     }
-    if (!links_.empty()) out_.tolerance = kMeet * norm(high - low);
-    low_ = low;
+    if (!links_.empty()) out_.tolerance = kMeet * box.diagonal();
+    low_ = box.low;
   }
 
   void find_places() {

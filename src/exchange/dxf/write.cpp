@@ -19,6 +19,7 @@
 #include "obvid/core/internal/questions.h"
 #include "obvid/curve/internal/smooth_parts.h"
 #include "obvid/geom/internal/angle.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid {
 namespace {
@@ -55,9 +56,9 @@ class DxfDrawer {
 
   Result<DxfText> run() {
     find_extents();
-    if (!std::isfinite(norm(high_ - low_))) {
+    if (!std::isfinite(norm(box_.size()))) {
       return error(ErrorCode::kNotFinite, "a coordinate of the contour is not finite")
-          .value(norm(high_ - low_));
+          .value(norm(box_.size()));
     }
     Result<void> done;
     switch (options_.profile) {
@@ -75,12 +76,12 @@ class DxfDrawer {
     OBVID_TRY(done);
     if (is_to_end(watch_)) return fail(cancelled_error());
     if (options_.profile == DxfProfile::kArcsR12) {
-      result_.text = exchange::r12_head(layer_, dxf_unit(contour_.units), low_, high_) +
+      result_.text = exchange::r12_head(layer_, dxf_unit(contour_.units), box_.low, box_.high) +
                      out_.take() + "  0\nENDSEC\n  0\nEOF\n";
     } else {
       const std::string seed = out_.next_handle();
       result_.text =
-          exchange::r2000_head({{layer_}}, unit_code(contour_.units), seed, low_, high_) +
+          exchange::r2000_head({{layer_}}, unit_code(contour_.units), seed, box_.low, box_.high) +
           out_.take() + exchange::r2000_tail();
     }
     return std::move(result_);
@@ -88,13 +89,11 @@ class DxfDrawer {
 
  private:
   void find_extents() {
-    low_ = high_ = start_point(contour_.pieces.front());
     for (const Piece& piece : contour_.pieces) {
       for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         const Vec2 p = evaluate(piece, t).point;
-        if (!std::isfinite(p.x) || !std::isfinite(p.y)) low_ = p;
-        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+        if (!std::isfinite(p.x) || !std::isfinite(p.y)) box_.low = p;
+        box_.add(p);
       }
     }
   }
@@ -183,7 +182,7 @@ class DxfDrawer {
     for (const Piece& piece : part.pieces) {
       const auto* bezier = std::get_if<RationalBezier>(&piece);
       if (bezier == nullptr) return std::nullopt;
-      const auto one = exchange::ellipse_within(*bezier, norm(high_ - low_));
+      const auto one = exchange::ellipse_within(*bezier, norm(box_.size()));
       if (!one) return std::nullopt;
       out.push_back(*one);
     }
@@ -194,7 +193,7 @@ class DxfDrawer {
   [[nodiscard]] bool centres_are_near(const Contour& part) const {
     return std::all_of(part.pieces.begin(), part.pieces.end(), [&](const Piece& piece) {
       const auto* one = std::get_if<ArcPiece>(&piece);
-      return one == nullptr || exchange::centre_is_near(*one, norm(high_ - low_));
+      return one == nullptr || exchange::centre_is_near(*one, norm(box_.size()));
     });
   }
 
@@ -300,7 +299,7 @@ class DxfDrawer {
   std::string layer_;
   DxfWriter out_;
   DxfText result_;
-  Vec2 low_, high_;
+  Box2 box_;
 };
 
 }  // namespace

@@ -1,15 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/gcode/dialect.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace obvid::exchange {
 
-int gcode_decimals(double tolerance, bool inches) {
-  constexpr double kOfTolerance = 0.1;
-  constexpr double kDigitRounding = 1e-9;  // 0.001 asks for 4, not for 4.0000000001
-  const double digits = -std::log10(kOfTolerance * tolerance);
+Result<void> check_gcode_decimals(std::optional<int> decimals) {
+  if (!decimals || (*decimals >= 1 && *decimals <= kMostGcodeDecimals)) return {};
+  return error(ErrorCode::kBadOption, fmt::format("decimals must be 1 to {}", kMostGcodeDecimals))
+      .where("--decimals")
+      .value(*decimals);
+}
+
+Result<double> machine_units_in(const Units& units) {
+  return unit_ratio(units, units.name == "in" ? "in" : "mm", "machines");
+}
+
+std::vector<std::string> gcode_unit_remarks(const Units& units) {
+  std::vector<std::string> out;
+  if (!units.known()) out.emplace_back("the unit is assumed");
+  if (units.name != "in" && units.name != "mm") {
+    out.push_back("converted from " + gcode_comment(units.name));
+  }
+  return out;
+}
+
+int decimals_of_digit(double digit, bool inches) {
+  constexpr double kDigitRounding = 1e-9;  // 0.0001 asks for 4, not for 4.0000000001
+  const double digits = -std::log10(digit);
   return static_cast<int>(std::clamp<double>(std::ceil(digits - kDigitRounding),
                                              kLeastGcodeDecimals + (inches ? 1 : 0),
                                              kMostGcodeDecimals));

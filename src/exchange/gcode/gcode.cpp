@@ -31,9 +31,9 @@ class Program {
  public:
   Program(const Contour& contour, const GcodeOptions& options, Watch* watch)
       : contour_(contour), options_(options), watch_(watch), inches_(contour.units.name == "in") {
-    scale_ = *unit_ratio(contour.units.name, inches_ ? "in" : "mm");
-    decimals_ =
-        options.decimals.value_or(exchange::gcode_decimals(options.tolerance * scale_, inches_));
+    scale_ = *exchange::machine_units_in(contour.units);
+    decimals_ = options.decimals.value_or(exchange::decimals_of_digit(
+        exchange::kDigitOfTolerance * (options.tolerance * scale_), inches_));
     unit_ = std::pow(10.0, -decimals_) / scale_;
   }
 
@@ -138,8 +138,9 @@ class Program {
         fmt::format("Obvid {}: {}", kVersion, gcode_comment(options_.name)),
         fmt::format("{} blocks within {:.3g} {} of the contour", blocks, deviation * scale_,
                     inches_ ? "in" : "mm")};
-    if (!contour_.units.known()) remarks.emplace_back("the unit is assumed");
-    if (!inches_ && scale_ != 1.0) remarks.push_back("converted from " + contour_.units.name);
+    for (std::string& one : exchange::gcode_unit_remarks(contour_.units)) {
+      remarks.push_back(std::move(one));
+    }
     return exchange::gcode_head(options_.controller, inches_, remarks);
   }
 
@@ -180,11 +181,7 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
       !std::isfinite(feed)) {
     return bad("tolerance and feed must be greater than 0", "", options.tolerance);
   }
-  if (options.decimals &&
-      (*options.decimals < 1 || *options.decimals > exchange::kMostGcodeDecimals)) {
-    return bad(fmt::format("decimals must be 1 to {}", exchange::kMostGcodeDecimals), "",
-               *options.decimals);
-  }
+  OBVID_TRY(exchange::check_gcode_decimals(options.decimals));
   if (options.safe_z && !std::isfinite(*options.safe_z)) {
     return bad("the height is no number", "", *options.safe_z);
   }
@@ -192,7 +189,7 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
   if (contour.pieces.empty()) {
     return error(ErrorCode::kNothingThere, "the contour has no pieces");
   }
-  OBVID_TRY(unit_ratio(contour.units, "mm", "machines"));
+  OBVID_TRY(exchange::machine_units_in(contour.units));
   return {};
 }
 

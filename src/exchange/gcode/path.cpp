@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "obvid/core/internal/format_into.h"
+#include "obvid/exchange/internal/gcode/gcode_limits.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/numeric/internal/wide.h"
 
@@ -16,12 +17,6 @@ namespace obvid::exchange {
 namespace {
 
 using numeric::Wide;
-
-constexpr int kLeastCentreDecimals = 5;
-constexpr double kLowestArc = 0.5;       // last digits: height of arcs that are told as such
-constexpr double kShortestChord = 20.0;  // last digits: below, rounding turns an arc too much
-/// A radius that LinuxCNC takes for none (0.00127 mm), and some.
-constexpr double kSmallestRadius = 0.002;
 
 std::string never_minus_zero(std::string text) {
   const bool zero = text.find_first_not_of("-0.") == std::string::npos;

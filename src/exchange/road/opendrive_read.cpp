@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "obvid/curve/internal/clothoid.h"
+#include "obvid/curve/internal/contour_path.h"
 #include "obvid/exchange/internal/road/opendrive.h"
 #include "road/landxml_elements.h"
 #include "road/profile_read.h"
@@ -74,29 +75,10 @@ Piece cubic_piece(const Base& base, Cubic u, Cubic v, double range) {
   return piece;
 }
 
-/// The u where v(u) = a + b u + c u^2 + d u^3 has the given length from u = 0: Simpson's rule, and
-/// Newton's steps, halved back into the bracket: the length grows with u and is at least u.
-double end_of_poly3(const Cubic& v, double length) {
-  constexpr int kSteps = 128;       // error below 1e-9 for what turns less than a right angle
-  constexpr int kMostTrials = 60;   // halvings alone come to the last digit with so many
-  constexpr double kClose = 4e-16;  // of the length: no better double
-  const auto speed = [&](double u) {
-    return std::hypot(1.0, v[1] + u * (2.0 * v[2] + u * 3.0 * v[3]));
-  };
-  const auto length_to = [&](double u) {
-    double sum = speed(0.0) + speed(u);
-    for (int k = 1; k < kSteps; ++k) sum += (k % 2 == 1 ? 4.0 : 2.0) * speed(u * k / kSteps);
-    return sum * u / (3.0 * kSteps);
-  };
-  double low = 0.0, high = length, u = length;
-  for (int k = 0; k < kMostTrials && high - low > kClose * length; ++k) {
-    const double missing = length - length_to(u);
-    (missing > 0.0 ? low : high) = u;
-    const double next = u + missing / speed(u);
-    if (std::abs(next - u) <= kClose * length) break;
-    u = next > low && next < high ? next : 0.5 * (low + high);
-  }
-  return u;
+/// Where v(u) = a + b u + c u^2 + d u^3 has the given length from u = 0, which is at least u.
+double end_of_poly3(const Base& base, const Cubic& u, const Cubic& v) {
+  const PieceLength along(cubic_piece(base, u, v, base.length), kFinestLength);
+  return base.length * along.parameter(base.length);
 }
 
 class OpenDriveReader {
@@ -208,7 +190,7 @@ class OpenDriveReader {
       if (kind == "poly3" &&
           read_numbers(child, {{"a", &v[0]}, {"b", &v[1]}, {"c", &v[2]}, {"d", &v[3]}})) {
         u[1] = 1.0;
-        return cubic_piece(base, u, v, end_of_poly3(v, base.length));
+        return cubic_piece(base, u, v, end_of_poly3(base, u, v));
       }
       if (kind == "paramPoly3" && read_numbers(child, {{"aU", &u[0]},
                                                        {"bU", &u[1]},

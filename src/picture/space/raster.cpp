@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "obvid/geom/internal/box.h"
 #include "obvid/surface/internal/trim.h"
 
 namespace obvid::picture {
@@ -183,12 +184,9 @@ std::vector<DrawnPatch> drawn_patches(const SurfaceModel& model, SurfaceColourin
 
 ValueScale scale_of(const std::vector<DrawnPatch>& patches, SurfaceColouring colouring) {
   std::vector<WeighedValue> values;
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
+  Box3 box;
   for (const DrawnPatch& patch : patches) {
-    for (const Vec3 p : patch.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    box.add_all(patch.points);
     for (std::size_t j = 0; j + 1 < patch.vs.size(); ++j) {
       for (std::size_t i = 0; i + 1 < patch.us.size(); ++i) {
         const std::size_t corners[] = {patch.vertex(i, j), patch.vertex(i + 1, j),
@@ -200,7 +198,7 @@ ValueScale scale_of(const std::vector<DrawnPatch>& patches, SurfaceColouring col
       }
     }
   }
-  return value_scale(std::move(values), resolution_of(colouring, norm(high - low)));
+  return value_scale(std::move(values), resolution_of(colouring, box.diagonal()));
 }
 
 }  // namespace obvid::picture

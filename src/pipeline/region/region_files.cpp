@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "obvid/core/internal/figures.h"
+#include "obvid/curve/internal/flatten.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
@@ -295,15 +296,18 @@ class WorksheetDrawing {
   /// Lines and arcs as they are; other pieces as polylines.
   void add_construction() {
     auto* layer = add("CONSTRUCTION", "construction", "#6c3483", 4, 1.6);
-    constexpr int kLinesOfPiece = 64;
+    constexpr double kDrawnWithin = 1e-4;  // of the piece's chord: not seen in a picture
+    constexpr int kFewestLines = 8, kMostLines = 64;
     for (const Piece& piece : construction_->pieces) {
       if (std::holds_alternative<ArcPiece>(piece) || std::holds_alternative<LinePiece>(piece)) {
         layer->pieces.push_back(piece);
         continue;
       }
       std::vector<Vec2> line;
-      for (int k = 0; k <= kLinesOfPiece; ++k) {
-        line.push_back(evaluate(piece, static_cast<double>(k) / kLinesOfPiece).point);
+      const double within = kDrawnWithin * norm(end_point(piece) - start_point(piece));
+      const int lines = chord_steps(piece, within, kFewestLines, kMostLines);
+      for (int k = 0; k <= lines; ++k) {
+        line.push_back(evaluate(piece, static_cast<double>(k) / lines).point);
       }
       layer->polylines.push_back(std::move(line));
     }

@@ -35,12 +35,11 @@ Cutter earlier_cutter(double diameter, std::optional<double> corner, CutterKind 
 }
 
 /// What is not typed, in the units of the surface.
-ToolpathOptions options_for(const ToolpathJob& job, const std::string& units) {
+ToolpathOptions options_for(const ToolpathJob& job, const Units& units) {
   constexpr double kDiameter = 6.0, kTolerance = 0.01;  // mm
   constexpr double kScallop = 0.01;                     // diameters
   ToolpathOptions plan = job.plan;
-  const double mm = millimetres_of(units);
-  const double unit = mm > 0.0 ? mm : 1.0;  // units that machines do not know are refused
+  const double unit = unit_ratio(units.name, "mm").value_or(1.0);  // without a length: refused
   plan.cutter.diameter = job.diameter.value_or(kDiameter / unit);
   plan.tolerance = job.tolerance.value_or(kTolerance / unit);
   if (plan.strategy == ToolpathStrategy::kRough) {
@@ -84,7 +83,7 @@ Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob&
         .hint("give --rest-of")
         .value(*job.rest_corner);
   }
-  const ToolpathOptions options = options_for(job, model.units.name);
+  const ToolpathOptions options = options_for(job, model.units);
   OBVID_TRY(check_effort(model, options));
   auto path = plan(model, options, run);
   OBVID_TRY(path);

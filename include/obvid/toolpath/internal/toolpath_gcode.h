@@ -31,7 +31,7 @@ struct ToolpathGcode {
 
 /// A program with absolute ends; it holds no tool change; M3 and M5 where the path has a speed of
 /// the spindle. G21 and millimetres, or G20 for inches; other units are converted to millimetres.
-/// Errors: E203 decimals out of range; E310 a unit that machines do not know; E502 decimals too few
+/// Errors: E203 decimals out of range, a unit without a length in metres; E502 decimals too few
 /// for the tolerance.
 [[nodiscard]] Result<ToolpathGcode> toolpath_gcode(const Toolpath& path,
                                                    const ToolpathGcodeOptions& options = {});

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "obvid/core/units.h"
 #include "obvid/exchange/internal/gcode/gcode.h"
 
 namespace obvid::exchange {
@@ -19,9 +21,19 @@ inline constexpr std::array kGcodeControllers = {
     std::pair{"fanuc", GcodeController::kFanuc}, std::pair{"marlin", GcodeController::kMarlin}};
 
 inline constexpr int kLeastGcodeDecimals = 3, kMostGcodeDecimals = 6;
-/// The fewest decimals, at least 3 (of inches 4), whose last digit is worth no more than a tenth of
-/// the tolerance, in units of the machine.
-[[nodiscard]] int gcode_decimals(double tolerance, bool inches);
+/// E203 for decimals below 1 or above 6.
+[[nodiscard]] Result<void> check_gcode_decimals(std::optional<int> decimals);
+/// What the last digit of programs along curves may be worth, of their tolerance.
+inline constexpr double kDigitOfTolerance = 0.1;
+/// The fewest decimals, at least 3 (of inches 4), whose last digit is worth no more than `digit`,
+/// in units of the machine.
+[[nodiscard]] int decimals_of_digit(double digit, bool inches);
+
+/// Units of the machine in a unit of lengths: inches in inches, else millimetres. Error E203: it
+/// has no length in metres.
+[[nodiscard]] Result<double> machine_units_in(const Units& units);
+/// Remarks on the unit: that it is assumed, that lengths were converted.
+[[nodiscard]] std::vector<std::string> gcode_unit_remarks(const Units& units);
 
 /// A line that controllers leave out.
 [[nodiscard]] std::string gcode_remark(GcodeController controller, std::string_view text);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "../common/plane_curves.h"
 #include "obvid/geom/vec2.h"
+#include "plane_curves.h"
 
 namespace obvid::test {
 

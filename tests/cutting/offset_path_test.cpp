@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parallels of squares and circles, by their closed forms.
+#include "offset_path.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace obvid::cutting {
+namespace {
+
+constexpr double kSide = 40.0, kRadius = 10.0;
+constexpr double kHalfTurn = std::numbers::pi;
+constexpr double kCloseBy = 1e-11;  // of lengths and areas: rounding
+
+/// Counterclockwise.
+ArcPath square() {
+  const Vec2 at[] = {{0, 0}, {kSide, 0}, {kSide, kSide}, {0, kSide}};
+  ArcPath out;
+  out.closed = true;
+  for (std::size_t i = 0; i < 4; ++i) out.pieces.emplace_back(LinePiece{at[i], at[(i + 1) % 4]});
+  return out;
+}
+
+/// Two half circles, counterclockwise.
+ArcPath circle() {
+  const Vec2 right{kRadius, 0}, left{-kRadius, 0};
+  ArcPath out;
+  out.closed = true;
+  out.pieces.emplace_back(
+      ArcPiece{right, left, 0.5 * kHalfTurn, 1.0 / kRadius, kHalfTurn * kRadius});
+  out.pieces.emplace_back(
+      ArcPiece{left, right, 1.5 * kHalfTurn, 1.0 / kRadius, kHalfTurn * kRadius});
+  return out;
+}
+
+TEST(ParallelOfASquare, InsideIsASmallerSquareThatKeepsItsCorners) {
+  constexpr double kBy = 3.0, kInner = kSide - 2.0 * kBy;
+  const auto made = parallel_of(square(), kBy);
+  ASSERT_TRUE(made) << to_line(made.error());
+  EXPECT_NEAR(area_of(made->path), kInner * kInner, kCloseBy * kSide * kSide);
+  EXPECT_NEAR(length_of(made->path), 4.0 * kInner, kCloseBy * kSide);
+  ASSERT_EQ(made->corners.size(), 4U);
+  for (const Parallel::InnerCorner& corner : made->corners) {
+    EXPECT_NEAR(corner.reach, kBy, kCloseBy * kSide);
+    EXPECT_NEAR(corner.left, (std::numbers::sqrt2 - 1.0) * kBy, kCloseBy * kSide);
+  }
+}
+
+TEST(ParallelOfASquare, OutsideIsRoundedByQuarterCircles) {
+  constexpr double kBy = 3.0;
+  const auto made = parallel_of(square(), -kBy);
+  ASSERT_TRUE(made) << to_line(made.error());
+  EXPECT_NEAR(area_of(made->path), kSide * kSide + 4.0 * kSide * kBy + kHalfTurn * kBy * kBy,
+              kCloseBy * kSide * kSide);
+  EXPECT_NEAR(length_of(made->path), 4.0 * kSide + 2.0 * kHalfTurn * kBy, kCloseBy * kSide);
+  EXPECT_TRUE(made->corners.empty());
+  for (const Piece& piece : made->path.pieces) {
+    if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
+      EXPECT_NEAR(arc->kappa, 1.0 / kBy, kCloseBy);
+    }
+  }
+}
+
+TEST(ParallelOfASquare, RunsTheOtherWayWhereTheSquareDoes) {
+  const auto inside = parallel_of(reversed(square()), -3.0), outside = parallel_of(square(), -3.0);
+  ASSERT_TRUE(inside && outside);
+  EXPECT_NEAR(area_of(inside->path), -34.0 * 34.0, kCloseBy * kSide * kSide);
+  EXPECT_NEAR(area_of(reversed(outside->path)), -area_of(outside->path), kCloseBy * kSide * kSide);
+}
+
+TEST(ParallelOfACircle, HasTheOtherRadius) {
+  for (const double by : {4.0, -4.0, 9.0}) {
+    const auto made = parallel_of(circle(), by);
+    ASSERT_TRUE(made) << by;
+    const double r = kRadius - by;
+    EXPECT_NEAR(area_of(made->path), kHalfTurn * r * r, kCloseBy * kSide * kSide) << by;
+    EXPECT_NEAR(length_of(made->path), 2.0 * kHalfTurn * r, kCloseBy * kSide) << by;
+    for (const Piece& piece : made->path.pieces) {
+      EXPECT_NEAR(curvature_of(piece), 1.0 / r, kCloseBy) << by;
+    }
+  }
+}
+
+TEST(ParallelOfACircle, IsRefusedWhereTheToolDoesNotFit) {
+  const auto refused = parallel_of(circle(), 1.05 * kRadius);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kToolTooLarge);
+  EXPECT_NEAR(refused.error().value, kRadius, kCloseBy * kRadius);
+}
+
+TEST(PathsOfLinesAndArcs, PartsAndBeginningsKeepLengthAndArea) {
+  const ArcPath round = circle();
+  const Piece part = part_of(round.pieces[0], 0.25, 0.75);
+  EXPECT_NEAR(length_of(part), 0.5 * kHalfTurn * kRadius, kCloseBy);
+  EXPECT_NEAR(
+      norm(start_point(part) - kRadius * Vec2{std::numbers::sqrt2, std::numbers::sqrt2} / 2), 0.0,
+      kCloseBy * kRadius);
+  const ArcPath begun = begun_at(round, 0, 0.3);
+  EXPECT_NEAR(length_of(begun), length_of(round), kCloseBy * kSide);
+  EXPECT_NEAR(area_of(begun), kHalfTurn * kRadius * kRadius, kCloseBy * kSide * kSide);
+  EXPECT_NEAR(norm(start_point(begun.pieces.front()) -
+                   kRadius * Vec2{std::cos(0.3 * kHalfTurn), std::sin(0.3 * kHalfTurn)}),
+              0.0, kCloseBy * kRadius);
+}
+
+TEST(PathsOfLinesAndArcs, DistancesBoxesAndMeetings) {
+  const Piece upper = circle().pieces[0];
+  EXPECT_NEAR(distance_from(upper, {0, 3}), 7.0, kCloseBy);
+  EXPECT_NEAR(distance_from(upper, {0, 14}), 4.0, kCloseBy);
+  EXPECT_NEAR(distance_from(upper, {kRadius + 3, -4}), 5.0, kCloseBy);  // from its end
+  const Box2 box = box_of(upper);
+  EXPECT_TRUE(box.low.x <= -kRadius && box.low.y <= 0.0);
+  EXPECT_TRUE(box.high.x >= kRadius && box.high.y >= kRadius);
+  const Piece rising = LinePiece{{0, 0}, {0, 2 * kRadius}};
+  const auto meeting = meeting_of(rising, upper);
+  ASSERT_TRUE(meeting);
+  EXPECT_NEAR(meeting->on_first, 0.5, kCloseBy);
+  EXPECT_NEAR(meeting->on_second, 0.5, kCloseBy);
+  EXPECT_FALSE(meeting_of(LinePiece{{0, 0}, {0, 0.9 * kRadius}}, upper));
+}
+
+}  // namespace
+}  // namespace obvid::cutting
