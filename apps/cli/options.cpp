@@ -492,7 +492,9 @@ void add_checkers(CLI::App& app, Raw& raw) {
       .add_option("CONTOUR", raw.inputs,
                   "Contour file (.json), or - for standard input; of several files a line each")
       ->type_name("");
-  add_output(verify, raw.verify.outputs, raw.format, "File to write: .json the answer");
+  add_output(verify, raw.verify.outputs, raw.format,
+             "File to write: .json the answer, .html a page with it, .csv the pieces");
+  verify.add_flag("--csv", raw.verify.csv, "Table of the pieces as CSV on standard output");
   verify.add_flag("--json", raw.verify.json, "JSON on standard output instead of the table");
   verify.add_flag("-q,--quiet", raw.verify.quiet, "Exit code only");
   verify.add_flag("--no-progress", raw.no_progress, kNoBarHelp);
@@ -705,7 +707,8 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (name == "region") return checked_region(raw);
   if (name == "compare") return checked_compare(raw);
   if (name == "explain") return Command{raw.explain};
-  OBVID_TRY(settle_streams(raw.verify, raw.format));
+  OBVID_TRY(settle_streams(raw.verify, raw.format, raw.verify.csv));
+  raw.verify.asked = raw.asked;
   OBVID_TRY(set_inputs(raw, raw.verify, "verify", "a contour file"));
   return Command{raw.verify};
 }

@@ -104,8 +104,10 @@ struct CompareOptions {
 struct VerifyOptions {
   std::string input;
   std::vector<std::string> inputs;   ///< several, in place of one
-  std::vector<std::string> outputs;  ///< .json
+  std::vector<std::string> outputs;  ///< .json, .html, .csv
+  std::string asked;                 ///< the command, for pages
   bool json = false;
+  bool csv = false;
   bool quiet = false;
 };
 

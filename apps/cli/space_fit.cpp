@@ -8,6 +8,7 @@
 
 #include "fit_report.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/file_ending.h"
 #include "obvid/pipeline/internal/space_values.h"
 #include "obvid/pipeline/space_fit.h"
 #include "outputs.h"
@@ -293,7 +294,15 @@ int verify_in_space(const StoredSpaceChain& stored, const std::string& name,
   const SpaceChainVerification found = verify(stored);
   std::string shown;
   std::vector<Output> files;
+  if (options.csv) {
+    return report({ErrorCode::kBadOption, "of curves in space there is no table of pieces", "--csv",
+                   "--json has all of it"});
+  }
   for (const std::string& path : options.outputs) {
+    if (!has_ending(path, ".json")) {
+      return report({ErrorCode::kUnknownFormat, "answers about curves in space are JSON", path,
+                     "name a .json"});
+    }
     files.push_back({path, {}, space_verification_json(stored, found)});
   }
   if (auto done = write_files(files); !done) return report(done.error());

@@ -6,8 +6,11 @@
 #include "commands.h"
 #include "fit_report.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/internal/file_ending.h"
+#include "obvid/pipeline/export.h"
 #include "obvid/pipeline/internal/fit_figures.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/space_fit.h"
@@ -76,6 +79,19 @@ std::string counts_text(const Certificate& certificate) {
   return text;
 }
 
+DataTable proof_rows(const Contour& contour, const Certificate& certificate) {
+  DataTable out{heads_of("piece,type,curvature,arithmetic,from,to")};
+  for (std::size_t i = 0; i < certificate.pieces.size(); ++i) {
+    const PieceProof& proof = certificate.pieces[i];
+    out.rows.push_back({i + 1, i < contour.pieces.size() ? type_of(contour.pieces[i]) : "",
+                        to_string(proof.verdict), proof.exact_arithmetic ? "exact" : "fast"});
+    if (trouble(proof) < 2.0) continue;
+    out.rows.back().emplace_back(proof.t0);
+    out.rows.back().emplace_back(proof.t1);
+  }
+  return out;
+}
+
 const char* yes_no(bool flag) { return flag ? "yes" : "no"; }
 
 /// The claims of the file beside what was found now.
@@ -107,16 +123,52 @@ void add_claims(Facts& facts, const StoredContour& stored, const Certificate& fo
   facts.add("self-intersections", std::to_string(found.self_intersections));
 }
 
-std::string verification_text(const StoredContour& stored, const Verification& found) {
+Facts verification_facts(const StoredContour& stored, const Verification& found) {
   Facts facts;
   add_claims(facts, stored, found.certificate);
   facts.add("not checked", listed(found.not_checked));
+  return facts;
+}
+
+std::string verification_verdict(const StoredContour& stored, const Verification& found) {
+  return found.false_claim ? "NOT as claimed: " + found.false_claim->what
+                           : verdict_line(stored.contour.carrier, found.certificate);
+}
+
+std::string verification_text(const StoredContour& stored, const Verification& found) {
   const bool holds = !broken_promise(stored, found);
-  const std::string verdict = found.false_claim
-                                  ? "NOT as claimed: " + found.false_claim->what
-                                  : verdict_line(stored.contour.carrier, found.certificate);
-  return piece_table(stored.contour, found.certificate) + "\n" + facts.text() +
-         (holds ? good(verdict) : bad(verdict)) + "\n";
+  const std::string verdict = verification_verdict(stored, found);
+  return piece_table(stored.contour, found.certificate) + "\n" +
+         verification_facts(stored, found).text() + (holds ? good(verdict) : bad(verdict)) + "\n";
+}
+
+Result<std::string> verification_page(const StoredContour& stored, const Verification& found,
+                                      const std::string& name, const std::string& asked) {
+  ReportPage page;
+  page.title = name;
+  page.verdict = verification_verdict(stored, found);
+  page.kind =
+      broken_promise(stored, found) ? ReportPage::Verdict::kBroken : ReportPage::Verdict::kKept;
+  ExportOptions titled;
+  titled.picture.name = name;
+  const auto drawn = export_contour(stored, FileFormat::kPicture, titled);
+  OBVID_TRY(drawn);
+  page.pictures.push_back(drawn->files.front().text);
+  page.figures = {{"asked for", asked}, {"lengths in", stored.contour.units.text()}};
+  const Facts facts = verification_facts(stored, found);
+  page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
+  page.tables.push_back(
+      table_of_page("pieces", "Pieces", proof_rows(stored.contour, found.certificate)));
+  return page_text(page);
+}
+
+/// The text of an answer by the ending of its file.
+Result<std::string> answer_for(const std::string& path, const StoredContour& stored,
+                               const Verification& found, const std::string& name,
+                               const std::string& asked) {
+  if (has_ending(path, ".json")) return verification_json(stored, found);
+  if (has_ending(path, ".csv")) return csv_text(proof_rows(stored.contour, found.certificate));
+  return verification_page(stored, found, name, asked);
 }
 
 /// What the file says wrongly comes before what could not be proved.
@@ -157,7 +209,7 @@ int verify_several(const VerifyOptions& options) {
   }
   const auto all = all_of_them(options.inputs, options.input, {}, false);
   if (!all) return report(all.error());
-  Several several(*all, summary_form(false, options.json, options.quiet));
+  Several several(*all, summary_form(options.csv, options.json, options.quiet));
   return several.run(
       {}, [](const OneOf& one, const std::vector<std::string>&) { return summary_of_stored(one); });
 }
@@ -167,8 +219,11 @@ int verify_several(const VerifyOptions& options) {
 int run(const VerifyOptions& options) {
   if (!options.inputs.empty()) return verify_several(options);
   for (const std::string& path : options.outputs) {
-    if (has_ending(path, ".json")) continue;
-    return report({ErrorCode::kUnknownFormat, "answers are written as JSON", path, "name a .json"});
+    if (has_ending(path, ".json") || has_ending(path, ".html") || has_ending(path, ".csv")) {
+      continue;
+    }
+    return report({ErrorCode::kUnknownFormat, "answers are JSON, a page or a table of pieces", path,
+                   "name a .json, .html or .csv"});
   }
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
@@ -186,11 +241,15 @@ int run(const VerifyOptions& options) {
   std::string shown;
   std::vector<Output> files;
   for (const std::string& path : options.outputs) {
-    files.push_back({path, {}, verification_json(*stored, found)});
+    auto answer = answer_for(path, *stored, found, name, options.asked);
+    if (!answer) return report(answer.error());
+    files.push_back({path, {}, std::move(*answer)});
   }
   if (auto done = write_files(files); !done) return report(done.error());
   if (options.json) {
     shown = verification_json(*stored, found);
+  } else if (options.csv) {
+    shown = csv_text(proof_rows(stored->contour, found.certificate));
   } else if (!options.quiet) {
     shown = verification_text(*stored, found);
   }

@@ -398,6 +398,11 @@ class PagesSayWhatTerminalsSay(PageCase):
         self.assertTrue(warnings and count >= 8)
         self.judge(["fit", EXAMPLES / "plate.dxf", "--curve", "1"])
 
+    def test_verify(self):
+        self.judge(["fit", EXAMPLES / "series10.csv", "-o", "c.json"])
+        _, count = self.judge(["verify", "c.json"], ())
+        self.assertGreaterEqual(count, 10)
+
     def test_convert(self):
         self.assertTrue(self.judge(["convert", EXAMPLES / "plate.dxf"])[1])
 
