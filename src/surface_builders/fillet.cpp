@@ -618,6 +618,7 @@ Result<std::vector<Fillet>> fillets_between(const std::array<const SurfacePatch*
     ways.push_back(std::move(*way));
     return {};
   };
+  OBVID_TRY(tell(run, "blends", 0.0));
   const auto searched = WaySearch(ball, run).each(follow);
   OBVID_TRY(searched);
   if (ways.empty()) {
@@ -629,6 +630,8 @@ Result<std::vector<Fillet>> fillets_between(const std::array<const SurfacePatch*
   }
   std::vector<Fillet> out;
   for (const BallWay& way : ways) {
+    OBVID_TRY(
+        tell(run, "blends", static_cast<double>(out.size()) / static_cast<double>(ways.size())));
     if (options.radius_end == options.radius) {
       auto made = BlendMaker(ball, way, options, run).made();
       OBVID_TRY(made);
