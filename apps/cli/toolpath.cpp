@@ -107,6 +107,27 @@ std::string rest_text(const ToolpathReport& r, const std::string& unit) {
                      toolpath_place(r.leftover_place));
 }
 
+std::string bound_text(const char* words, double most) {
+  return std::isfinite(most) ? fmt::format(fmt::runtime(words), significant(most, 3))
+                             : std::string("no bound is known");
+}
+
+/// Of the places that were looked at, which are not all of the surface.
+std::string scallop_text(const ToolpathReport& r, const std::string& unit, bool earlier) {
+  if (earlier && !(r.leftover_area > 0.0))
+    return "none is looked at: nothing is left by the earlier cutter";
+  std::string where = "where the cutter reaches";
+  if (earlier) where += " and the earlier one left too much";
+  if (r.flat_left > 0.0) where += " and levels are meant for";
+  if (!(r.scallop.found > 0.0)) return "none found " + where;
+  return fmt::format("{} {}, at {}; {}",
+                     std::isfinite(r.scallop.found)
+                         ? fmt::format("{} {}", significant(r.scallop.found, 3), unit)
+                         : std::string("unbounded"),
+                     where, toolpath_place(r.scallop.place),
+                     bound_text("{} exceeded nowhere there", r.scallop.most));
+}
+
 std::string toolpath_text(const Made& made, const std::vector<std::string>& files, bool earlier) {
   const ToolpathReport& r = made.job.path.report;
   const std::string unit = made.job.path.units.text();
@@ -121,20 +142,10 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                                   unit, significant(r.rapid_length, 5), unit));
   facts.add("entries", entries_text(r.entries, rough));
   facts.add("time", fmt::format("about {} minutes, with acceleration", significant(r.minutes, 3)));
-  const auto bound = [](const char* words, double most) {
-    return std::isfinite(most) ? fmt::format(fmt::runtime(words), significant(most, 3))
-                               : std::string("no bound is known");
-  };
   if (rough) {
     add_rough_facts(r, unit, facts);
   } else {
-    facts.add(
-        "scallop",
-        fmt::format("{} where the cutter reaches, at {}; {}",
-                    std::isfinite(r.scallop.found)
-                        ? fmt::format("{} {}", significant(r.scallop.found, 3), unit)
-                        : std::string("unbounded"),
-                    toolpath_place(r.scallop.place), bound("{} nowhere exceeded", r.scallop.most)));
+    facts.add("scallop", scallop_text(r, unit, earlier));
   }
   if (earlier) facts.add("rest", rest_text(r, unit));
   if (r.flat_left > 0.0) {
@@ -149,7 +160,7 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
   }
   facts.add("gouges", fmt::format("{} {} the deepest found, {}; avoided by lifting at {} points",
                                   significant(r.gouge.found, 3), unit,
-                                  bound("none beyond {}", r.gouge.most), r.lifted_points));
+                                  bound_text("none beyond {}", r.gouge.most), r.lifted_points));
   if (!rough) {
     facts.add("not seen from above", area_share(r.hidden_area, r.surface_area));
     facts.add("not reached",

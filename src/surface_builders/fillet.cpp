@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -565,6 +566,9 @@ Result<ChangedWay> changing_way(const RollingBall& constant, const BallWay& way,
   double length = std::min(way.on[0].to, way.on[1].to) - std::max(way.on[0].from, way.on[1].from);
   constexpr int kMostTries = 60;
   constexpr double kSettled = 1e-12;
+  constexpr double kLonger = 1.05;  // than a way on which the radius runs out
+  constexpr int kMostLonger = 20;   // times that, together 2.7
+  double too_short = 0.0, long_enough = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMostTries; ++k) {
     const double slope = (radius_end - radius) / length;
     if (!(std::abs(slope) < 1.0)) {
@@ -577,11 +581,17 @@ Result<ChangedWay> changing_way(const RollingBall& constant, const BallWay& way,
         ball.in_plane({from.touch[0].at, from.touch[1].at}, 0.0, from.centre, from.along);
     if (!first) return error(ErrorCode::kSurfaceFolds, "the radius changes too fast for the faces");
     auto changed = way_of(ball, *first, run);
+    const bool may_run_out = radius_end < radius && (k < kMostLonger || std::isfinite(long_enough));
+    if (!changed && may_run_out && changed.error().code == ErrorCode::kSurfaceFolds) {
+      too_short = length;  // on a longer way the radius falls slower
+      length = std::isfinite(long_enough) ? 0.5 * (length + long_enough) : kLonger * length;
+      continue;
+    }
     OBVID_TRY(changed);
     const double now = std::min(changed->on[0].to, changed->on[1].to);
-    const bool settled = std::abs(now - length) <= kSettled * length;
-    length = now;
-    if (settled) return ChangedWay{ball, std::move(*changed)};
+    if (std::abs(now - length) <= kSettled * length) return ChangedWay{ball, std::move(*changed)};
+    if (now < length) long_enough = std::min(long_enough, length);
+    length = now > too_short ? now : 0.5 * (too_short + long_enough);
   }
   return error(ErrorCode::kToleranceNotReached, "the length of the spine does not settle")
       .hint("take radii that differ less");
@@ -608,6 +618,7 @@ Result<std::vector<Fillet>> fillets_between(const std::array<const SurfacePatch*
     ways.push_back(std::move(*way));
     return {};
   };
+  OBVID_TRY(tell(run, "blends", 0.0));
   const auto searched = WaySearch(ball, run).each(follow);
   OBVID_TRY(searched);
   if (ways.empty()) {
@@ -619,6 +630,8 @@ Result<std::vector<Fillet>> fillets_between(const std::array<const SurfacePatch*
   }
   std::vector<Fillet> out;
   for (const BallWay& way : ways) {
+    OBVID_TRY(
+        tell(run, "blends", static_cast<double>(out.size()) / static_cast<double>(ways.size())));
     if (options.radius_end == options.radius) {
       auto made = BlendMaker(ball, way, options, run).made();
       OBVID_TRY(made);

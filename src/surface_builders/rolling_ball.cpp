@@ -16,7 +16,8 @@ constexpr double kMostBallTurn = 0.1, kLittleBallTurn = 0.04;  // rad in a step
 constexpr double kFirstBallStep = 0.1;                         // of the radius
 constexpr double kMostBallStep = 1.0 / 16.0;  // of the size, and of a face's domain
 constexpr double kLeastBallStep = 1e-6;       // of the radius
-constexpr double kMostOnOneFace = 8.0;  // of the radius: how far the ball goes on one face alone
+constexpr double kMostOnOneFace = 8.0;     // of the radius: how far the ball goes on one face alone
+constexpr double kLeastBallRadius = 1e-9;  // of the radius at the start: less is none
 constexpr std::size_t kMostBallSteps = 100'000;
 constexpr std::size_t kFewestBallSteps = 6;  // steps of a closed way
 constexpr int kBallHalvings = 60;
@@ -229,6 +230,7 @@ class BallWalker {
       OBVID_TRY(may_go_on(run_));
       const auto next = next_place();
       if (!next) return fail(stuck("the ball cannot go on between the faces"));
+      if (next->radius < kLeastBallRadius * start_.radius) return fail(run_out());
       OBVID_TRY(fits(*next));
       if (closes(*next)) return std::move(out_);
       for (std::size_t i = 0; i < 2; ++i) {
@@ -273,6 +275,12 @@ class BallWalker {
     return error(ErrorCode::kSurfaceFolds, what)
         .where(near_text(at_.centre))
         .hint("the faces are nearly parallel there or bend more than the ball; take another radius")
+        .value(at_.radius);
+  }
+  [[nodiscard]] Error run_out() const {
+    return error(ErrorCode::kSurfaceFolds, "the radius comes down to 0 before the faces end")
+        .where(near_text(at_.centre))
+        .hint("take radii that differ less")
         .value(at_.radius);
   }
   /// The ball must bend more than both faces do towards it; looked at where it touches.

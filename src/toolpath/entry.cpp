@@ -15,16 +15,22 @@ constexpr double kMostLegs = 40.0;                            // of a ramp up an
 constexpr double kMostTurns = 100.0;                          // of a helix
 constexpr double kLeastCorners = 16.0, kMostCorners = 720.0;  // of a circle
 
-/// Ways one after the other with what is over them, which falls evenly from `height` to 0.
+/// Ways one after the other with what is over them, which falls evenly to 0.
 class Way {
  public:
-  Way(double height, double length) : height_(height), length_(length) {}
+  Way(const Descent& descent, double length) : descent_(descent), length_(length) {}
 
   void go(Vec3 p) {
     if (!points_.empty()) gone_ += level_distance(last_, p);
     last_ = p;
-    const double over = height_ * std::max(0.0, 1.0 - gone_ / length_);
-    points_.push_back({p.x, p.y, p.z + over});
+    const double z = p.z + descent_.height * std::max(0.0, 1.0 - gone_ / length_);
+    if (!points_.empty() && (z > descent_.ceiling) != (full_ > descent_.ceiling)) {
+      const double part = (descent_.ceiling - full_) / (z - full_);
+      points_.push_back(points_.back() + part * (Vec3{p.x, p.y, z} - points_.back()));
+      points_.back().z = descent_.ceiling;
+    }
+    full_ = z;
+    points_.push_back({p.x, p.y, std::min(z, descent_.ceiling)});
   }
   [[nodiscard]] std::vector<Vec3> down_to(Vec3 end) {
     points_.back() = end;  // but for rounding it is that
@@ -32,7 +38,9 @@ class Way {
   }
 
  private:
-  double height_, length_, gone_ = 0.0;
+  Descent descent_;
+  double length_, gone_ = 0.0;
+  double full_ = 0.0;  ///< height of the last place without a ceiling
   Vec3 last_;
   std::vector<Vec3> points_;
 };
@@ -50,12 +58,11 @@ std::optional<double> legs_of_ramp(double length, double height, double fall) {
   return legs <= kMostLegs ? std::optional(legs) : std::nullopt;
 }
 
-std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double height,
-                                           double fall) {
+std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, const Descent& descent) {
   double length = 0.0;
   for (std::size_t i = 1; i < pass.size(); ++i) length += level_distance(pass[i - 1], pass[i]);
-  const double total = height / fall;
-  const auto legs = legs_of_ramp(length, height, fall);
+  const double total = descent.height / descent.fall;
+  const auto legs = legs_of_ramp(length, descent.height, descent.fall);
   if (!legs) return std::nullopt;
   const double leg = std::min(length, total / *legs);
   std::vector<Vec3> there{pass.front()};
@@ -66,7 +73,7 @@ std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double
     there.push_back(part < 1.0 ? pass[i - 1] + part * (pass[i] - pass[i - 1]) : pass[i]);
     at += step;
   }
-  Way way(height, total);
+  Way way(descent, total);
   for (double k = 0.0; k < *legs; k += 2.0) {
     for (const Vec3 p : there) way.go(p);
     for (std::size_t i = there.size() - 1; i-- > 1;) way.go(there[i]);
@@ -75,13 +82,13 @@ std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, double
   return way.down_to(pass.front());
 }
 
-std::optional<Helix> helix_over(const std::vector<Vec3>& ring, double height, double fall,
+std::optional<Helix> helix_over(const std::vector<Vec3>& ring, const Descent& descent,
                                 double least_turns) {
   double length = 0.0;
   for (std::size_t i = 1; i < ring.size(); ++i) length += level_distance(ring[i - 1], ring[i]);
-  const double turns = std::max(least_turns, std::ceil(height / (fall * length)));
+  const double turns = std::max(least_turns, std::ceil(descent.height / (descent.fall * length)));
   if (!(turns <= kMostTurns)) return std::nullopt;
-  Way way(height, turns * length);
+  Way way(descent, turns * length);
   for (double k = 0.0; k < turns; ++k) {
     for (std::size_t i = 0; i + 1 < ring.size(); ++i) way.go(ring[i]);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -20,11 +21,18 @@ inline constexpr std::array kHelixRadii = {0.9, 0.45};
 /// than 40.
 [[nodiscard]] std::optional<double> legs_of_ramp(double length, double height, double fall);
 
-/// Back and forth over the beginning of a pass, an even number of ways, from `height` over its
-/// first point down to it; what is over the pass falls evenly, so no body on the way lies deeper
-/// than those of the pass. Nothing: the pass is too short (`legs_of_ramp`).
+/// A way down over a pass: from so far over its first point, by `fall` for each length seen from
+/// above. Where it would lie higher than the ceiling, which is over the whole pass, it is level.
+struct Descent {
+  double height = 0.0, fall = 0.0;
+  double ceiling = std::numeric_limits<double>::infinity();
+};
+
+/// Back and forth over the beginning of a pass, an even number of ways, down to its first point;
+/// what is over the pass falls evenly, so no body on the way lies deeper than those of the pass.
+/// Nothing: the pass is too short (`legs_of_ramp`).
 [[nodiscard]] std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass,
-                                                         double height, double fall);
+                                                         const Descent& descent);
 
 /// Likewise around a closed ring (its last point is its first one).
 struct Helix {
@@ -32,8 +40,8 @@ struct Helix {
   double turns = 0.0;  ///< whole ones
 };
 /// In at least so many turns. Nothing: it takes more than 100.
-[[nodiscard]] std::optional<Helix> helix_over(const std::vector<Vec3>& ring, double height,
-                                              double fall, double least_turns);
+[[nodiscard]] std::optional<Helix> helix_over(const std::vector<Vec3>& ring, const Descent& descent,
+                                              double least_turns);
 
 /// Corners of a circle through `start` that leaves it in the direction `along` (length 1) and comes
 /// back to it, `side` 1: the centre lies to the left, -1: to the right. Chords lie within `within`

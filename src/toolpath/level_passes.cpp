@@ -18,12 +18,52 @@ namespace {
 
 constexpr double kSteepDeg = 45.0;
 constexpr double kOnLine = 0.2;       // of a step's share: how near places lie to the line
+constexpr double kGuessed = 0.25;     // of that: how near guesses come to the middle of it
 constexpr int kMostCloser = 40;       // steps towards the line
 constexpr int kChordHalvings = 8;     // of a chord in a side of the raster
 constexpr double kLeastStep = 0.002;  // of the level step: nearer levels help no more
 constexpr double kAround = 0.5;       // diameters: squares around high places
 
+/// Of four values one apart the cubic through them, t from the second.
+double cubic(const std::array<double, 4>& v, double t) {
+  const double a = t + 1.0, b = t - 1.0, c = t - 2.0;
+  return -t * b * c / 6.0 * v[0] + a * b * c / 2.0 * v[1] - a * t * c / 2.0 * v[2] +
+         a * t * b / 6.0 * v[3];
+}
+
+bool all_finite(const std::array<double, 4>& v) {
+  return std::all_of(v.begin(), v.end(), [](double one) { return std::isfinite(one); });
+}
+
 }  // namespace
+
+void LevelPasses::Crossing::narrow(Vec2 at, double over) {
+  (over > 0.0 ? held : clear) = {at, over};
+}
+
+// Regula falsi with halvings (Illinois).
+template <class Over>
+void LevelPasses::Crossing::close_in(double near, const Over& over) {
+  double low = clear.over, high = held.over;
+  int last = 0;
+  for (int k = 0; k < kMostCloser && norm(held.at - clear.at) > near; ++k) {
+    if (clear.over > -near) break;
+    double part = 0.5;
+    if (std::isfinite(low) && k % 4 != 3) part = std::clamp(low / (low - high), 0.02, 0.98);
+    const Vec2 p = clear.at + part * (held.at - clear.at);
+    const double h = over(p);
+    narrow(p, h);
+    if (h > 0.0) {
+      high = h;
+      if (last == 1) low *= 0.5;
+      last = 1;
+    } else {
+      low = h;
+      if (last == -1) high *= 0.5;
+      last = -1;
+    }
+  }
+}
 
 std::optional<double> flat_from(const ToolpathOptions& options) {
   if (options.strategy != ToolpathStrategy::kZLevel && !options.steep_deg) return std::nullopt;
@@ -69,6 +109,24 @@ double LevelPasses::height(Vec2 axis) const {
   return rest ? rest->tip.z : kNothing;
 }
 
+double LevelPasses::guessed(Vec2 axis) const {
+  const Vec2 at = (1.0 / spacing_) * (axis - origin_);
+  const double x = std::floor(at.x), y = std::floor(at.y);
+  if (!(x >= 1.0 && y >= 1.0 && x + 2.0 < static_cast<double>(nx_) &&
+        y + 2.0 < static_cast<double>(ny_))) {
+    return kNothing;
+  }
+  const auto i = static_cast<std::size_t>(x), j = static_cast<std::size_t>(y);
+  std::array<double, 4> rows{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double* row = &heights_[(j + k - 1) * nx_ + i - 1];
+    const std::array<double, 4> values = {row[0], row[1], row[2], row[3]};
+    if (!all_finite(values)) return kNothing;
+    rows[k] = cubic(values, at.x - x);
+  }
+  return cubic(rows, at.y - y);
+}
+
 Result<void> LevelPasses::measure(const RunContext& run) {
   const double places = static_cast<double>(nx_) * static_cast<double>(ny_);
   if (!(places <= static_cast<double>(most_points_))) {
@@ -107,36 +165,26 @@ Result<std::optional<LevelPasses::Heights>> LevelPasses::wall_heights(const Surf
   return all.low <= all.high ? std::optional(all) : std::nullopt;
 }
 
-// Regula falsi with halvings (Illinois); the clear end stays clear.
 LevelPasses::Crossing LevelPasses::crossing(std::uint64_t side, double z) const {
   const std::size_t from = side / 2, i = from % nx_, j = from / nx_;
-  const std::size_t i2 = i + (side % 2 == 0 ? 1 : 0), j2 = j + (side % 2 == 0 ? 0 : 1);
-  Crossing out{side, node(i, j), node(i2, j2)};
-  double clear = heights_[j * nx_ + i] - z, held = heights_[j2 * nx_ + i2] - z;
-  if (clear > 0.0) {
-    std::swap(out.clear, out.held);
-    std::swap(clear, held);
-  }
+  const std::size_t di = side % 2 == 0 ? 1 : 0, dj = 1 - di;
+  Crossing out{side, {node(i, j), over(i, j, z)}, {node(i + di, j + dj), over(i + di, j + dj, z)}};
+  if (out.clear.over > 0.0) std::swap(out.clear, out.held);
   const double near = kOnLine * share_;
-  int last = 0;
-  for (int k = 0; k < kMostCloser && norm(out.held - out.clear) > near; ++k) {
-    double part = 0.5;
-    if (std::isfinite(clear) && k % 4 != 3) part = std::clamp(clear / (clear - held), 0.02, 0.98);
-    const Vec2 p = out.clear + part * (out.held - out.clear);
-    const double h = height(p) - z;
-    if (h > 0.0) {
-      out.held = p;
-      held = h;
-      if (last == 1) clear *= 0.5;
-      last = 1;
-    } else {
-      out.clear = p;
-      clear = h;
-      if (last == -1) held *= 0.5;
-      last = -1;
-      if (h > -near) break;
+  if (i >= di && j >= dj && i + 2 * di < nx_ && j + 2 * dj < ny_) {
+    const std::array<double, 4> heights = {over(i - di, j - dj, z), over(i, j, z),
+                                           over(i + di, j + dj, z),
+                                           over(i + 2 * di, j + 2 * dj, z)};
+    if (all_finite(heights)) {
+      const Vec2 first = node(i, j);
+      Crossing guess = out;
+      guess.close_in(kGuessed * near, [&](Vec2 p) {
+        return cubic(heights, norm(p - first) / spacing_) + 0.5 * near;
+      });
+      out.narrow(guess.clear.at, height(guess.clear.at) - z);
     }
   }
+  out.close_in(near, [&](Vec2 p) { return height(p) - z; });
   return out;
 }
 
@@ -190,7 +238,7 @@ Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const Square
     std::size_t k = start;
     for (; k != kNowhere && !taken[k]; k = next[k]) {
       taken[k] = true;
-      line.places.push_back(crossings[k].clear);
+      line.places.push_back(crossings[k].clear.at);
     }
     line.closed = k == start && line.places.size() > 2;
     if (line.closed) line.places.push_back(line.places.front());
@@ -224,6 +272,7 @@ void LevelPasses::between(Vec2 a, Vec2 b, double z, int depth, std::vector<Vec2>
   if (depth >= kChordHalvings || length <= 2.0 * share_) return;
   const Vec2 right = (-1.0 / length) * left_normal(b - a);
   const Vec2 middle = 0.5 * (a + b);
+  if (guessed(middle + (1.0 - kOnLine) * share_ * right) > z) return;
   if (height(middle) > z || height(middle + share_ * right) > z) return;
   double clear = share_, off = 2.0 * share_;
   for (; off < length; off *= 2.0) {

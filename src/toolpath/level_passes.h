@@ -34,10 +34,19 @@ class LevelPasses {
   [[nodiscard]] Family in_order() const;
 
  private:
+  struct Height {
+    Vec2 at;
+    double over = 0.0;  ///< the level
+  };
   /// Where a line crosses a side of the raster: the last clear place, and a held one.
   struct Crossing {
     std::uint64_t side = 0;
-    Vec2 clear, held;
+    Height clear, held;
+    void narrow(Vec2 at, double over);
+    /// Until the clear place is no farther than `near` from the line or below it; the clear end
+    /// stays clear by over(place).
+    template <class Over>
+    void close_in(double near, const Over& over);
   };
   /// Squares of the plane in which levels are followed; no square: everywhere.
   struct Squares {
@@ -58,7 +67,12 @@ class LevelPasses {
   [[nodiscard]] bool held(std::size_t i, std::size_t j, double z) const {
     return heights_[j * nx_ + i] > z;
   }
+  [[nodiscard]] double over(std::size_t i, std::size_t j, double z) const {
+    return heights_[j * nx_ + i] - z;
+  }
   [[nodiscard]] double height(Vec2 axis) const;
+  /// By the raster's nodes around; where some of them have none: nothing.
+  [[nodiscard]] double guessed(Vec2 axis) const;
   [[nodiscard]] Result<void> measure(const RunContext& run);
   [[nodiscard]] Result<std::optional<Heights>> wall_heights(const SurfaceCells& cells,
                                                             const RunContext& run) const;

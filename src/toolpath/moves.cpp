@@ -57,7 +57,7 @@ class Layer {
       if (options_.entry == ToolpathEntry::kHelix) way = helix_to(points, height);
       if (way) {
         ++report_.entries.helical;
-      } else if ((way = ramp_over(points, height, *fall_))) {
+      } else if ((way = ramp_over(points, descent(height)))) {
         ++report_.entries.ramped;
       }
     }
@@ -68,6 +68,8 @@ class Layer {
     list_.enter(way->front());
     list_.add(ToolMove::kPlunge, std::move(*way));
   }
+
+  [[nodiscard]] Descent descent(double height) const { return {height, *fall_, report_.safe_z}; }
 
   /// Turns over a circle that touches the beginning of the pass, no lower than that: on the side
   /// where the part rises less, and no more than by `height`.
@@ -96,7 +98,7 @@ class Layer {
         best = std::move(ring);
       }
       if (best) {
-        if (auto way = helix_over(*best, height, *fall_, 1.0)) return std::move(way->points);
+        if (auto way = helix_over(*best, descent(height), 1.0)) return std::move(way->points);
       }
     }
     return std::nullopt;

@@ -210,7 +210,8 @@ class Roughing {
            (options_.entry == ToolpathEntry::kHelix && helix_beside(from, to, over, z));
   }
 
-  /// Comes down at one end of a stretch and takes it; false: it is too short to go down.
+  /// Comes down at one end of a stretch and takes it; false: it is too short to go down. One way
+  /// alone, too short for a ramp: down beside the stock at its end, and first to its beginning.
   bool begin(std::size_t line, Stretch& s, double over, double z) {
     s.done = true;
     const bool from_end = !options_.one_way && !beside_stock(place(s.from, line, z)) &&
@@ -222,8 +223,14 @@ class Roughing {
       list_.enter(start);
       ++out_.report.entries.straight;
     } else if (!go_down(start, end, over, z)) {
-      ++out_.report.narrow_stretches;
-      return false;
+      if (!beside_stock(end)) {
+        ++out_.report.narrow_stretches;
+        return false;
+      }
+      list_.leave();
+      list_.enter(end);
+      ++out_.report.entries.straight;
+      list_.add(ToolMove::kLink, {end, start});
     }
     s.cut = true;
     list_.add(ToolMove::kPass, {start, end});
@@ -235,7 +242,7 @@ class Roughing {
     auto way =
         options_.entry == ToolpathEntry::kHelix ? helix_beside(start, end, over, z) : std::nullopt;
     const bool helical = way.has_value();
-    if (!helical) way = ramp_over({start, end}, over - z, fall_);
+    if (!helical) way = ramp_over({start, end}, {over - z, fall_});
     if (!way) return false;
     ++(helical ? out_.report.entries.helical : out_.report.entries.ramped);
     const Vec3 last = way->back();
@@ -263,7 +270,7 @@ class Roughing {
           for (const Vec2 p : circle_from(touch, along, side, radius, options_.tolerance)) {
             ring.push_back({p.x, p.y, z});
           }
-          auto helix = helix_over(ring, over - z, fall_, kLeastTurns);
+          auto helix = helix_over(ring, {over - z, fall_}, kLeastTurns);
           if (!helix) continue;
           const Vec2 centre = touch + side * radius * left_normal(along);
           const double most = (over - z) * (1.0 - 1.0 / helix->turns);

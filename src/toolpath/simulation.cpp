@@ -2,6 +2,7 @@
 #include "simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -19,6 +20,15 @@ constexpr double kRising = 1e-3;   // z of a normal
 constexpr double kGrazing = 1e-3;  // cosine of rays that hardly come nearer
 /// Round bodies bend by this much more than the corner where a place is lifted a little.
 constexpr double kMoreBent = 1.1;
+/// Planes that a sweep lies above: no width of the cell counts across its normal, none of a level
+/// bottom across the axis, nothing of the way to the sweep across the gradient. Shares on the way
+/// from the first.
+struct Lean {
+  double to_axis = 0.0, to_gradient = 0.0;
+};
+constexpr std::array<Lean, 5> kLeans = {
+    {{0.0, 0.0}, {1.0, 0.0}, {0.5, 0.0}, {0.0, 0.2}, {0.0, 0.5}}};
+constexpr double kOpposed = 1e-6;       // size of a mean of opposite directions: it is none
 constexpr std::size_t kMostPlanes = 8;  // of entries, compared with each other
 /// Pieces that are quartered in a cell, to find a place above a limit, by round and by sharp
 /// corners: few round ones take more than some tens. What they do not tell the report does.
@@ -35,14 +45,31 @@ double deepest_by_gradient(const Cell& cell, const SweepDistance& d) {
   return -d.value + std::abs(out) * cell.rise + norm(d.gradient - out * cell.normal) * cell.reach;
 }
 
-/// All of a sweep lies above the plane across the cell's normal that touches it at one of its ends.
-double deepest_by_plane(const CutterShape& cutter, const Cell& cell, const Sweep& sweep) {
-  const Vec3 n = cell.normal;
-  if (n.z < 0.0) return kNotThere;
-  const double lean = std::sqrt(n.x * n.x + n.y * n.y);
-  const double under_tip = cutter.corner * (1.0 - n.z) + cutter.flat() * lean;
-  const double plane = std::min(dot(n, sweep.from), dot(n, sweep.to)) - under_tip;
-  return dot(n, cell.point) - plane + cell.rise;
+/// All of a sweep lies above the plane across `up`, upwards or level, that touches it at one of its
+/// ends.
+double deepest_by_plane(const CutterShape& cutter, const Cell& cell, const Sweep& sweep, Vec3 up) {
+  const double lean = std::sqrt(up.x * up.x + up.y * up.y);
+  const double under_tip = cutter.corner * (1.0 - up.z) + cutter.flat() * lean;
+  const double plane = std::min(dot(up, sweep.from), dot(up, sweep.to)) - under_tip;
+  const double out = dot(up, cell.normal);
+  return dot(up, cell.point) - plane + std::abs(out) * cell.rise +
+         norm(up - out * cell.normal) * cell.reach;
+}
+
+/// The least of bounds by planes; those behind one that is no more than `enough` are left out.
+double deepest(const CutterShape& cutter, const Cell& cell, const Sweep& sweep,
+               const SweepDistance& d, double enough) {
+  const Vec3 n = cell.normal, axis{0.0, 0.0, 1.0};
+  double least = deepest_by_gradient(cell, d);
+  if (n.z < 0.0) return least;
+  for (const Lean& lean : kLeans) {
+    if (least <= enough) break;
+    const Vec3 up = n + lean.to_axis * (axis - n) - lean.to_gradient * (d.gradient + n);
+    const double size = norm(up);
+    if (size < kOpposed) continue;
+    least = std::min(least, deepest_by_plane(cutter, cell, sweep, up / size));
+  }
+  return least;
 }
 
 }  // namespace
@@ -121,8 +148,7 @@ void Simulation::look(const Looking& what, const Cell& cell, const Sweep& sweep,
   const SweepDistance d = distance_from(cutter, sweep, cell.point);
   if (what.for_depth) {
     b.depth = std::max(b.depth, -d.value);
-    b.depth_most = std::max(b.depth_most, std::min(deepest_by_gradient(cell, d),
-                                                   deepest_by_plane(cutter, cell, sweep)));
+    b.depth_most = std::max(b.depth_most, deepest(cutter, cell, sweep, d, b.depth_most));
   }
   if (!what.for_left || d.value >= b.left_most) return;
   const double most = std::min(b.left_most, kFarthest * cutter.radius);

@@ -88,8 +88,8 @@ def kind(ways):
     return "ramped" if max(turns, default=math.pi) > 2.0 else "helical"
 
 
-def program(binary, folder, *options, code=0):
-    out = subprocess.run([binary, "toolpath", "part.json", "--tolerance", str(TOLERANCE), "--motion", "lines", "-o",
+def program(binary, folder, *options, code=0, part="part.json"):
+    out = subprocess.run([binary, "toolpath", part, "--tolerance", str(TOLERANCE), "--motion", "lines", "-o",
                           "part.nc", "--json", "--plunge-feed", "321", *map(str, options)], cwd=folder,
                          capture_output=True, text=True)
     assert out.returncode == code, (options, out.returncode, out.stderr)
@@ -103,9 +103,9 @@ def counted(report, entries):
     return found
 
 
-def check_rough(binary, folder, cutter, diameter, corner, angle, entry, ramp):
-    name = f"rough, {cutter} D{diameter:g} at {angle}, {entry}"
-    more = ["--corner-radius", corner] if cutter == "bull" else []
+def check_rough(binary, folder, cutter, diameter, corner, angle, entry, ramp, *more):
+    name = " ".join([f"rough, {cutter} D{diameter:g} at {angle}, {entry}", *more])
+    more = [*more, *(["--corner-radius", corner] if cutter == "bull" else [])]
     report, text, _ = program(binary, folder, "--strategy", "rough", "--cutter", cutter, "--diameter", diameter, *more,
                               "--angle", angle, "--step-down", LEVEL, "--allowance", 0.3, "--entry", entry, "--ramp", ramp)
     radius, moves = 0.5 * diameter, moves_of(text)
@@ -199,11 +199,46 @@ def check_finish(binary, folder, cutter, diameter, corner, strategy, entry, over
         gone = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places[:, :2], axis=0).T))])
         judged += int(sure.sum())
         # blocks lie off the exact way by a share of the tolerance, the reference by its raster
-        fast = (begins - lift - 0.03)[sure & (gone > 1.0)] / gone[sure & (gone > 1.0)]
+        falling = sure & (gone > 1.0) & (places[:, 2] < report["safe_z"] - 2e-3)
+        fast = (begins - lift - 0.03)[falling] / gone[falling]
         steepest = max(steepest, math.degrees(math.atan(fast.max(initial=0.0))))
+        assert places[:, 2].max() < report["safe_z"] + 2e-3, f"{name}: {places[:, 2].max()} is over the safe height"
     assert steepest <= ramp, f"{name}: {steepest} degrees"
     print(f"{name}: {found}, falls by {steepest:.2f} degrees over the resting tip, {gouge:.4f} into the part")
     return found, judged
+
+
+def check_ceiling(binary, folder):
+    """On a pass that rises faster than ways down fall they are level at the safe height until it lies under them."""
+    slope, over, degrees = 0.5, 20.0, 10.0
+    (folder / "slope.txt").write_text("\n".join("".join(f"{x} {y} {slope * x}\n" for x in range(0, 41, 5))
+                                                for y in range(0, 31, 5)))
+    subprocess.run([binary, "surface", "grid", "slope.txt", "--spread", "uniform", "--units", "mm", "-o", "slope.json",
+                    "-q"], cwd=folder, check=True)
+    for entry in ("ramp", "helix"):
+        report, text, _ = program(binary, folder, "--cutter", "ball", "--diameter", 6, "--scallop", 0.2, "--one-way",
+                                  "--entry", entry, "--ramp", degrees, "--ramp-height", over, part="slope.json")
+        entries = entries_of(moves_of(text), 321.0)
+        assert counted(report, entries)["straight"] == 0, entry
+        safe, level, judged = report["safe_z"], 0, 0
+        for place, ways in entries:
+            ends = np.array([place] + [b for _, b in ways])
+            assert ends[:, 2].max() < safe + 2e-3, (entry, ends[:, 2].max(), safe)
+            gone = np.cumsum(np.hypot(*np.diff(ends[:, :2], axis=0).T))
+            # the tip of a ball rests so far over the plane, away from its borders
+            lift = ends[1:, 2] - slope * ends[1:, 0] - 3.0 * (math.sqrt(1.0 + slope * slope) - 1.0)
+            falls = (ends[0, 2] - ends[-1, 2]) - gone * math.tan(math.radians(degrees))
+            inner = (ends[1:, :2] > 3.0).all(axis=1) & (ends[1:, 0] < 37.0) & (ends[1:, 1] < 27.0)
+            free = inner & (ends[1:, 2] < safe - 2e-3)
+            judged += int(free.sum())
+            level += int((ends[1:, 2] >= safe - 2e-3).sum())
+            if entry == "ramp":
+                assert np.allclose(lift[free], falls[free], atol=0.02), (entry, lift[free], falls[free])
+        assert entry == "helix" or (level > 0 and judged > 0), (level, judged)
+    # stretches that end beside the stock are no narrow ones, though they are cut one way
+    report, _, said = program(binary, folder, "--cutter", "ball", "--diameter", 6, "--strategy", "rough", "--one-way",
+                              "--step-down", 2, "--allowance", 0.3, part="slope.json")
+    assert report["narrow_stretches"] == 0 and "too short" not in said, said
 
 
 def main():
@@ -220,6 +255,7 @@ def main():
             if cutter == "flat":
                 ramped = check_rough(binary, folder, cutter, diameter, corner, angle, "ramp", ramp)
                 assert ramped["helical"] == 0 and sum(ramped.values()) == sum(helix.values()), (ramped, helix)
+                check_rough(binary, folder, cutter, diameter, corner, angle, "ramp", ramp, "--one-way")
         judged = 0
         for cutter, diameter, corner, strategy, entry, over in (("ball", 6.0, 3.0, "zigzag", "helix", 4.0),
                                                                 ("bull", 6.0, 1.5, "zigzag", "ramp", 1.5),
@@ -229,6 +265,7 @@ def main():
             judged += places
             assert found["straight"] == 0 and (found["helical"] > 0) == (entry == "helix"), found
         assert judged > 300, judged
+        check_ceiling(binary, folder)
         # a ramp so flat that there is no room: it is said
         report, _, said = program(binary, folder, "--scallop", 0.1, "--one-way", "--ramp", 0.05, "--ramp-height", 3)
         straight, all_of = report["entries"]["straight"], sum(report["entries"].values())

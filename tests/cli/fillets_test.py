@@ -157,9 +157,12 @@ class Fillets(trims_test.Trims):
 
     def test_a_radius_that_grows_gives_the_cone_of_its_balls(self):
         """Between two plates the envelope of balls with a linear radius is a cone through the corner of the edge."""
-        a, b, length = 0.4, 1.0, 4.0
-        patches, _, _ = self.filleted(corner(math.pi / 2, length=length), "--faces", "floor,wall", "--radius", a, "--radius-end", b, "--tolerance", 1e-9)
-        blend = patches[2]
+        for radii in ((0.4, 1.0), (1.0, 0.4), (1.0, 0.003)):  # with the last the radius runs out on a way of the first one's length
+            patches, _, _ = self.filleted(corner(math.pi / 2, length=4.0), "--faces", "floor,wall", "--radius", radii[0],
+                                          "--radius-end", radii[1], "--tolerance", 1e-9)
+            self.cone_of_balls(patches[2], *sorted(radii))
+
+    def cone_of_balls(self, blend, a, b):
         ends = sorted(((at_surface(blend, 0.0, v)[0], at_surface(blend, 0.0, v)[1]) for v in (0.0, 1.0)))
         self.assertAlmostEqual(ends[0][0], a, delta=1e-6)
         self.assertAlmostEqual(ends[1][0], b, delta=1e-6)
@@ -177,6 +180,13 @@ class Fillets(trims_test.Trims):
         for u, wanted in ((0.0, [0, 0, 1]), (1.0, [1, 0, 0])):
             for v in SHARES:
                 self.assertAlmostEqual(abs(normal(blend, u, v) @ np.array(wanted)), 1.0, delta=1e-6)
+
+    def test_faces_of_one_name_are_told_by_their_numbers(self):
+        floor, wall = corner(math.pi / 2, length=4.0)
+        source = self.work / "in.json"
+        source.write_text(json.dumps(model(floor, wall, floor)))
+        done = self.run_it("surface", "fillet", source, "--faces", "floor,wall", "--radius", 0.2, "-o", self.work / "out.json", code=2)
+        self.assertIn("2 faces are called 'floor' (--faces); give its number: #1, #3", done.stderr)
 
     def test_figures_of_the_report_hold(self):
         """Between a wavy sheet and a plate: border distance and angle as told, centres a radius from both."""

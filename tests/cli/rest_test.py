@@ -63,6 +63,13 @@ def places():
     return np.stack([x, y, height(x)], axis=-1), np.stack([-0.5 * x / size, 0.0 * x, 1.0 / size], axis=-1)
 
 
+def scallop_line(binary, folder, *options):
+    """What is told about the scallop, and of which places."""
+    out = subprocess.run([binary, "toolpath", "part.json", "--cutter", "ball", "--scallop", str(SCALLOP), "--tolerance",
+                          str(TOLERANCE), *map(str, options), "-o", "part.nc"], cwd=folder, capture_output=True, text=True)
+    return next(line for line in out.stdout.splitlines() if line.startswith("scallop"))
+
+
 def main():
     binary = str(pathlib.Path(sys.argv[1]).resolve())
     with tempfile.TemporaryDirectory() as name:
@@ -110,6 +117,10 @@ def main():
         told, rest = program(binary, folder, "--diameter", SMALL, "--rest-of", 3.0)
         assert told["leftover_area"] == 0.0 and told["passes"] == 0 and len(rest) == 0, told
         assert any("nothing is left" in w for w in told["warnings"]), told["warnings"]
+        assert "none is looked at" in scallop_line(binary, folder, "--diameter", SMALL, "--rest-of", 3.0)
+        said = scallop_line(binary, folder, "--diameter", SMALL, "--rest-of", LARGE)
+        assert "and the earlier one left too much, at" in said and said.endswith("exceeded nowhere there"), said
+        assert "earlier" not in scallop_line(binary, folder, "--diameter", SMALL)
         for wrong in (["--diameter", "2", "--rest-of", "2"], ["--diameter", "2", "--rest-of", "1e9"], ["--diameter", "2", "--rest-corner", "1"],
                       ["--diameter", "2", "--rest-of", "6", "--rest-corner", "4"],
                       ["--diameter", "2", "--rest-of", "6", "--strategy", "rough"]):

@@ -11,6 +11,7 @@ import subprocess
 import time
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from . import mill_judge, section_judge, tables
 from .cases import Case
@@ -26,6 +27,8 @@ ALLOWANCE, LEVEL, LADDER, LADDER_STEP = 0.3, 2.0, 40, 1.1
 STEEP = "12"  # degrees: from there on levels keep the scallop; what is flatter is told
 SECONDS_AT_MOST = 300
 UPRIGHT = 0.03  # z of normals
+BESIDE, AROUND = 2.0, 1.0  # mm: places on both sides of an upright wall, and how far around them the part is looked for
+RASTER = 400  # places along each parameter, for that
 
 
 def net(wide, deep, height, count=13):
@@ -117,12 +120,21 @@ def places_of(path):
     return np.concatenate(points), np.concatenate(normals)
 
 
-def open_sides(sweep, points, normals):
-    """The normal's z does not say which side of an upright wall is open: the one to which the cutter comes nearer."""
+def open_sides(path, points, normals):
+    """The normal's z does not say which side of an upright wall is open: the one over which the part rises less."""
     upright = np.flatnonzero(abs(normals[:, 2]) < UPRIGHT)
+    patches = [section_judge.Patch(p) for p in json.loads(path.read_text())["patches"]]
+    grids = [patch.grid(*(np.linspace(*patch.domain(axis), RASTER) for axis in (0, 1))) for patch in patches]
+    raster = np.concatenate([grid.reshape(-1, 3) for grid in grids])
+    tree = cKDTree(raster[:, :2])
+
+    def heights(places):
+        near = tree.query_ball_point(places[:, :2], AROUND)
+        return np.array([raster[n, 2].max() if n else -math.inf for n in near])
+
     out = normals.copy()
-    aside = sweep.radius * normals[upright]
-    other = sweep.distance(points[upright] - aside) < sweep.distance(points[upright] + aside)
+    aside = BESIDE * normals[upright]
+    other = heights(points[upright] + aside) > heights(points[upright] - aside)
     out[upright[other]] *= -1.0
     return out
 
@@ -152,7 +164,7 @@ def run_case(case, program, work):
     stock = points.min(axis=0) - [ALLOWANCE, ALLOWANCE, 0.0], points.max(axis=0) + ALLOWANCE
     rapid, feed = mill_judge.ways_of(output.read_text(), 1e-3 * case.tolerance)
     sweep = mill_judge.Sweep(0.5 * diameter, corner, feed)
-    normals = open_sides(sweep, points, normals)
+    normals = open_sides(case.path, points, normals)
     points = points + (ALLOWANCE if rough else 0.0) * normals
     outcome["gouge"] = float(max(0.0, -sweep.distance(points).min()))
     level = np.linalg.norm(rapid[:, 1, :2] - rapid[:, 0, :2], axis=1) > 0.0

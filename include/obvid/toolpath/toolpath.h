@@ -76,7 +76,7 @@ struct ToolpathOptions {
   std::optional<double> ramp_deg{};
   /// Not roughing: what is thought to stand over the passes. Ramps and helices begin that much
   /// higher, or at the safe height where that is lower; on their way they rise with the pass, or
-  /// with what the tip rests on beside it, above the safe height too [half a diameter].
+  /// with what the tip rests on beside it, at most to the safe height [half a diameter].
   std::optional<double> ramp_height{};
   std::optional<double> spindle{};                            ///< revolutions a minute [no M3]
   double tolerance = 0.01;                                    ///< of the printed program: gouges

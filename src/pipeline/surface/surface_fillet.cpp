@@ -78,6 +78,16 @@ Result<std::vector<SurfacePatch>> left_of(const SurfacePatch& face,
   return std::move(left->model.patches);
 }
 
+/// As `face_named` takes them.
+std::string numbers_of(const std::vector<std::size_t>& faces) {
+  constexpr std::size_t kMostNumbers = 8;
+  std::string out;
+  for (std::size_t k = 0; k < std::min(faces.size(), kMostNumbers); ++k) {
+    out += fmt::format("{}#{}", k == 0 ? "" : ", ", faces[k] + 1);
+  }
+  return faces.size() > kMostNumbers ? out + ", ..." : out;
+}
+
 }  // namespace
 
 Result<std::size_t> face_named(const SurfaceModel& model, const std::string& name,
@@ -103,7 +113,7 @@ Result<std::size_t> face_named(const SurfaceModel& model, const std::string& nam
       .hint(found.empty()
                 ? did_you_mean(name, names,
                                fmt::format("give a name, or a number from 1 to {}", names.size()))
-                : fmt::format("give its number, #1 to #{}", names.size()));
+                : "give its number: " + numbers_of(found));
 }
 
 Result<MadeSurface> made_fillet(const RolledBall& by, const SurfaceJob& job,
