@@ -14,6 +14,7 @@
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/internal/angle.h"
 #include "small_program.h"
+#include "winding.h"
 
 namespace obvid::alignment {
 namespace {
@@ -86,6 +87,10 @@ class Search {
         sought_(sought),
         borne_(grades_borne_by(points, tolerance, sought)) {
     set_places();
+    const PointRow row{points, tolerance};
+    for (std::size_t i = 0; i < row.intervals() && sought.plane == Plane::kMap; ++i) {
+      passages_.push_back(passage_of(row, i));
+    }
   }
 
   Result<std::vector<Node>> run(const RunContext& run) {
@@ -239,6 +244,7 @@ class Search {
     const auto first = static_cast<std::size_t>(std::ceil(a.at));
     const auto last = static_cast<std::size_t>(std::floor(b.at));
     double at = 0.0;
+    std::vector<double> feet;  // of these points, of the length
     for (std::size_t p = first; p <= last; ++p) {
       double offset = 0.0;
       double u = 0.0;
@@ -264,6 +270,7 @@ class Search {
         at = u;
         if (!(std::abs(offset) < kBox * eps_)) return nullptr;
       }
+      feet.push_back(u);
       const double v = 1.0 - u;
       const double slope = length / unit_;
       // |offset of the curve - offset of the point| <= tolerance, cubic Hermite
@@ -277,8 +284,54 @@ class Search {
     if (options_.least_radius > 0.0) add_curvature_rows(*piece);
     if (sought_.constant) add_constant_rows(*piece);
     if (sought_.corners) add_borne_slopes(j);
+    if (sought_.plane == Plane::kMap) {
+      if (nominal_winds(*piece, a.at, b.at, feet)) return nullptr;
+      add_heading_rows(j);
+    }
     valid_ = true;
     return &rows_;
+  }
+
+  /// Whether the nominal clothoid turns between neighbouring points as no curve through them has
+  /// to.
+  [[nodiscard]] bool nominal_winds(const ClothoidPiece& piece, double from, double to,
+                                   const std::vector<double>& feet) const {
+    const auto winds = [&](std::size_t interval, double u0, double u1) {
+      const HeadingRange headings =
+          headings_along(piece.theta0, piece.kappa0, piece.kappa1, piece.length, u0 * piece.length,
+                         u1 * piece.length);
+      return !allows(passages_[interval], headings);
+    };
+    const auto first = static_cast<std::size_t>(std::ceil(from));
+    double before = 0.0;
+    for (std::size_t k = 0; k < feet.size(); ++k) {
+      const double u = std::max(before, feet[k]);
+      if (first + k > 0 && u > 0.0 && winds(first + k - 1, before, u)) return true;
+      before = u;
+    }
+    const auto last = static_cast<std::size_t>(std::floor(to));
+    return last + 1 < points_.size() && before < 1.0 && winds(last, before, 1.0);
+  }
+
+  /// The heading at a place is none that goes back along the chords beside it.
+  void add_heading_rows(std::size_t place) {
+    const Place& at = places_[place];
+    const auto next = static_cast<std::size_t>(std::ceil(at.at));
+    const auto before = static_cast<std::size_t>(std::floor(at.at));
+    if (next > 0) add_heading_rows(at, next - 1);
+    if (before + 1 < points_.size() && (next == 0 || before != next - 1)) {
+      add_heading_rows(at, before);
+    }
+  }
+
+  void add_heading_rows(const Place& at, std::size_t interval) {
+    const Passage& passage = passages_[interval];
+    if (passage.any) return;
+    const double middle = nearest_angle(passage.heading, at.theta) - at.theta;
+    const double most = passage.most;
+    const double size = unit_ / eps_, scale = std::max(1.0, (most + std::abs(middle)) * size);
+    rows_.push_back({{0.0, 0.0, 0.0, 1.0 / scale}, (middle + most) * size / scale});
+    rows_.push_back({{0.0, 0.0, 0.0, -1.0 / scale}, (most - middle) * size / scale});
   }
 
   /// Neither end of the clothoid is sharper than asked for: what its offsets and slopes change of
@@ -603,6 +656,7 @@ class Search {
   std::vector<Place> places_;
   std::vector<std::size_t> place_of_;  ///< each point
   std::vector<double> along_;          ///< length of the chords before a place
+  std::vector<Passage> passages_;      ///< between points, on a map
   double unit_ = 1.0, eps_ = 1.0;
   std::vector<std::vector<Polygon>> reached_;
   std::vector<HalfSpace> rows_;

@@ -13,6 +13,7 @@
 #include "obvid/alignment/internal/borne_grades.h"
 #include "obvid/alignment/internal/transition_law.h"
 #include "whole_circle.h"
+#include "winding.h"
 
 namespace obvid::alignment {
 namespace {
@@ -127,6 +128,11 @@ class Simplifier {
   }
 
   [[nodiscard]] const Chain& chain() const { return chain_; }
+  /// Whether it turns between neighbouring points as they do not show.
+  [[nodiscard]] bool winds() const {
+    const PointRow points = row();
+    return windings(chain_, points, feet_, 0, points.intervals()) > 0;
+  }
   [[nodiscard]] double largest() {
     find_feet(chain_, points_, feet_);
     double out = 0.0;
@@ -392,23 +398,48 @@ class Simplifier {
     return true;
   }
 
-  void put_back(const Window& window, Chain& chain) {
+  /// Makes `next` with what was fitted of its window the chain; false, and nothing, where more
+  /// intervals of points are wound through than before.
+  bool commit(Chain next, std::vector<Foot> feet, const Window& window) {
     if (window.first == 0) {
-      chain.start = window.chain.start;
-      chain.theta = window.chain.theta;
+      next.start = window.chain.start;
+      next.theta = window.chain.theta;
     }
     for (std::size_t k = 0; k < window.chain.size(); ++k) {
-      chain.length[window.first + k] = window.chain.length[k];
+      next.length[window.first + k] = window.chain.length[k];
     }
     for (std::size_t k = 0; k < window.number.size(); ++k) {
-      chain.kappa[static_cast<std::size_t>(window.number[k])] = window.chain.kappa[k];
+      next.kappa[static_cast<std::size_t>(window.number[k])] = window.chain.kappa[k];
     }
     for (std::size_t i = 0; i < window.feet.size(); ++i) {
       Foot foot = window.feet[i];
       foot.element += window.first;
-      feet_[window.first_point + i] = foot;
+      feet[window.first_point + i] = foot;
     }
+    if (winds_more(next, feet, window)) return false;
+    chain_ = std::move(next);
+    feet_ = std::move(feet);
+    return true;
   }
+
+  [[nodiscard]] bool winds_more(const Chain& next, const std::vector<Foot>& feet,
+                                const Window& window) const {
+    const std::size_t first = window.first_point - std::min<std::size_t>(window.first_point, 1);
+    const std::size_t end = window.first_point + window.points.size();
+    const PointRow points = row();
+    const std::size_t intervals = points.intervals(), last = std::min(end, intervals);
+    const auto number = [&](const Chain& chain, const std::vector<Foot>& own) {
+      std::size_t out = windings(chain, points, own, first, last);
+      if (closed_ && window.first_point == 0 && last < intervals) {
+        out += windings(chain, points, own, intervals - 1, intervals);
+      }
+      return out;
+    };
+    const std::size_t after = number(next, feet);
+    return after > 0 && after > number(chain_, feet_);
+  }
+
+  [[nodiscard]] PointRow row() const { return {points_, tolerance_, closed_, lap_}; }
 
   /// Windows end at joints of the chain as it is, or where it is meant to pass.
   Result<void> polish(const RunContext& run, const std::vector<Element>* meant = nullptr) {
@@ -426,7 +457,7 @@ class Simplifier {
           fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
       if (std::isfinite(fitted.largest) && transitions_exist(window.chain) &&
           (!was_good || is_borne(window.chain))) {
-        put_back(window, chain_);
+        (void)commit(chain_, feet_, window);
       }
       if (last == chain_.size()) break;
     }
@@ -675,11 +706,7 @@ class Simplifier {
   /// Another chain in the place of this one, where its window can be fitted.
   bool accept(Chain next, std::vector<Foot> feet, Window window) {
     window.held.hopeless = kHopelessOffset;
-    if (!fits(window)) return false;
-    chain_ = std::move(next);
-    feet_ = std::move(feet);
-    put_back(window, chain_);
-    return true;
+    return fits(window) && commit(std::move(next), std::move(feet), window);
   }
 
   bool merge(std::size_t k, const std::array<int, 2>& ends) {
@@ -768,10 +795,7 @@ class Simplifier {
       }
     }
     Window window = cut(next, first, last);
-    if (!fits(window)) return false;
-    chain_ = std::move(next);
-    put_back(window, chain_);
-    return true;
+    return fits(window) && commit(std::move(next), feet_, window);
   }
 
   /// Elements that share a curvature follow one another: those beside the window tell.
@@ -857,10 +881,7 @@ class Simplifier {
         const std::size_t last = std::min(seam + beside, chain_.size());
         Window window = cut(chain_, first, last);
         if (last < chain_.size()) window.held.end = a_lap_on(open[last - seam]);
-        if (fits(window)) {
-          put_back(window, chain_);
-          return {};
-        }
+        if (fits(window) && commit(chain_, feet_, window)) return {};
         if (first == 0 && last == chain_.size()) break;
       }
       halve(seam - 1);
@@ -1035,6 +1056,11 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
         error(ErrorCode::kToleranceNotReached, "the alignment that was found leaves the tolerance")
             .hint(advice_for_others(options, sought))
             .value(largest));
+  }
+  if (out.winds()) {
+    return fail(error(ErrorCode::kToleranceNotReached,
+                      "the alignment that was found winds between neighbouring points")
+                    .hint(advice_for_others(options, sought)));
   }
   return out;
 }
