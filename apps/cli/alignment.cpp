@@ -80,8 +80,7 @@ std::string alignment_text(const AlignmentReport& report, const std::vector<std:
          facts.text();
 }
 
-std::string alignment_page(const AlignmentReport& report, const std::vector<Vec2>& points,
-                           const std::string& asked) {
+std::string alignment_page(const AlignmentReport& report, const std::string& asked) {
   ReportPage page;
   page.title = report.name;
   page.verdict = alignment_verdict(report);
@@ -94,13 +93,13 @@ std::string alignment_page(const AlignmentReport& report, const std::vector<Vec2
   if (report.profile) {
     page.tables.push_back(table_of_csv("profile", "Profile", profile_csv(report.profile->profile)));
   }
-  page.tables.push_back(table_of_csv("deviations", "Points", deviations_csv(report, points)));
+  page.tables.push_back(table_of_csv("deviations", "Points", deviations_csv(report)));
   return page_text(page);
 }
 
 /// What the formats of contours do not write for it.
 std::optional<std::string> own_text(const std::string& path, const AlignmentReport& report,
-                                    const std::vector<Vec2>& points, const std::string& asked) {
+                                    const std::string& asked) {
   const auto format = format_of(path);
   if (format == FileFormat::kSamples) {
     return elements_csv(report.alignment.elements, report.limit);
@@ -108,7 +107,7 @@ std::optional<std::string> own_text(const std::string& path, const AlignmentRepo
   if (format == FileFormat::kPicture) {
     return alignment_picture(report);
   }
-  if (format == FileFormat::kPage) return alignment_page(report, points, asked);
+  if (format == FileFormat::kPage) return alignment_page(report, asked);
   return std::nullopt;
 }
 
@@ -139,6 +138,7 @@ int run(const AlignmentCommand& command) {
   bar.clear();
   warn(series->warnings);
   if (!made) return report(made.error());
+  warn(made->warnings);
   if (!command.profile_table.empty() && !made->profile) {
     return report({ErrorCode::kBadOption, "there is no profile to be written", "--profile-table",
                    "give heights in a column z, or a file of them by --profile"});
@@ -151,7 +151,7 @@ int run(const AlignmentCommand& command) {
   if (made->profile) formats.profile = made->profile->profile;
   std::vector<Output> drawn, own;
   for (Output& output : *outputs) {
-    auto text = own_text(output.path, *made, series->points, command.asked);
+    auto text = own_text(output.path, *made, command.asked);
     if (text) output.text = std::move(*text);
     (text ? own : drawn).push_back(std::move(output));
   }
@@ -160,8 +160,7 @@ int run(const AlignmentCommand& command) {
   if (!texts) return report(texts.error());
   for (Output& output : own) texts->push_back(std::move(output));
   if (!command.deviations.empty()) {
-    texts->push_back(
-        {command.deviations, FileFormat::kSamples, deviations_csv(*made, series->points)});
+    texts->push_back({command.deviations, FileFormat::kSamples, deviations_csv(*made)});
   }
   if (!command.profile_table.empty()) {
     texts->push_back(

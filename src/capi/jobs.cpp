@@ -347,10 +347,11 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     if (made->profile) out->profile = made->profile->profile;
     out->transitions = made->transitions;
     out->picture = {series->name, alignment_verdict(*made)};
+    warnings.insert(warnings.end(), made->warnings.begin(), made->warnings.end());
     out->warnings = std::move(warnings);
     auto tables = std::make_unique<obvid_files>();
     tables->files.push_back({".csv", elements_csv(made->alignment.elements, made->limit)});
-    tables->files.push_back({".deviations.csv", deviations_csv(*made, series->points)});
+    tables->files.push_back({".deviations.csv", deviations_csv(*made)});
     if (made->profile) {
       tables->files.push_back({".profile.csv", profile_csv(made->profile->profile)});
     }
