@@ -86,11 +86,11 @@ class Search {
         options_(options),
         sought_(sought),
         borne_(grades_borne_by(points, tolerance, sought)) {
-    set_places();
     const PointRow row{points, tolerance};
     for (std::size_t i = 0; i < row.intervals() && sought.plane == Plane::kMap; ++i) {
       passages_.push_back(passage_of(row, i));
     }
+    set_places();
   }
 
   Result<std::vector<Node>> run(const RunContext& run) {
@@ -136,6 +136,7 @@ class Search {
       theta_[n - 1] =
           2.0 * heading_of(points_[n - 1] - points_[n - 2], theta_[n - 2]) - theta_[n - 2];
     }
+    if (sought_.plane == Plane::kMap) allow_headings();
     for (std::size_t i = 0; i + 1 < n; ++i) {
       place_of_.push_back(places_.size());
       places_.push_back({static_cast<double>(i), points_[i], theta_[i]});
@@ -158,6 +159,19 @@ class Search {
     for (std::size_t i = 1; i < n; ++i) unit_ += distance(points_[i - 1], points_[i]);
     unit_ /= static_cast<double>(n - 1);
     eps_ = *std::max_element(tolerance_.begin(), tolerance_.end());
+  }
+
+  /// Where a long chord and a short one meet in a sharp turn, the direction from end to end goes
+  /// back along the short one: headings are moved to where both chords allow them.
+  void allow_headings() {
+    for (std::size_t i = 0; i < theta_.size(); ++i) {
+      for (const std::size_t k : {i, i + 1}) {  // the interval behind the point, and before it
+        if (k == 0 || k > passages_.size() || passages_[k - 1].any) continue;
+        const double middle = nearest_angle(passages_[k - 1].heading, theta_[i]);
+        const double most = std::min(passages_[k - 1].most, 0.5 * std::numbers::pi);
+        theta_[i] = std::clamp(theta_[i], middle - most, middle + most);
+      }
+    }
   }
 
   /// Heading of a vector, next to another one.
@@ -285,7 +299,7 @@ class Search {
     if (sought_.constant) add_constant_rows(*piece);
     if (sought_.corners) add_borne_slopes(j);
     if (sought_.plane == Plane::kMap) {
-      if (nominal_winds(*piece, a.at, b.at, feet)) return nullptr;
+      if (b.at > std::floor(a.at) + 1.0 && nominal_winds(*piece, a.at, b.at, feet)) return nullptr;
       add_heading_rows(j);
     }
     valid_ = true;

@@ -12,6 +12,7 @@
 #include "fewest_pieces.h"
 #include "obvid/alignment/internal/borne_grades.h"
 #include "obvid/alignment/internal/transition_law.h"
+#include "rounded_corners.h"
 #include "whole_circle.h"
 #include "winding.h"
 
@@ -22,8 +23,9 @@ constexpr std::size_t kBeside = 3;   ///< elements to both sides that move with 
 constexpr std::size_t kBridged = 3;  ///< elements that one vertical curve takes the place of
 constexpr std::size_t kWindow = 12;  ///< elements that are fitted at once
 constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elements get no shorter
-constexpr double kOfShortest = 0.5;  ///< of the shortest element of a search with corners: likewise
-constexpr double kHopeless = 4.0;    ///< estimated squares over the most that there can be
+constexpr double kOfShortest =
+    0.5;                           ///< of the shortest element where corners are rounded: likewise
+constexpr double kHopeless = 4.0;  ///< estimated squares over the most that there can be
 /// Largest offset over its tolerance after least squares from which no higher power comes back.
 constexpr double kHopelessOffset = 3.0;
 constexpr int kPasses = 4;  ///< over all conditions
@@ -45,7 +47,7 @@ class Simplifier {
   /// `first_given`: number, as given, of the first point.
   Simplifier(std::vector<Vec2> points, std::vector<double> tolerance,
              const AlignmentOptions& options, const Sought& sought, Chain chain,
-             std::vector<Foot> feet, std::size_t first_given)
+             std::vector<Foot> feet, std::size_t first_given, bool rounded)
       : points_(std::move(points)),
         tolerance_(std::move(tolerance)),
         transitions_(options.transitions),
@@ -53,6 +55,7 @@ class Simplifier {
         constant_(sought.constant),
         lap_(sought.lap),
         first_given_(first_given),
+        rounded_(rounded),
         chain_(std::move(chain)),
         feet_(std::move(feet)) {
     double length = 0.0;
@@ -61,8 +64,8 @@ class Simplifier {
       length += chain_.plane == Plane::kMap ? norm(chord) : chord.x;
     }
     double least = kLeastLength * length / static_cast<double>(points_.size() - 1);
-    if (sought.corners) {
-      borne_ = grades_borne_by(points_, tolerance_, sought);
+    if (sought.corners) borne_ = grades_borne_by(points_, tolerance_, sought);
+    if (sought.corners || rounded) {
       // what rounds a corner is as short as the tolerance makes it
       const double shortest = *std::min_element(chain_.length.begin(), chain_.length.end());
       least = std::min(least, kOfShortest * shortest);
@@ -81,7 +84,7 @@ class Simplifier {
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
-    OBVID_TRY(polish(run, &joints));
+    if (!rounded_) OBVID_TRY(polish(run, &joints));  // what is rounded passes the points already
     if (others) OBVID_TRY(polish_to_tolerance(run));
     if (others && largest() > 1.0) return {};
     OBVID_TRY(simplify(run));
@@ -99,7 +102,7 @@ class Simplifier {
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
-    OBVID_TRY(polish(run, &joints));
+    if (!rounded_) OBVID_TRY(polish(run, &joints));
     if (others && largest() > kHopelessOffset) return {};
     OBVID_TRY(close(run));
     if (others) OBVID_TRY(polish_to_tolerance(run));
@@ -931,6 +934,7 @@ class Simplifier {
   bool closed_ = false;               ///< the pose at the end is that at the start, and stays
   Vec2 lap_;                          ///< from the start to the end
   std::size_t first_given_ = 0;       ///< number, as given, of the first point
+  bool rounded_ = false;              ///< begun with chords whose corners are rounded
   Chain chain_;
   std::vector<Foot> feet_;
   double least_length_ = 0.0;
@@ -1014,7 +1018,10 @@ std::string advice_for_others(const AlignmentOptions& options, const Sought& sou
   return out;
 }
 
-/// Elements from one of these searches.
+/// What is begun with where no search came to elements: on a map, where no limits are given.
+constexpr Attempt kRoundedChords = {0.0, 0.0};
+
+/// Elements from one of these searches, or of the chords with rounded corners.
 Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
                             const AlignmentOptions& options, const Sought& sought,
                             const Attempt& attempt, bool others, const RunContext& run) {
@@ -1036,9 +1043,11 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   std::vector<double> within = tolerance;
   const double part = attempt.part * (options.without_steps ? kBeforeTransitions : 1.0);
   for (double& one : within) one *= part;
+  const bool rounded = attempt.part == kRoundedChords.part;
   Sought search = sought;
   if (sought.corners) search.plane = Plane::kGraph;  // for arcs likewise: they begin as parabolas
-  auto nodes = fewest_pieces(points, within, options, search, run);
+  auto nodes = rounded ? Result<std::vector<Node>>(rounded_corners(points, tolerance))
+                       : fewest_pieces(points, within, options, search, run);
   OBVID_TRY(nodes);
   if (search.plane != sought.plane) {
     for (Node& node : *nodes) node.theta = std::atan(node.theta);
@@ -1048,7 +1057,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   set_chain(*nodes, points.size(), sought, chain, feet);
   find_feet(chain, points, feet);
   Simplifier out(std::move(points), std::move(tolerance), options, sought, std::move(chain),
-                 std::move(feet), begin);
+                 std::move(feet), begin, rounded);
   OBVID_TRY(options.closed ? out.run_around(others, run) : out.run(others, run));
   const double largest = out.largest();
   if (!(largest <= 1.0)) {
@@ -1089,6 +1098,11 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     points.push_back(points.front() + sought.lap);
     allowed.push_back(allowed.front());
   }
+  const auto result_of = [&](const Simplifier& found) {
+    out.chain = found.chain();
+    for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(found.foot_of_given(i));
+    return out;
+  };
   std::optional<Error> first;
   const bool again = sought.constant || given.size() <= kMostSearchedAgain;
   double tried = 0.0;  // of open points it is all the same where they begin
@@ -1097,16 +1111,18 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     tried = attempt.part;
     const bool others = again && &attempt != &kAttempts.back();
     auto found = searched(points, allowed, options, sought, attempt, others, run);
-    if (found) {
-      out.chain = found->chain();
-      for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(found->foot_of_given(i));
-      return out;
-    }
+    if (found) return result_of(*found);
     const ErrorCode code = found.error().code;
     const bool by_search = code == ErrorCode::kNoSpiral || code == ErrorCode::kToleranceNotReached;
     if (!by_search) return fail(found.error());
     if (!first) first = found.error();
     if (!again) break;
+  }
+  const bool limits = options.least_length > 0.0 || options.least_radius > 0.0;
+  if (sought.plane == Plane::kMap && !sought.constant && !limits) {
+    auto found = searched(points, allowed, options, sought, kRoundedChords, false, run);
+    if (found) return result_of(*found);
+    if (found.error().code == ErrorCode::kCancelled) return fail(found.error());
   }
   return fail(*first);
 }
