@@ -87,8 +87,7 @@ struct AlignmentTold {
   std::vector<std::string> warnings;
 };
 
-std::string alignment_page(const AlignmentReport& report, const std::vector<Vec2>& points,
-                           const AlignmentTold& told) {
+std::string alignment_page(const AlignmentReport& report, const AlignmentTold& told) {
   ReportPage page;
   page.title = report.name;
   page.verdict = alignment_verdict(report);
@@ -103,13 +102,13 @@ std::string alignment_page(const AlignmentReport& report, const std::vector<Vec2
     page.tables.push_back(
         table_of_page("profile", "Profile", profile_rows(report.profile->profile)));
   }
-  page.tables.push_back(table_of_page("deviations", "Points", deviation_rows(report, points)));
+  page.tables.push_back(table_of_page("deviations", "Points", deviation_rows(report)));
   return page_text(page);
 }
 
 /// What the formats of contours do not write for it.
 std::optional<std::string> own_text(const std::string& path, const AlignmentReport& report,
-                                    const std::vector<Vec2>& points, const AlignmentTold& told) {
+                                    const AlignmentTold& told) {
   const auto format = format_of(path);
   if (format == FileFormat::kSamples) {
     return csv_text(element_rows(report.alignment.elements, report.limit));
@@ -117,7 +116,7 @@ std::optional<std::string> own_text(const std::string& path, const AlignmentRepo
   if (format == FileFormat::kPicture) {
     return alignment_picture(report);
   }
-  if (format == FileFormat::kPage) return alignment_page(report, points, told);
+  if (format == FileFormat::kPage) return alignment_page(report, told);
   return std::nullopt;
 }
 
@@ -148,6 +147,7 @@ int run(const AlignmentCommand& command) {
   const auto made = alignment_report(*series, job, bar.progress());
   bar.clear();
   told.warnings.insert(told.warnings.end(), series->warnings.begin(), series->warnings.end());
+  if (made) told.warnings.insert(told.warnings.end(), made->warnings.begin(), made->warnings.end());
   warn(told.warnings);
   if (!made) return report(made.error());
   if (!command.profile_table.empty() && !made->profile) {
@@ -162,7 +162,7 @@ int run(const AlignmentCommand& command) {
   if (made->profile) formats.profile = made->profile->profile;
   std::vector<Output> drawn, own;
   for (Output& output : *outputs) {
-    auto text = own_text(output.path, *made, series->points, told);
+    auto text = own_text(output.path, *made, told);
     if (text) output.text = std::move(*text);
     (text ? own : drawn).push_back(std::move(output));
   }
@@ -171,8 +171,7 @@ int run(const AlignmentCommand& command) {
   if (!texts) return report(texts.error());
   for (Output& output : own) texts->push_back(std::move(output));
   if (!command.deviations.empty()) {
-    texts->push_back({command.deviations, FileFormat::kSamples,
-                      csv_text(deviation_rows(*made, series->points))});
+    texts->push_back({command.deviations, FileFormat::kSamples, csv_text(deviation_rows(*made))});
   }
   if (!command.profile_table.empty()) {
     texts->push_back({command.profile_table, FileFormat::kSamples,

@@ -9,6 +9,7 @@
 #include "obvid/alignment/internal/transition_law.h"
 #include "obvid/numeric/internal/banded.h"
 #include "obvid/numeric/internal/gauss.h"
+#include "winding.h"
 
 namespace obvid::alignment {
 namespace {
@@ -525,12 +526,14 @@ class Fitter {
   template <class Better>
   bool take_step(double power, double& damping, const Better& better) {
     assemble(power);
+    const std::size_t wound = winding(chain_, feet_);
     for (; damping < kDampingMost; damping *= 10.0) {
       const auto move = step_within_limits(damping);
       if (!move) continue;
       Chain next = moved(*move);
       std::vector<Foot> feet = feet_;
       find_feet(next, points_, feet);
+      if (winding(next, feet) > wound) continue;
       const double gap = gap_of(next);
       std::swap(chain_, next);
       std::swap(feet_, feet);
@@ -543,6 +546,11 @@ class Fitter {
       std::swap(feet_, feet);
     }
     return false;
+  }
+
+  [[nodiscard]] std::size_t winding(const Chain& chain, const std::vector<Foot>& feet) const {
+    const PointRow row{points_, tolerance_};
+    return windings(chain, row, feet, 0, row.intervals());
   }
 
   struct Fixed {

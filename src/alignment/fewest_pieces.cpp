@@ -14,6 +14,7 @@
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/internal/angle.h"
 #include "small_program.h"
+#include "winding.h"
 
 namespace obvid::alignment {
 namespace {
@@ -85,6 +86,10 @@ class Search {
         options_(options),
         sought_(sought),
         borne_(grades_borne_by(points, tolerance, sought)) {
+    const PointRow row{points, tolerance};
+    for (std::size_t i = 0; i < row.intervals() && sought.plane == Plane::kMap; ++i) {
+      passages_.push_back(passage_of(row, i));
+    }
     set_places();
   }
 
@@ -131,6 +136,7 @@ class Search {
       theta_[n - 1] =
           2.0 * heading_of(points_[n - 1] - points_[n - 2], theta_[n - 2]) - theta_[n - 2];
     }
+    if (sought_.plane == Plane::kMap) allow_headings();
     for (std::size_t i = 0; i + 1 < n; ++i) {
       place_of_.push_back(places_.size());
       places_.push_back({static_cast<double>(i), points_[i], theta_[i]});
@@ -153,6 +159,19 @@ class Search {
     for (std::size_t i = 1; i < n; ++i) unit_ += distance(points_[i - 1], points_[i]);
     unit_ /= static_cast<double>(n - 1);
     eps_ = *std::max_element(tolerance_.begin(), tolerance_.end());
+  }
+
+  /// Where a long chord and a short one meet in a sharp turn, the direction from end to end goes
+  /// back along the short one: headings are moved to where both chords allow them.
+  void allow_headings() {
+    for (std::size_t i = 0; i < theta_.size(); ++i) {
+      for (const std::size_t k : {i, i + 1}) {  // the interval behind the point, and before it
+        if (k == 0 || k > passages_.size() || passages_[k - 1].any) continue;
+        const double middle = nearest_angle(passages_[k - 1].heading, theta_[i]);
+        const double most = std::min(passages_[k - 1].most, 0.5 * std::numbers::pi);
+        theta_[i] = std::clamp(theta_[i], middle - most, middle + most);
+      }
+    }
   }
 
   /// Heading of a vector, next to another one.
@@ -239,6 +258,7 @@ class Search {
     const auto first = static_cast<std::size_t>(std::ceil(a.at));
     const auto last = static_cast<std::size_t>(std::floor(b.at));
     double at = 0.0;
+    std::vector<double> feet;  // of these points, of the length
     for (std::size_t p = first; p <= last; ++p) {
       double offset = 0.0;
       double u = 0.0;
@@ -264,6 +284,7 @@ class Search {
         at = u;
         if (!(std::abs(offset) < kBox * eps_)) return nullptr;
       }
+      feet.push_back(u);
       const double v = 1.0 - u;
       const double slope = length / unit_;
       // |offset of the curve - offset of the point| <= tolerance, cubic Hermite
@@ -277,8 +298,54 @@ class Search {
     if (options_.least_radius > 0.0) add_curvature_rows(*piece);
     if (sought_.constant) add_constant_rows(*piece);
     if (sought_.corners) add_borne_slopes(j);
+    if (sought_.plane == Plane::kMap) {
+      if (b.at > std::floor(a.at) + 1.0 && nominal_winds(*piece, a.at, b.at, feet)) return nullptr;
+      add_heading_rows(j);
+    }
     valid_ = true;
     return &rows_;
+  }
+
+  /// Whether the nominal clothoid turns between neighbouring points as no curve through them has
+  /// to.
+  [[nodiscard]] bool nominal_winds(const ClothoidPiece& piece, double from, double to,
+                                   const std::vector<double>& feet) const {
+    const auto winds = [&](std::size_t interval, double u0, double u1) {
+      const HeadingRange headings =
+          headings_along(piece.theta0, piece.kappa0, piece.kappa1, piece.length, u0 * piece.length,
+                         u1 * piece.length);
+      return !allows(passages_[interval], headings);
+    };
+    const auto first = static_cast<std::size_t>(std::ceil(from));
+    double before = 0.0;
+    for (std::size_t k = 0; k < feet.size(); ++k) {
+      const double u = std::max(before, feet[k]);
+      if (first + k > 0 && u > 0.0 && winds(first + k - 1, before, u)) return true;
+      before = u;
+    }
+    const auto last = static_cast<std::size_t>(std::floor(to));
+    return last + 1 < points_.size() && before < 1.0 && winds(last, before, 1.0);
+  }
+
+  /// The heading at a place is none that goes back along the chords beside it.
+  void add_heading_rows(std::size_t place) {
+    const Place& at = places_[place];
+    const auto next = static_cast<std::size_t>(std::ceil(at.at));
+    const auto before = static_cast<std::size_t>(std::floor(at.at));
+    if (next > 0) add_heading_rows(at, next - 1);
+    if (before + 1 < points_.size() && (next == 0 || before != next - 1)) {
+      add_heading_rows(at, before);
+    }
+  }
+
+  void add_heading_rows(const Place& at, std::size_t interval) {
+    const Passage& passage = passages_[interval];
+    if (passage.any) return;
+    const double middle = nearest_angle(passage.heading, at.theta) - at.theta;
+    const double most = passage.most;
+    const double size = unit_ / eps_, scale = std::max(1.0, (most + std::abs(middle)) * size);
+    rows_.push_back({{0.0, 0.0, 0.0, 1.0 / scale}, (middle + most) * size / scale});
+    rows_.push_back({{0.0, 0.0, 0.0, -1.0 / scale}, (most - middle) * size / scale});
   }
 
   /// Neither end of the clothoid is sharper than asked for: what its offsets and slopes change of
@@ -603,6 +670,7 @@ class Search {
   std::vector<Place> places_;
   std::vector<std::size_t> place_of_;  ///< each point
   std::vector<double> along_;          ///< length of the chords before a place
+  std::vector<Passage> passages_;      ///< between points, on a map
   double unit_ = 1.0, eps_ = 1.0;
   std::vector<std::vector<Polygon>> reached_;
   std::vector<HalfSpace> rows_;

@@ -12,7 +12,9 @@
 #include "fewest_pieces.h"
 #include "obvid/alignment/internal/borne_grades.h"
 #include "obvid/alignment/internal/transition_law.h"
+#include "rounded_corners.h"
 #include "whole_circle.h"
+#include "winding.h"
 
 namespace obvid::alignment {
 namespace {
@@ -21,8 +23,9 @@ constexpr std::size_t kBeside = 3;   ///< elements to both sides that move with 
 constexpr std::size_t kBridged = 3;  ///< elements that one vertical curve takes the place of
 constexpr std::size_t kWindow = 12;  ///< elements that are fitted at once
 constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elements get no shorter
-constexpr double kOfShortest = 0.5;  ///< of the shortest element of a search with corners: likewise
-constexpr double kHopeless = 4.0;    ///< estimated squares over the most that there can be
+constexpr double kOfShortest =
+    0.5;                           ///< of the shortest element where corners are rounded: likewise
+constexpr double kHopeless = 4.0;  ///< estimated squares over the most that there can be
 /// Largest offset over its tolerance after least squares from which no higher power comes back.
 constexpr double kHopelessOffset = 3.0;
 constexpr int kPasses = 4;  ///< over all conditions
@@ -44,7 +47,7 @@ class Simplifier {
   /// `first_given`: number, as given, of the first point.
   Simplifier(std::vector<Vec2> points, std::vector<double> tolerance,
              const AlignmentOptions& options, const Sought& sought, Chain chain,
-             std::vector<Foot> feet, std::size_t first_given)
+             std::vector<Foot> feet, std::size_t first_given, bool rounded)
       : points_(std::move(points)),
         tolerance_(std::move(tolerance)),
         transitions_(options.transitions),
@@ -52,6 +55,7 @@ class Simplifier {
         constant_(sought.constant),
         lap_(sought.lap),
         first_given_(first_given),
+        rounded_(rounded),
         chain_(std::move(chain)),
         feet_(std::move(feet)) {
     double length = 0.0;
@@ -60,8 +64,8 @@ class Simplifier {
       length += chain_.plane == Plane::kMap ? norm(chord) : chord.x;
     }
     double least = kLeastLength * length / static_cast<double>(points_.size() - 1);
-    if (sought.corners) {
-      borne_ = grades_borne_by(points_, tolerance_, sought);
+    if (sought.corners) borne_ = grades_borne_by(points_, tolerance_, sought);
+    if (sought.corners || rounded) {
       // what rounds a corner is as short as the tolerance makes it
       const double shortest = *std::min_element(chain_.length.begin(), chain_.length.end());
       least = std::min(least, kOfShortest * shortest);
@@ -80,7 +84,7 @@ class Simplifier {
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
-    OBVID_TRY(polish(run, &joints));
+    if (!rounded_) OBVID_TRY(polish(run, &joints));  // what is rounded passes the points already
     if (others) OBVID_TRY(polish_to_tolerance(run));
     if (others && largest() > 1.0) return {};
     OBVID_TRY(simplify(run));
@@ -98,7 +102,7 @@ class Simplifier {
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
-    OBVID_TRY(polish(run, &joints));
+    if (!rounded_) OBVID_TRY(polish(run, &joints));
     if (others && largest() > kHopelessOffset) return {};
     OBVID_TRY(close(run));
     if (others) OBVID_TRY(polish_to_tolerance(run));
@@ -127,6 +131,11 @@ class Simplifier {
   }
 
   [[nodiscard]] const Chain& chain() const { return chain_; }
+  /// Whether it turns between neighbouring points as they do not show.
+  [[nodiscard]] bool winds() const {
+    const PointRow points = row();
+    return windings(chain_, points, feet_, 0, points.intervals()) > 0;
+  }
   [[nodiscard]] double largest() {
     find_feet(chain_, points_, feet_);
     double out = 0.0;
@@ -392,23 +401,48 @@ class Simplifier {
     return true;
   }
 
-  void put_back(const Window& window, Chain& chain) {
+  /// Makes `next` with what was fitted of its window the chain; false, and nothing, where more
+  /// intervals of points are wound through than before.
+  bool commit(Chain next, std::vector<Foot> feet, const Window& window) {
     if (window.first == 0) {
-      chain.start = window.chain.start;
-      chain.theta = window.chain.theta;
+      next.start = window.chain.start;
+      next.theta = window.chain.theta;
     }
     for (std::size_t k = 0; k < window.chain.size(); ++k) {
-      chain.length[window.first + k] = window.chain.length[k];
+      next.length[window.first + k] = window.chain.length[k];
     }
     for (std::size_t k = 0; k < window.number.size(); ++k) {
-      chain.kappa[static_cast<std::size_t>(window.number[k])] = window.chain.kappa[k];
+      next.kappa[static_cast<std::size_t>(window.number[k])] = window.chain.kappa[k];
     }
     for (std::size_t i = 0; i < window.feet.size(); ++i) {
       Foot foot = window.feet[i];
       foot.element += window.first;
-      feet_[window.first_point + i] = foot;
+      feet[window.first_point + i] = foot;
     }
+    if (winds_more(next, feet, window)) return false;
+    chain_ = std::move(next);
+    feet_ = std::move(feet);
+    return true;
   }
+
+  [[nodiscard]] bool winds_more(const Chain& next, const std::vector<Foot>& feet,
+                                const Window& window) const {
+    const std::size_t first = window.first_point - std::min<std::size_t>(window.first_point, 1);
+    const std::size_t end = window.first_point + window.points.size();
+    const PointRow points = row();
+    const std::size_t intervals = points.intervals(), last = std::min(end, intervals);
+    const auto number = [&](const Chain& chain, const std::vector<Foot>& own) {
+      std::size_t out = windings(chain, points, own, first, last);
+      if (closed_ && window.first_point == 0 && last < intervals) {
+        out += windings(chain, points, own, intervals - 1, intervals);
+      }
+      return out;
+    };
+    const std::size_t after = number(next, feet);
+    return after > 0 && after > number(chain_, feet_);
+  }
+
+  [[nodiscard]] PointRow row() const { return {points_, tolerance_, closed_, lap_}; }
 
   /// Windows end at joints of the chain as it is, or where it is meant to pass.
   Result<void> polish(const RunContext& run, const std::vector<Element>* meant = nullptr) {
@@ -426,7 +460,7 @@ class Simplifier {
           fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
       if (std::isfinite(fitted.largest) && transitions_exist(window.chain) &&
           (!was_good || is_borne(window.chain))) {
-        put_back(window, chain_);
+        (void)commit(chain_, feet_, window);
       }
       if (last == chain_.size()) break;
     }
@@ -675,11 +709,7 @@ class Simplifier {
   /// Another chain in the place of this one, where its window can be fitted.
   bool accept(Chain next, std::vector<Foot> feet, Window window) {
     window.held.hopeless = kHopelessOffset;
-    if (!fits(window)) return false;
-    chain_ = std::move(next);
-    feet_ = std::move(feet);
-    put_back(window, chain_);
-    return true;
+    return fits(window) && commit(std::move(next), std::move(feet), window);
   }
 
   bool merge(std::size_t k, const std::array<int, 2>& ends) {
@@ -768,10 +798,7 @@ class Simplifier {
       }
     }
     Window window = cut(next, first, last);
-    if (!fits(window)) return false;
-    chain_ = std::move(next);
-    put_back(window, chain_);
-    return true;
+    return fits(window) && commit(std::move(next), feet_, window);
   }
 
   /// Elements that share a curvature follow one another: those beside the window tell.
@@ -857,10 +884,7 @@ class Simplifier {
         const std::size_t last = std::min(seam + beside, chain_.size());
         Window window = cut(chain_, first, last);
         if (last < chain_.size()) window.held.end = a_lap_on(open[last - seam]);
-        if (fits(window)) {
-          put_back(window, chain_);
-          return {};
-        }
+        if (fits(window) && commit(chain_, feet_, window)) return {};
         if (first == 0 && last == chain_.size()) break;
       }
       halve(seam - 1);
@@ -910,6 +934,7 @@ class Simplifier {
   bool closed_ = false;               ///< the pose at the end is that at the start, and stays
   Vec2 lap_;                          ///< from the start to the end
   std::size_t first_given_ = 0;       ///< number, as given, of the first point
+  bool rounded_ = false;              ///< begun with chords whose corners are rounded
   Chain chain_;
   std::vector<Foot> feet_;
   double least_length_ = 0.0;
@@ -993,7 +1018,10 @@ std::string advice_for_others(const AlignmentOptions& options, const Sought& sou
   return out;
 }
 
-/// Elements from one of these searches.
+/// What is begun with where no search came to elements: on a map, where no limits are given.
+constexpr Attempt kRoundedChords = {0.0, 0.0};
+
+/// Elements from one of these searches, or of the chords with rounded corners.
 Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
                             const AlignmentOptions& options, const Sought& sought,
                             const Attempt& attempt, bool others, const RunContext& run) {
@@ -1015,9 +1043,11 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   std::vector<double> within = tolerance;
   const double part = attempt.part * (options.without_steps ? kBeforeTransitions : 1.0);
   for (double& one : within) one *= part;
+  const bool rounded = attempt.part == kRoundedChords.part;
   Sought search = sought;
   if (sought.corners) search.plane = Plane::kGraph;  // for arcs likewise: they begin as parabolas
-  auto nodes = fewest_pieces(points, within, options, search, run);
+  auto nodes = rounded ? Result<std::vector<Node>>(rounded_corners(points, tolerance))
+                       : fewest_pieces(points, within, options, search, run);
   OBVID_TRY(nodes);
   if (search.plane != sought.plane) {
     for (Node& node : *nodes) node.theta = std::atan(node.theta);
@@ -1027,7 +1057,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   set_chain(*nodes, points.size(), sought, chain, feet);
   find_feet(chain, points, feet);
   Simplifier out(std::move(points), std::move(tolerance), options, sought, std::move(chain),
-                 std::move(feet), begin);
+                 std::move(feet), begin, rounded);
   OBVID_TRY(options.closed ? out.run_around(others, run) : out.run(others, run));
   const double largest = out.largest();
   if (!(largest <= 1.0)) {
@@ -1035,6 +1065,11 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
         error(ErrorCode::kToleranceNotReached, "the alignment that was found leaves the tolerance")
             .hint(advice_for_others(options, sought))
             .value(largest));
+  }
+  if (out.winds()) {
+    return fail(error(ErrorCode::kToleranceNotReached,
+                      "the alignment that was found winds between neighbouring points")
+                    .hint(advice_for_others(options, sought)));
   }
   return out;
 }
@@ -1063,6 +1098,11 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     points.push_back(points.front() + sought.lap);
     allowed.push_back(allowed.front());
   }
+  const auto result_of = [&](const Simplifier& found) {
+    out.chain = found.chain();
+    for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(found.foot_of_given(i));
+    return out;
+  };
   std::optional<Error> first;
   const bool again = sought.constant || given.size() <= kMostSearchedAgain;
   double tried = 0.0;  // of open points it is all the same where they begin
@@ -1071,16 +1111,18 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     tried = attempt.part;
     const bool others = again && &attempt != &kAttempts.back();
     auto found = searched(points, allowed, options, sought, attempt, others, run);
-    if (found) {
-      out.chain = found->chain();
-      for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(found->foot_of_given(i));
-      return out;
-    }
+    if (found) return result_of(*found);
     const ErrorCode code = found.error().code;
     const bool by_search = code == ErrorCode::kNoSpiral || code == ErrorCode::kToleranceNotReached;
     if (!by_search) return fail(found.error());
     if (!first) first = found.error();
     if (!again) break;
+  }
+  const bool limits = options.least_length > 0.0 || options.least_radius > 0.0;
+  if (sought.plane == Plane::kMap && !sought.constant && !limits) {
+    auto found = searched(points, allowed, options, sought, kRoundedChords, false, run);
+    if (found) return result_of(*found);
+    if (found.error().code == ErrorCode::kCancelled) return fail(found.error());
   }
   return fail(*first);
 }

@@ -358,11 +358,12 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     if (made->profile) out->profile = made->profile->profile;
     out->transitions = made->transitions;
     out->picture = {series->name, alignment_verdict(*made)};
+    warnings.insert(warnings.end(), made->warnings.begin(), made->warnings.end());
     out->warnings = std::move(warnings);
     auto tables = std::make_unique<obvid_files>();
     tables->files.push_back(
         {".csv", csv_text(element_rows(made->alignment.elements, made->limit))});
-    tables->files.push_back({".deviations.csv", csv_text(deviation_rows(*made, series->points))});
+    tables->files.push_back({".deviations.csv", csv_text(deviation_rows(*made))});
     if (made->profile) {
       tables->files.push_back({".profile.csv", csv_text(profile_rows(made->profile->profile))});
     }

@@ -68,14 +68,19 @@ struct AlignmentReport {
   Alignment alignment;
   std::optional<SpeedLimit> limit;         ///< where an acceleration was given
   std::optional<ProfileReport> profile{};  ///< where there are heights
-  std::vector<std::string> remarks{};      ///< how tolerances were estimated
+  std::vector<Vec2> points{};  ///< that it passes, one for each deviation: those of the series, and
+                               ///< of pieces of a drawing more
+  std::vector<std::string> remarks{};   ///< how tolerances were estimated
+  std::vector<std::string> warnings{};  ///< what makes it doubtful: crossings, a detour
   StoredContour stored;  ///< the same as a contour with its certificate: each element a piece, or
                          ///< as many clothoids as keep to a transition of another kind
   std::vector<PlacedTransition> transitions{};  ///< these
 };
 
 /// The fewest lines, arcs and clothoids found (`fit_alignment`) within the tolerances of a series.
-/// With heights, of the points or of a file, also their profile (`fit_profile`).
+/// With heights, of the points or of a file, also their profile (`fit_profile`). Lines, arcs and
+/// clothoids of a drawing (`PointSeries::kept`) are passed at points along them, not at joints
+/// alone.
 /// Reentrant. Errors: those of `fit_alignment` and `fit_profile`; E302, E304 where a tolerance
 /// cannot be estimated; E203 a tolerance that is not a positive length, or
 /// none where the points have no printed digits, an acceleration that is not positive, or one
@@ -89,8 +94,7 @@ struct AlignmentReport {
 
 /// Station, offset (to the left positive) and coordinates of each point; with a profile also height
 /// and its offset (upwards positive), those of a file in rows of their own.
-[[nodiscard]] DataTable deviation_rows(const AlignmentReport& report,
-                                       const std::vector<Vec2>& points);
+[[nodiscard]] DataTable deviation_rows(const AlignmentReport& report);
 /// Grades and vertical curves: station, length, height, grades in percent, radius, and where the
 /// grades meet.
 [[nodiscard]] DataTable profile_rows(const VerticalProfile& profile);

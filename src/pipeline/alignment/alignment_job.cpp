@@ -8,9 +8,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "alignment/drawn_points.h"
 #include "alignment/heights.h"
 #include "alignment/profile_table.h"
 #include "obvid/alignment/internal/transition_law.h"
+#include "obvid/certify/internal/crossings.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/io/internal/json_text.h"
@@ -136,6 +138,37 @@ void tell_transitions(const Alignment& alignment, Transition wanted, double near
   }
 }
 
+/// Of the chords: an alignment that is longer by more, and by more than the tolerances may have
+/// shortened them, bows out between points.
+constexpr double kDetour = 0.05;
+
+void add_doubts(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
+                AlignmentReport& report) {
+  const bool closed = report.alignment.closed;
+  const int crossings =
+      report.stored.certificate ? report.stored.certificate->self_intersections : 0;
+  if (crossings > count_crossings_of_chords(points, closed)) {
+    report.warnings.push_back(
+        fmt::format("the alignment crosses itself {}, more often than the chords between its "
+                    "points: points in between or a smaller tolerance say what is meant",
+                    crossings == 1 ? "once" : fmt::format("{} times", crossings)));
+  }
+  double chords = 0.0, room = 0.0;
+  for (std::size_t i = closed ? 0 : 1; i < points.size(); ++i) {
+    const std::size_t before = i > 0 ? i - 1 : points.size() - 1;
+    chords += norm(points[i] - points[before]);
+    room += tolerance[i] + tolerance[before];
+  }
+  const double longer = report.alignment.length - chords;
+  if (longer > kDetour * chords && longer > room) {
+    constexpr double kPercent = 100.0;
+    report.warnings.push_back(
+        fmt::format("the alignment is {} % longer than the chords between its points: it bows out "
+                    "where they are far apart",
+                    significant(kPercent * longer / chords, 2)));
+  }
+}
+
 Result<std::optional<SpeedLimit>> speed_limit(const Units& units,
                                               const std::optional<double>& acceleration) {
   if (!acceleration) return std::optional<SpeedLimit>();
@@ -150,9 +183,12 @@ Result<std::optional<SpeedLimit>> speed_limit(const Units& units,
 
 }  // namespace
 
-Result<AlignmentReport> alignment_report(const PointSeries& series, const AlignmentJob& job,
+Result<AlignmentReport> alignment_report(const PointSeries& given, const AlignmentJob& job,
                                          const RunContext& run) {
   AlignmentReport out;
+  OBVID_TRY(pipeline_detail::drawn_curve_has_tolerance(given, job.noise.has_value()));
+  const PointSeries series =
+      pipeline_detail::with_drawn_points(given, job.noise.value_or(0.0), out.remarks, out.warnings);
   const auto tolerance = tolerances_of(series, job, out.remarks);
   OBVID_TRY(tolerance);
   const auto limit = speed_limit(series.units, job.acceleration);
@@ -180,6 +216,8 @@ Result<AlignmentReport> alignment_report(const PointSeries& series, const Alignm
   tell_transitions(*alignment, job.transitions, near, series.units, out.remarks);
   out.stored = {std::move(audited->contour), std::nullopt, std::move(audited->certificate)};
   out.alignment = std::move(*alignment);
+  add_doubts(series.points, *tolerance, out);
+  out.points = series.points;
   out.limit = *limit;
   return out;
 }
@@ -234,7 +272,8 @@ std::string alignment_picture(const AlignmentReport& report) {
   return alignment_svg(report.stored, {report.name, alignment_verdict(report)}, diagram);
 }
 
-DataTable deviation_rows(const AlignmentReport& report, const std::vector<Vec2>& points) {
+DataTable deviation_rows(const AlignmentReport& report) {
+  const std::vector<Vec2>& points = report.points;
   DataTable out{
       heads_of(report.profile ? "station,offset,x,y,height,height_offset" : "station,offset,x,y")};
   const bool beside = report.profile && report.profile->of_points;
@@ -273,11 +312,14 @@ std::string alignment_json(const AlignmentReport& report) {
     json.key("profile");
     pipeline_detail::add_profile(json, *report.profile);
   }
-  if (!report.remarks.empty()) {
-    json.key("remarks").begin_array();
-    for (const std::string& remark : report.remarks) json.value(remark);
+  const auto add_sentences = [&](const char* key, const std::vector<std::string>& sentences) {
+    if (sentences.empty()) return;
+    json.key(key).begin_array();
+    for (const std::string& sentence : sentences) json.value(sentence);
     json.end_array();
-  }
+  };
+  add_sentences("remarks", report.remarks);
+  add_sentences("warnings", report.warnings);
   json.end_object();
   return json.take();
 }

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "winding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "obvid/alignment/internal/transition_law.h"
+
+namespace obvid::alignment {
+namespace {
+
+constexpr double kHalfTurn = std::numbers::pi;
+/// rad: what rounding makes of half a turn, which three points on half a circle may have.
+constexpr double kRoundedTurn = 1e-9;
+/// Of an element whose law is not linear: places at which its heading is looked at.
+constexpr int kLooks = 16;
+/// rad: by how much more than the chords beside it a curve may leave a chord.
+constexpr double kSwing = std::numbers::pi / 12.0;
+
+HeadingRange both(HeadingRange a, HeadingRange b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+HeadingRange headings_on(const Chain& chain, std::size_t k, double theta, double s0, double s1) {
+  const double k0 = chain.curvature(k, 0), k1 = chain.curvature(k, 1), length = chain.length[k];
+  if (chain.law[k] == Transition::kClothoid) return headings_along(theta, k0, k1, length, s0, s1);
+  const TransitionLaw law(chain.law[k], k0, k1, length);
+  HeadingRange out;
+  for (int i = 0; i <= kLooks; ++i) {
+    const double s = s0 + (s1 - s0) * i / kLooks;
+    const double at = theta + k0 * s + (k1 - k0) * length * law.at(s / length).turn;
+    out = i == 0 ? HeadingRange{at, at} : both(out, {at, at});
+  }
+  return out;
+}
+
+/// Headings from one foot to another one behind it.
+HeadingRange headings_between(const Chain& chain, const std::vector<Element>& joints, Foot from,
+                              Foot to) {
+  if (std::pair(to.element, to.s) < std::pair(from.element, from.s)) std::swap(from, to);
+  HeadingRange out;
+  for (std::size_t k = from.element; k <= to.element; ++k) {
+    const HeadingRange own =
+        headings_on(chain, k, joints[k].theta, k == from.element ? from.s : 0.0,
+                    k == to.element ? to.s : chain.length[k]);
+    out = k == from.element ? own : both(out, own);
+  }
+  return out;
+}
+
+/// How far a chord may be turned as its ends move; nothing where to any side.
+std::optional<double> loose(const PointRow& row, std::size_t i, std::size_t j, Vec2 chord) {
+  const double allowed = row.tolerance[i] + row.tolerance[j], length = norm(chord);
+  if (length <= allowed) return std::nullopt;
+  return std::asin(allowed / length);
+}
+
+}  // namespace
+
+Passage passage_of(const PointRow& row, std::size_t i) {
+  constexpr double kQuarter = 0.5 * kHalfTurn;
+  const std::size_t n = row.points.size();
+  const auto chord_of = [&](std::size_t k) {
+    return k + 1 < n ? row.points[k + 1] - row.points[k]
+                     : row.points.front() + row.lap - row.points[k];
+  };
+  const auto loose_of = [&](std::size_t k) {
+    return loose(row, k, k + 1 < n ? k + 1 : 0, chord_of(k));
+  };
+  const Vec2 chord = chord_of(i);
+  const auto own = loose_of(i);
+  Passage out{heading(chord), 0.0, !own};
+  if (!own) return out;
+  double most = 0.0;
+  for (const bool behind : {false, true}) {
+    const bool is_last = behind ? i + 1 == row.intervals() : i == 0;
+    if (is_last && !row.closed) {
+      most = kQuarter;
+      continue;
+    }
+    const std::size_t other =
+        behind ? (i + 1) % row.intervals() : (i + row.intervals() - 1) % row.intervals();
+    const auto turned_by = loose_of(other);
+    const Vec2 beside = chord_of(other);
+    const double turn = std::abs(std::atan2(cross(chord, beside), dot(chord, beside)));
+    most = std::max(most, turned_by ? turn + *turned_by : kQuarter);
+  }
+  out.most = std::min(most + kSwing, kQuarter) + *own;
+  return out;
+}
+
+bool allows(const Passage& passage, HeadingRange headings) {
+  const double half = 0.5 * (headings.high - headings.low);
+  if (half > 0.5 * kHalfTurn + kRoundedTurn) return false;
+  if (passage.any) return true;
+  const double middle = 0.5 * (headings.low + headings.high);
+  const double off = std::remainder(middle - passage.heading, 2.0 * std::numbers::pi);
+  return std::abs(off) + half <= passage.most + kRoundedTurn;
+}
+
+HeadingRange headings_along(double theta, double kappa0, double kappa1, double length, double s0,
+                            double s1) {
+  const double rate = (kappa1 - kappa0) / length;
+  const auto at = [&](double s) { return theta + s * (kappa0 + 0.5 * s * rate); };
+  HeadingRange out = both({at(s0), at(s0)}, {at(s1), at(s1)});
+  const double straight = -kappa0 / rate;  // where it bends to neither side
+  if (straight > s0 && straight < s1) out = both(out, {at(straight), at(straight)});
+  return out;
+}
+
+std::size_t windings(const Chain& chain, const PointRow& row, const std::vector<Foot>& feet,
+                     std::size_t first, std::size_t last) {
+  if (chain.plane != Plane::kMap) return 0;
+  const std::vector<Element> joints = chain.joints();
+  std::size_t out = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    HeadingRange headings;
+    if (i + 1 < row.points.size()) {
+      headings = headings_between(chain, joints, feet[i], feet[i + 1]);
+    } else {
+      const std::size_t end = chain.size() - 1;
+      headings = headings_between(chain, joints, feet[i], {end, chain.length[end]});
+      const double lap = joints.back().theta - joints.front().theta;
+      const HeadingRange begun = headings_between(chain, joints, {}, feet.front());
+      headings = both(headings, {begun.low + lap, begun.high + lap});
+    }
+    if (!allows(passage_of(row, i), headings)) ++out;
+  }
+  return out;
+}
+
+}  // namespace obvid::alignment

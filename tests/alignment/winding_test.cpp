@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "winding.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "rounded_corners.h"
+
+namespace obvid::alignment {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// One arc of radius 1 that turns by `turn`, from the origin, with the points at its ends.
+std::size_t windings_of_arc(double turn) {
+  Chain arc;
+  arc.theta = -0.5 * turn;  // its chord lies along x
+  arc.length = {turn};
+  arc.kappa = {1.0};
+  arc.ends = {{0, 0}};
+  arc.law = {Transition::kClothoid};
+  const std::vector<Vec2> points = {{0.0, 0.0}, arc.joints().back().point};
+  const std::vector<double> tolerance = {1e-3, 1e-3};
+  return windings(arc, {points, tolerance}, {{0, 0.0}, {0, turn}}, 0, 1);
+}
+
+TEST(Winding, AnArcBetweenNeighboursTurnsByHalfATurnAtMost) {
+  EXPECT_EQ(windings_of_arc(0.5 * kPi), 0U);
+  EXPECT_EQ(windings_of_arc(0.99 * kPi), 0U);
+  EXPECT_EQ(windings_of_arc(1.01 * kPi), 1U);
+  EXPECT_EQ(windings_of_arc(303.0 / 180.0 * kPi), 1U);
+}
+
+TEST(Winding, ACircleInItsPointsIsAllowedHoweverFewTheyAre) {
+  for (int n = 3; n < 40; ++n) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < n; ++i) points.push_back(unit_at(2.0 * kPi * i / n));
+    const std::vector<double> tolerance(points.size(), 1e-6);
+    const PointRow row{points, tolerance, true};
+    for (std::size_t i = 0; i < row.intervals(); ++i) {
+      const double begin = 0.5 * kPi + 2.0 * kPi * static_cast<double>(i) / n;
+      EXPECT_TRUE(allows(passage_of(row, i), {begin, begin + 2.0 * kPi / n})) << n << ' ' << i;
+    }
+  }
+}
+
+TEST(Winding, StraightPointsShowNoSwingAndNoWayBack) {
+  const std::vector<Vec2> points = {{0, 0}, {10, 0}, {20, 0}, {30, 0}};
+  const std::vector<double> tolerance(4, 0.5);
+  const Passage middle = passage_of({points, tolerance}, 1);
+  // fifteen degrees, and what three chords are turned by as their ends move by their tolerances
+  const double most = kPi / 12.0 + 2.0 * std::asin(0.1);
+  EXPECT_TRUE(allows(middle, {-0.99 * most, 0.99 * most}));
+  EXPECT_FALSE(allows(middle, {0.0, 1.01 * most}));
+  EXPECT_FALSE(allows(middle, {kPi - 0.1, kPi + 0.1}));
+  EXPECT_TRUE(allows(middle, {2.0 * kPi, 2.0 * kPi + 0.1}));  // headings are unwrapped
+}
+
+TEST(Winding, PointsNearerThanTheirTolerancesShowNoHeading) {
+  const std::vector<Vec2> points = {{0, 0}, {1, 0}};
+  const std::vector<double> tolerance(2, 0.5);
+  const Passage any = passage_of({points, tolerance}, 0);
+  EXPECT_TRUE(allows(any, {kPi - 0.1, kPi + 0.1}));
+  EXPECT_FALSE(allows(any, {0.0, 1.01 * kPi}));
+}
+
+TEST(RoundedCorners, PassTheirPointsWithinTheTolerance) {
+  const std::vector<Vec2> points = {{0, 0}, {100, 0}, {100, 3}, {40, 60}, {45, 300}};
+  const std::vector<double> tolerance(points.size(), 0.25);
+  const std::vector<Node> nodes = rounded_corners(points, tolerance);
+  ASSERT_EQ(nodes.size(), 2U + 2U * 3U);
+  for (std::size_t i = 1; i < 4; ++i) {
+    const Node &in = nodes[2 * i - 1], &out = nodes[2 * i];
+    const double turn = out.theta - in.theta;
+    const double tangent = norm(points[i] - in.point);
+    EXPECT_NEAR(norm(points[i] - out.point), tangent, 1e-12);  // so an arc joins both tangents
+    const double radius = tangent / std::tan(0.5 * std::abs(turn));
+    EXPECT_LE(radius * (1.0 / std::cos(0.5 * turn) - 1.0), 0.25);
+    EXPECT_LT(out.place, nodes[2 * i + 1].place);
+  }
+}
+
+}  // namespace
+}  // namespace obvid::alignment
