@@ -16,7 +16,7 @@ constexpr double kHalfTurn = std::numbers::pi;
 /// rad: what rounding makes of half a turn, which three points on half a circle may have.
 constexpr double kRoundedTurn = 1e-9;
 /// Of an element whose law is not linear: places at which its heading is looked at.
-constexpr int kPlacesBetweenFeet = 16;
+constexpr int kHeadingLooks = 16;
 /// rad: by how much more than the chords beside it a curve may leave a chord.
 constexpr double kSwing = std::numbers::pi / 12.0;
 
@@ -29,8 +29,8 @@ HeadingRange headings_on(const Chain& chain, std::size_t k, double theta, double
   if (chain.law[k] == Transition::kClothoid) return headings_along(theta, k0, k1, length, s0, s1);
   const TransitionLaw law(chain.law[k], k0, k1, length);
   HeadingRange out;
-  for (int i = 0; i <= kPlacesBetweenFeet; ++i) {
-    const double s = s0 + (s1 - s0) * i / kPlacesBetweenFeet;
+  for (int i = 0; i <= kHeadingLooks; ++i) {
+    const double s = s0 + (s1 - s0) * i / kHeadingLooks;
     const double at = theta + k0 * s + (k1 - k0) * length * law.at(s / length).turn;
     out = i == 0 ? HeadingRange{at, at} : both(out, {at, at});
   }

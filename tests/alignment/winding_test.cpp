@@ -12,7 +12,7 @@
 namespace obvid::alignment {
 namespace {
 
-constexpr double kHalfTurn = std::numbers::pi;
+constexpr double kStraightAngle = std::numbers::pi;
 
 /// One arc of radius 1 that turns by `turn`, from the origin, with the points at its ends.
 std::size_t windings_of_arc(double turn) {
@@ -28,21 +28,22 @@ std::size_t windings_of_arc(double turn) {
 }
 
 TEST(Winding, AnArcBetweenNeighboursTurnsByHalfATurnAtMost) {
-  EXPECT_EQ(windings_of_arc(0.5 * kHalfTurn), 0U);
-  EXPECT_EQ(windings_of_arc(0.99 * kHalfTurn), 0U);
-  EXPECT_EQ(windings_of_arc(1.01 * kHalfTurn), 1U);
-  EXPECT_EQ(windings_of_arc(303.0 / 180.0 * kHalfTurn), 1U);
+  EXPECT_EQ(windings_of_arc(0.5 * kStraightAngle), 0U);
+  EXPECT_EQ(windings_of_arc(0.99 * kStraightAngle), 0U);
+  EXPECT_EQ(windings_of_arc(1.01 * kStraightAngle), 1U);
+  EXPECT_EQ(windings_of_arc(303.0 / 180.0 * kStraightAngle), 1U);
 }
 
 TEST(Winding, ACircleInItsPointsIsAllowedHoweverFewTheyAre) {
   for (int n = 3; n < 40; ++n) {
     std::vector<Vec2> points;
-    for (int i = 0; i < n; ++i) points.push_back(unit_at(2.0 * kHalfTurn * i / n));
+    for (int i = 0; i < n; ++i) points.push_back(unit_at(2.0 * kStraightAngle * i / n));
     const std::vector<double> tolerance(points.size(), 1e-6);
     const PointRow row{points, tolerance, true};
     for (std::size_t i = 0; i < row.intervals(); ++i) {
-      const double begin = 0.5 * kHalfTurn + 2.0 * kHalfTurn * static_cast<double>(i) / n;
-      EXPECT_TRUE(allows(passage_of(row, i), {begin, begin + 2.0 * kHalfTurn / n})) << n << ' ' << i;
+      const double begin = 0.5 * kStraightAngle + 2.0 * kStraightAngle * static_cast<double>(i) / n;
+      EXPECT_TRUE(allows(passage_of(row, i), {begin, begin + 2.0 * kStraightAngle / n}))
+          << n << ' ' << i;
     }
   }
 }
@@ -52,19 +53,20 @@ TEST(Winding, StraightPointsShowNoSwingAndNoWayBack) {
   const std::vector<double> tolerance(4, 0.5);
   const Passage middle = passage_of({points, tolerance}, 1);
   // fifteen degrees, and what three chords are turned by as their ends move by their tolerances
-  const double most = kHalfTurn / 12.0 + 2.0 * std::asin(0.1);
+  const double most = kStraightAngle / 12.0 + 2.0 * std::asin(0.1);
   EXPECT_TRUE(allows(middle, {-0.99 * most, 0.99 * most}));
   EXPECT_FALSE(allows(middle, {0.0, 1.01 * most}));
-  EXPECT_FALSE(allows(middle, {kHalfTurn - 0.1, kHalfTurn + 0.1}));
-  EXPECT_TRUE(allows(middle, {2.0 * kHalfTurn, 2.0 * kHalfTurn + 0.1}));  // headings are unwrapped
+  EXPECT_FALSE(allows(middle, {kStraightAngle - 0.1, kStraightAngle + 0.1}));
+  EXPECT_TRUE(allows(
+      middle, {2.0 * kStraightAngle, 2.0 * kStraightAngle + 0.1}));  // headings are unwrapped
 }
 
 TEST(Winding, PointsNearerThanTheirTolerancesShowNoHeading) {
   const std::vector<Vec2> points = {{0, 0}, {1, 0}};
   const std::vector<double> tolerance(2, 0.5);
   const Passage any = passage_of({points, tolerance}, 0);
-  EXPECT_TRUE(allows(any, {kHalfTurn - 0.1, kHalfTurn + 0.1}));
-  EXPECT_FALSE(allows(any, {0.0, 1.01 * kHalfTurn}));
+  EXPECT_TRUE(allows(any, {kStraightAngle - 0.1, kStraightAngle + 0.1}));
+  EXPECT_FALSE(allows(any, {0.0, 1.01 * kStraightAngle}));
 }
 
 TEST(RoundedCorners, PassTheirPointsWithinTheTolerance) {

@@ -20,6 +20,8 @@ namespace {
 
 // What turns by more than this is cut: tangents of a part then meet at a good angle.
 constexpr double kMostTangentTurn = 0.5 * std::numbers::pi;
+// An arc has a centre in place of them: its ends and its sense tell it up to half a turn.
+constexpr double kMostCurveTurn = std::numbers::pi;
 constexpr double kMostElementParts = 10000.0;  // of one element: what turns more often is no road
 
 // Grades that differ by more, as part of the steepest, meet in a corner.
@@ -50,8 +52,9 @@ void cut_turns(const RoadElement& e, double from, double to, std::vector<RoadEle
   const double k0 = e.kappa0 + from * (e.kappa1 - e.kappa0);
   const double k1 = e.kappa0 + to * (e.kappa1 - e.kappa0);
   const double steepest = std::max(std::abs(k0), std::abs(k1)) * (to - from) * e.length;
+  const double most = e.kappa0 == e.kappa1 ? kMostCurveTurn : kMostTangentTurn;
   const int count =
-      static_cast<int>(std::clamp(std::ceil(steepest / kMostTangentTurn), 1.0, kMostElementParts));
+      static_cast<int>(std::clamp(std::ceil(steepest / most), 1.0, kMostElementParts));
   for (int k = 0; k < count; ++k) {
     const double a = from + (to - from) * k / count;
     const double b = k + 1 == count ? to : from + (to - from) * (k + 1) / count;
