@@ -124,7 +124,7 @@ Result<void> check_sizes(const ToolpathOptions& o) {
     return refuse("the acceleration must be at least 0.001 mm/s^2", *o.acceleration);
   }
   if (o.acceleration && *o.acceleration > exchange::kGreatestAcceleration) {
-    return refuse("no machine has such an acceleration", *o.acceleration, "at most 1e7 mm/s^2");
+    return refuse("no machine has such an acceleration", *o.acceleration, "at most 1e12 mm/s^2: practically none");
   }
   if (o.safe_z && std::abs(*o.safe_z) > exchange::kLongestWay) {
     return refuse("no machine is so high", *o.safe_z, "check the unit of the surface");

@@ -712,6 +712,14 @@ std::vector<std::pair<std::string, const Json*>> rows_in_order(const Worksheet& 
   return out;
 }
 
+/// In quotation marks, doubled inside, where it has to be (RFC 4180).
+std::string quoted_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 std::optional<double> number_of(const Json& value) {
   return value.is_number() ? std::optional(value.number) : std::nullopt;
 }
@@ -734,7 +742,7 @@ void check_construction_csv(const Worksheet& worksheet, const std::string& csv, 
       const double stated = std::strtod(cells[k + 1].c_str(), nullptr);
       same = straight || (value ? !cells[k + 1].empty() && stated == *value : cells[k + 1].empty());
     }
-    same = same && lines[l].ends_with("\"" + text_of(*json, "remark") + "\"");
+    same = same && lines[l].ends_with("," + quoted_cell(text_of(*json, "remark")));
     sheet.expect(same, "construction CSV row", lines[l], name + " of the JSON", "");
   }
 }

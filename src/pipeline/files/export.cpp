@@ -364,8 +364,8 @@ void tell_of_parts(const ContourExport& e, std::string_view text,
   }
   if (written <= elements) return;
   remarks.push_back(fmt::format(
-      "{} for {} of the curve: what turns by more than a right angle or through an inflection is "
-      "in parts there",
+      "{} for {} of the curve: arcs of more than half a turn, and spirals that turn by more than a "
+      "right angle or through an inflection, are in parts there",
       counted(written, "element", "elements"), elements));
 }
 

@@ -13,7 +13,7 @@ inline constexpr double kSecondsOfMinute = 60.0;  ///< feeds are lengths a minut
 /// Beyond these no machine works: what is given is a typing error. Lengths in mm, mm a minute,
 /// mm/s^2; speeds of spindles and powers of beams, the word S.
 inline constexpr double kLongestWay = 1e6, kLeastFeed = 1e-3, kGreatestFeed = 1e7,
-                        kLeastAcceleration = 1e-3, kGreatestAcceleration = 1e7,
+                        kLeastAcceleration = 1e-3, kGreatestAcceleration = 1e12,
                         kGreatestSpeed = 1e7;
 
 /// What a machine is thought to do. Lengths in its units, mm or inches.

@@ -51,8 +51,9 @@ struct LandXmlOptions {
 
 /// A LandXML 1.2 file with the contour as one Alignment in its unit, or in the next one that the
 /// format knows: Line, Curve and clothoid Spiral elements. Exactly; spirals through an inflection
-/// and what turns by more than a right angle are cut into parts, because the format has one
-/// direction of rotation for each, and tangents that must meet. Errors: those of `road_lines`
+/// and those that turn by more than a right angle are cut into parts, because the format has one
+/// direction of rotation for each, and tangents that must meet; so are arcs of more than half a
+/// turn. Errors: those of `road_lines`
 /// (other pieces than lines, arcs and clothoids: E310).
 [[nodiscard]] Result<std::string> landxml_text(const Contour& contour,
                                                const LandXmlOptions& options = {});
