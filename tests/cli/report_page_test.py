@@ -404,7 +404,7 @@ class PagesSayWhatTerminalsSay(PageCase):
         self.assertGreaterEqual(count, 10)
 
     def test_convert(self):
-        self.assertTrue(self.judge(["convert", EXAMPLES / "plate.dxf"])[1])
+        self.assertTrue(self.judge(["convert", EXAMPLES / "plate.dxf"])[0])
 
     def test_analyse(self):
         (self.root / "twice.csv").write_text("0,0\n1,0\n1,0\n2,1\n2,3\n0,4\n")
