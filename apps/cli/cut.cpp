@@ -70,8 +70,7 @@ std::string steps_table(const MadeCut& made) {
   table.column("left in\ncorners");
   std::size_t number = 0;
   for (const CutStep& step : made.program.steps) {
-    table.row({std::to_string(++number), std::to_string(made.curves[step.outline] + 1),
-               made.outlines[step.outline].name,
+    table.row({std::to_string(++number), std::to_string(made.curves[step.outline] + 1), step.name,
                step.side == CutSide::kOn ? "on it" : to_string(step.side),
                significant(step.start.x), significant(step.start.y), significant(step.length),
                step.left_in_corners > 0.0 ? significant(step.left_in_corners, 4) : "-"});

@@ -494,7 +494,8 @@ void add_checkers(CLI::App& app, Raw& raw) {
       ->type_name("");
   add_output(verify, raw.verify.outputs, raw.format,
              "File to write: .json the answer, .html a page with it, .csv the pieces");
-  verify.add_flag("--csv", raw.verify.csv, "Table of the pieces as CSV on standard output");
+  verify.add_flag("--csv", raw.verify.csv,
+                  "Table of the pieces as CSV on standard output; of several files a line each");
   verify.add_flag("--json", raw.verify.json, "JSON on standard output instead of the table");
   verify.add_flag("-q,--quiet", raw.verify.quiet, "Exit code only");
   verify.add_flag("--no-progress", raw.no_progress, kNoBarHelp);

@@ -78,11 +78,21 @@ class HelpLines : public CLI::FormatterBase {
   constexpr std::size_t kFewest = 24;  // characters of a line behind its indent
   constexpr std::size_t kIndent = 2;
   const std::size_t lead = std::min(line.find_first_not_of(' '), line.size());
-  const bool row = lead >= column || (line.size() > column && line[column] != ' ' &&
-                                      line[column - 1] == ' ' && lead == 2);
-  std::size_t indent = row ? std::max(lead, column) : lead;
-  if (indent + kFewest >= width) indent = std::min(lead + kIndent, 2 * kIndent);
+  const bool below = lead >= column;  // goes on in the column
+  const bool row =
+      line.size() > column && line[column] != ' ' && line[column - 1] == ' ' && lead == kIndent;
+  std::size_t indent = below || row ? std::max(lead, column) : lead;
   std::string out;
+  if (indent + kFewest >= width) {  // no room in the column: what is said stands below
+    indent = std::min(lead + kIndent, 2 * kIndent);
+    if (below) {
+      line = std::string(indent, ' ') + line.substr(lead);
+    } else if (row && line.size() > width) {
+      const std::string name = line.substr(0, line.find_last_not_of(' ', column - 1) + 1);
+      out = wrapped_help_line(name, column, width) + "\n";
+      line = std::string(indent, ' ') + line.substr(column);
+    }
+  }
   while (line.size() > width) {
     std::size_t at = line.rfind(' ', width);
     if (at == std::string::npos || at <= indent) at = line.find(' ', width);  // a long word

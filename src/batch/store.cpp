@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 using ManifestJson = nlohmann::json;
 
 constexpr const char* kManifestName = "batch.json";
+constexpr int kManifestVersion = 2;  // with the columns of tables: they go by their places
 
 std::string manifest_path(const std::string& folder) { return folder + "/" + kManifestName; }
 
@@ -82,7 +83,7 @@ std::string difference(const Manifest& a, const Manifest& b) {
 
 std::string manifest_text(const Manifest& m) {
   const ManifestJson out{{"format", "obvid-batch"},
-                         {"version", 1},
+                         {"version", kManifestVersion},
                          {"program", m.program},
                          {"job", m.job},
                          {"options", m.options},
@@ -101,7 +102,8 @@ Result<Manifest> manifest_of(const std::string& text, const std::string& name) {
   const ManifestJson in = ManifestJson::parse(text, nullptr, false);
   const Error wrong{ErrorCode::kBadJson, "this does not describe a batch", name,
                     "remove the folder to begin again"};
-  if (!in.is_object() || in.value("format", "") != "obvid-batch" || in.value("version", 0) != 1) {
+  if (!in.is_object() || in.value("format", "") != "obvid-batch" ||
+      in.value("version", 0) != kManifestVersion) {
     return fail(wrong);
   }
   try {

@@ -353,7 +353,7 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     OBVID_TRY(made);
     auto out = std::make_unique<obvid_contour>();
     out->stored = made->stored;
-    out->name = series->label.empty() ? series->name : series->label;
+    out->name = made->name;
     out->first_station = made->alignment.elements.front().station;
     if (made->profile) out->profile = made->profile->profile;
     out->transitions = made->transitions;

@@ -244,6 +244,7 @@ class Cutting {
     const Track& track = tracks_.all[visit.track];
     CutStep out;
     out.outline = track.outline;
+    out.name = track.name;
     out.closed = track.edge.closed;
     out.around = track.around;
     out.side = track.side;

@@ -57,7 +57,7 @@ Result<void> check_numbers(const CutOptions& o) {
   }
   if (o.acceleration && *o.acceleration < kLeastAcceleration) {
     return bad("no time comes of so little", "--acceleration", *o.acceleration,
-               "at least 0.001 mm/s^2");
+               fmt::format("at least {} mm/s^2", kLeastAcceleration));
   }
   return {};
 }

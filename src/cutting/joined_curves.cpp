@@ -66,39 +66,51 @@ Piece between(const Piece& piece, Vec2 start, Vec2 end) {
                   arc->length * scale};
 }
 
-/// Lets a piece end where the other one starts; a line that has to lead there, else nothing.
-std::optional<Piece> meet(Piece& piece, Piece& next) {
+struct Met {
+  std::optional<Piece> line;  ///< that has to lead from one to the other
+  double gap = 0.0, moved = 0.0;
+};
+
+/// Lets a piece end where the other one starts.
+Met meet(Piece& piece, Piece& next) {
   constexpr double kLonger =
       10.0;  // times the gap: ends then turn by less than a tenth of a radian
   const Vec2 from = end_point(piece), to = start_point(next);
-  const double gap = norm(to - from);
-  if (gap == 0.0) return std::nullopt;
+  Met out;
+  out.gap = norm(to - from);
+  if (out.gap == 0.0) return out;
   const auto is_long = [&](const Piece& one) {
-    return norm(end_point(one) - start_point(one)) >= kLonger * gap;
+    return norm(end_point(one) - start_point(one)) >= kLonger * out.gap;
   };
-  if (!is_long(piece) || !is_long(next)) return LinePiece{from, to};
+  if (!is_long(piece) || !is_long(next)) {
+    out.line = LinePiece{from, to};
+    return out;
+  }
   const Vec2 middle = 0.5 * (from + to);
   piece = between(piece, start_point(piece), middle);
   next = between(next, middle, end_point(next));
-  return std::nullopt;
+  out.moved = 0.5 * out.gap;
+  return out;
 }
 
 void append(JoinedCurves::Chain& chain, ArcPath next) {
   std::vector<Piece>& pieces = chain.path.pieces;
   if (!pieces.empty()) {
-    Piece& first = next.pieces.front();
-    chain.largest_gap =
-        std::max(chain.largest_gap, norm(start_point(first) - end_point(pieces.back())));
-    if (const auto line = meet(pieces.back(), first)) pieces.push_back(*line);
+    const Met met = meet(pieces.back(), next.pieces.front());
+    chain.largest_gap = std::max(chain.largest_gap, met.gap);
+    chain.moved = std::max(chain.moved, met.moved);
+    if (met.line) pieces.push_back(*met.line);
   }
   pieces.insert(pieces.end(), next.pieces.begin(), next.pieces.end());
 }
 
 }  // namespace
 
-void close_gap(ArcPath& path) {
-  if (const auto line = meet(path.pieces.back(), path.pieces.front())) path.pieces.push_back(*line);
+double close_gap(ArcPath& path) {
+  const Met met = meet(path.pieces.back(), path.pieces.front());
+  if (met.line) path.pieces.push_back(*met.line);
   path.closed = true;
+  return met.moved;
 }
 
 JoinedCurves joined_curves(const std::vector<ArcPath>& open, double within) {
@@ -140,7 +152,7 @@ JoinedCurves joined_curves(const std::vector<ArcPath>& open, double within) {
     if (loop) {
       chain.largest_gap = std::max(chain.largest_gap, norm(start_point(chain.path.pieces.front()) -
                                                            end_point(chain.path.pieces.back())));
-      close_gap(chain.path);
+      chain.moved = std::max(chain.moved, close_gap(chain.path));
     }
     begins.push_back(begin);
     finishes.push_back(end);

@@ -15,6 +15,7 @@ struct JoinedCurves {
     std::vector<std::size_t> members;  ///< curves in their order along it, the first one as it runs
     ArcPath path;                      ///< whose gaps are closed
     double largest_gap = 0.0;          ///< that was closed
+    double moved = 0.0;                ///< how far an end was moved for that, at most
   };
   std::vector<Chain> chains;  ///< of every curve one, by their first members
   /// A chain with which others close around something, where three and more ends meet.
@@ -32,7 +33,7 @@ struct JoinedCurves {
 [[nodiscard]] JoinedCurves joined_curves(const std::vector<ArcPath>& open, double within);
 
 /// Lets the last piece end where the first one starts: half way, pieces similar to what they were;
-/// by a line where one of them is not ten times as long as the gap.
-void close_gap(ArcPath& path);
+/// by a line where one of them is not ten times as long as the gap. How far ends were moved.
+double close_gap(ArcPath& path);
 
 }  // namespace obvid::cutting

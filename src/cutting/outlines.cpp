@@ -137,11 +137,10 @@ class TrackMaker {
     const double gap = norm(start_point(pieces.front()) - end_point(pieces.back()));
     if (pieces.size() < 2 || gap > within()) return;
     if (gap > 0.0) {
-      out_.warnings.push_back(
-          fmt::format("{}: its ends are {} apart, within the tolerance: they meet half way",
-                      track.name, told(gap)));
+      out_.warnings.push_back(fmt::format(
+          "{}: its ends are {} apart, within the tolerance: it is closed", track.name, told(gap)));
     }
-    close_gap(track.edge);
+    track.deviation += close_gap(track.edge);
   }
 
   /// Open curves whose ends are as near as the tolerance are one curve; where three and more ends
@@ -163,12 +162,19 @@ class TrackMaker {
     std::vector<Track> chains;
     for (const JoinedCurves::Chain& chain : joined.chains) {
       Track track = std::move(out_.all[numbers[chain.members.front()]]);
+      bool half_chosen = false;
       for (std::size_t k = 1; k < chain.members.size(); ++k) {
         const Track& other = out_.all[numbers[chain.members[k]]];
         track.deviation = std::max(track.deviation, other.deviation);
+        if (track.is_cut != other.is_cut) half_chosen = true;
         track.is_cut = track.is_cut || other.is_cut;
       }
+      track.deviation += chain.moved;
       if (chain.members.size() > 1) join_into(track, chain, numbers);
+      if (half_chosen) {
+        out_.warnings.push_back(track.name +
+                                ": --curve names a part of this curve alone; all of it is cut");
+      }
       chains.push_back(std::move(track));
     }
     tell_enclosing(joined, chains);
@@ -186,8 +192,8 @@ class TrackMaker {
     if (more > 0) others += fmt::format(" and {} other{}", more, more == 1 ? "" : "s");
     if (chain.largest_gap > 0.0) {
       out_.warnings.push_back(
-          fmt::format("{} and {}: their ends are up to {} apart, within the tolerance: they meet "
-                      "half way and are one curve",
+          fmt::format("{} and {}: their ends are up to {} apart, within the tolerance: they are "
+                      "one curve",
                       track.name, others, told(chain.largest_gap)));
     }
     track.name += " with " + others;

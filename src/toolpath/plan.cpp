@@ -107,7 +107,8 @@ Result<void> check_earlier(const ToolpathOptions& o) {
   return {};
 }
 
-Result<void> check_sizes(const ToolpathOptions& o) {
+/// `to_machine`: from lengths of the surface to those of the machine.
+Result<void> check_sizes(const ToolpathOptions& o, double to_machine) {
   if (!positive(o.tolerance)) return refuse("the tolerance must be greater than 0", o.tolerance);
   const double radius = 0.5 * o.cutter.diameter;
   if (o.tolerance >= radius) {
@@ -116,21 +117,30 @@ Result<void> check_sizes(const ToolpathOptions& o) {
   for (const auto& feed : {o.feed, o.plunge_feed, o.rapid_feed}) {
     if (feed && !positive(*feed)) return refuse("feeds must be greater than 0", *feed);
     if (feed && (*feed < exchange::kLeastFeed || *feed > exchange::kGreatestFeed)) {
-      return refuse("no machine has such a feed", *feed, "0.001 to 10,000,000 a minute");
+      return refuse(
+          "no machine has such a feed", *feed,
+          fmt::format("{} to {} a minute", exchange::kLeastFeed, exchange::kGreatestFeed));
     }
   }
   if (o.acceleration &&
       !(positive(*o.acceleration) && *o.acceleration >= exchange::kLeastAcceleration)) {
-    return refuse("the acceleration must be at least 0.001 mm/s^2", *o.acceleration);
+    return refuse(
+        fmt::format("the acceleration must be at least {} mm/s^2", exchange::kLeastAcceleration),
+        *o.acceleration);
   }
   if (o.acceleration && *o.acceleration > exchange::kGreatestAcceleration) {
-    return refuse("no machine has such an acceleration", *o.acceleration, "at most 1e12 mm/s^2: practically none");
+    return refuse("this is no limit of acceleration any more", *o.acceleration,
+                  fmt::format("at most {} mm/s^2", exchange::kGreatestAcceleration));
   }
-  if (o.safe_z && std::abs(*o.safe_z) > exchange::kLongestWay) {
+  if (o.safe_z && std::abs(*o.safe_z) * to_machine > exchange::kLongestWay) {
     return refuse("no machine is so high", *o.safe_z, "check the unit of the surface");
   }
   if (!(o.allowance >= 0.0) || !std::isfinite(o.allowance)) {
     return refuse("the allowance must not be less than 0", o.allowance);
+  }
+  if (o.spindle && *o.spindle > exchange::kGreatestSpeed) {
+    return refuse("no spindle is so fast", *o.spindle,
+                  fmt::format("at most {} revolutions a minute", exchange::kGreatestSpeed));
   }
   if (o.spindle && !(std::isfinite(*o.spindle) && *o.spindle > kLeastSpindle)) {
     return refuse("the spindle's speed must be more than 0.5 revolutions a minute", *o.spindle,
@@ -421,11 +431,12 @@ Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
                       const RunContext& run) {
   const auto cutter = shape_of(options.cutter);
   OBVID_TRY(cutter);
-  OBVID_TRY(check_sizes(options));
+  const auto to_machine = exchange::machine_units_in(model.units);
+  OBVID_TRY(to_machine);
+  OBVID_TRY(check_sizes(options, *to_machine));
   if (model.patches.empty()) {
     return error(ErrorCode::kNothingThere, "the model has no patches");
   }
-  OBVID_TRY(exchange::machine_units_in(model.units));
   return planned(model, options, *cutter, run);
 }
 

@@ -78,7 +78,8 @@ struct CutOutline {
 
 /// What became of an outline, in the order of cutting. Lengths in units of the drawing.
 struct CutStep {
-  std::size_t outline = 0;  ///< of those given
+  std::size_t outline = 0;  ///< of those given; of several that are one curve the first
+  std::string name;         ///< its name, with those of others that belong to it
   bool closed = false;
   std::size_t around = 0;  ///< how many other outlines lie around it
   CutSide side = CutSide::kOn;

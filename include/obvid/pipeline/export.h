@@ -20,13 +20,13 @@
 
 namespace obvid {
 
-/// Choices of the formats. Lengths in units of the contour.
 /// What was said while a contour was made: .html pages say it too.
 struct ToldBeside {
   std::vector<std::string> remarks;
   std::vector<std::string> warnings;
 };
 
+/// Choices of the formats. Lengths in units of the contour.
 struct ExportOptions {
   std::string name = "contour";  ///< of the curve, where a format has a place for it
   double first_station = 0.0;    ///< of the start, units of the contour; of LandXML

@@ -65,8 +65,9 @@ struct CurveChoice {
 /// "curve 2 of 5 was taken, track Foo, the longest of its kind; ...": for the user.
 [[nodiscard]] std::string chosen_text(const Drawing& drawing, std::size_t chosen, bool asked);
 
-/// Whether there is something to choose: then it is a warning which curve was taken, else a remark.
-[[nodiscard]] bool has_choice(const Drawing& drawing);
+/// Whether one of several curves was taken that nobody asked for, which is a warning; else it is a
+/// remark which one it is.
+[[nodiscard]] bool is_guessed(const Drawing& drawing, const CurveChoice& asked);
 
 /// The edges between the points of a polyline as a curve of lines.
 [[nodiscard]] DrawnCurve edges_of(const PointSeries& series);

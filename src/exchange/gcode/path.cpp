@@ -78,10 +78,6 @@ Centre centre_over(Wide x, Wide y, double above, int decimals) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether one arc from the start of the first is both, but for what rounding leaves of coordinates
 /// and directions: far from the origin that is more than of the arcs themselves.
 bool is_one_arc(const ArcPiece& first, const ArcPiece& second) {

@@ -69,7 +69,7 @@ PointSeries with_drawn_points(const PointSeries& series, double tolerance,
     }
     ++kept;
   }
-  const std::string at = fmt::format("points of what is drawn were taken at distances of {} {}",
+  const std::string at = fmt::format("points of what is drawn were taken at distances of at most {} {}",
                                      significant(step, 3), series.units.text());
   if (step > wanted) {
     warnings.push_back(

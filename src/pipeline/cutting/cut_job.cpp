@@ -193,8 +193,10 @@ std::string cut_json(const MadeCut& made) {
   add_units(json, made.units);
   json.key("outlines").begin_array();
   for (const CutStep& step : made.program.steps) {
-    json.begin_object().pair("name", made.outlines[step.outline].name);
-    json.pair("curve", made.curves[step.outline]).pair("closed", step.closed).pair("around", step.around);
+    json.begin_object().pair("name", step.name);
+    json.pair("curve", made.curves[step.outline])
+        .pair("closed", step.closed)
+        .pair("around", step.around);
     json.pair("side", to_string(step.side))
         .key("start")
         .begin_array()
@@ -221,10 +223,9 @@ std::string cut_json(const MadeCut& made) {
 DataTable cut_rows(const MadeCut& made) {
   DataTable out{heads_of("order,curve,outline,tool,closed,start_x,start_y,length,left_in_corners")};
   for (const CutStep& step : made.program.steps) {
-    out.rows.push_back({out.rows.size() + 1, made.curves[step.outline] + 1,
-                        made.outlines[step.outline].name, to_string(step.side),
-                        step.closed ? "yes" : "no", step.start.x, step.start.y, step.length,
-                        step.left_in_corners});
+    out.rows.push_back({out.rows.size() + 1, made.curves[step.outline] + 1, step.name,
+                        to_string(step.side), step.closed ? "yes" : "no", step.start.x,
+                        step.start.y, step.length, step.left_in_corners});
   }
   return out;
 }

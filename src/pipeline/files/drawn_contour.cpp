@@ -20,7 +20,7 @@ Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options
   }
   DrawnContour out;
   out.warnings = drawing.warnings;
-  (has_choice(drawing) ? out.warnings : out.remarks)
+  (is_guessed(drawing, options.curve) ? out.warnings : out.remarks)
       .push_back(where + ": " + chosen_text(drawing, *chosen, options.curve.asked()));
   auto made =
       audit(*chosen < curves ? drawing.curves[*chosen] : edges_of(drawing.series[*chosen - curves]),

@@ -409,7 +409,7 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
   out.name = drawing.name + (out.label.empty() ? "" : ": " + out.label);
   out.units = drawing.units;
   out.warnings.insert(out.warnings.begin(), drawing.warnings.begin(), drawing.warnings.end());
-  if (has_choice(drawing)) {
+  if (is_guessed(drawing, options.curve)) {
     out.warnings.push_back(chosen_text(drawing, chosen, options.curve.asked()));
   }
   return placed(std::move(out), options);
@@ -498,8 +498,8 @@ std::string chosen_text(const Drawing& drawing, std::size_t chosen, bool asked) 
          fmt::format(", the longest of its kind; --curve N takes one of the other {}", count - 1);
 }
 
-bool has_choice(const Drawing& drawing) {
-  return drawing.curves.size() + drawing.series.size() > 1;
+bool is_guessed(const Drawing& drawing, const CurveChoice& asked) {
+  return drawing.curves.size() + drawing.series.size() > 1 && !asked.asked();
 }
 
 DrawnCurve edges_of(const PointSeries& series) {

@@ -10,11 +10,12 @@ namespace obvid::exchange {
 
 inline constexpr double kSecondsOfMinute = 60.0;  ///< feeds are lengths a minute
 
-/// Beyond these no machine works: what is given is a typing error. Lengths in mm, mm a minute,
-/// mm/s^2; speeds of spindles and powers of beams, the word S.
+/// Beyond these no machine works: what is given is a typing error. Lengths in mm, mm a minute;
+/// speeds of spindles and powers of beams, the word S.
 inline constexpr double kLongestWay = 1e6, kLeastFeed = 1e-3, kGreatestFeed = 1e7,
-                        kLeastAcceleration = 1e-3, kGreatestAcceleration = 1e12,
                         kGreatestSpeed = 1e7;
+/// mm/s^2. Below the first no time comes of a program, above the second it is that of no limit.
+inline constexpr double kLeastAcceleration = 1e-3, kGreatestAcceleration = 1e12;
 
 /// What a machine is thought to do. Lengths in its units, mm or inches.
 struct MotionRules {
