@@ -13,12 +13,13 @@
 namespace obvid::cutting {
 namespace {
 
-tl::unexpected<Error> bad(const char* what, const char* option, double value, const char* hint) {
+tl::unexpected<Error> bad(const char* what, const char* option, double value,
+                          const std::string& hint) {
   return fail(error(ErrorCode::kBadOption, what).where(option).hint(hint).value(value));
 }
 
 tl::unexpected<Error> bad(const char* what, const char* option, double value, double most) {
-  return bad(what, option, value, fmt::format("at most {:g}", most).c_str());
+  return bad(what, option, value, fmt::format("at most {:g}", most));
 }
 
 constexpr double kLongestPierce = 3600.0;  // seconds: an hour
