@@ -134,7 +134,7 @@ class Simplifier {
   /// Whether it turns between neighbouring points as they do not show.
   [[nodiscard]] bool winds() const {
     const PointRow points = row();
-    return windings(chain_, points, feet_, 0, points.intervals()) > 0;
+    return windings(chain_, points, feet_, 0, points.intervals(), kRefoundTurn) > 0;
   }
   [[nodiscard]] double largest() {
     find_feet(chain_, points_, feet_);
@@ -1119,7 +1119,8 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     if (!again) break;
   }
   const bool limits = options.least_length > 0.0 || options.least_radius > 0.0;
-  if (sought.plane == Plane::kMap && !sought.constant && !limits) {
+  const bool few = given.size() <= kMostSearchedAgain;
+  if (sought.plane == Plane::kMap && !sought.constant && !limits && few) {
     auto found = searched(points, allowed, options, sought, kRoundedChords, false, run);
     if (found) return result_of(*found);
     if (found.error().code == ErrorCode::kCancelled) return fail(found.error());

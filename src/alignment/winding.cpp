@@ -13,8 +13,6 @@ namespace obvid::alignment {
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
-/// rad: what rounding makes of half a turn, which three points on half a circle may have.
-constexpr double kRoundedTurn = 1e-9;
 /// Of an element whose law is not linear: places at which its heading is looked at.
 constexpr int kHeadingLooks = 16;
 /// rad: by how much more than the chords beside it a curve may leave a chord.
@@ -51,6 +49,11 @@ HeadingRange headings_between(const Chain& chain, const std::vector<Element>& jo
   return out;
 }
 
+Vec2 chord_of(const PointRow& row, std::size_t i) {
+  return i + 1 < row.points.size() ? row.points[i + 1] - row.points[i]
+                                   : row.points.front() + row.lap - row.points[i];
+}
+
 /// How far a chord may be turned as its ends move; nothing where to any side.
 std::optional<double> loose(const PointRow& row, std::size_t i, std::size_t j, Vec2 chord) {
   const double allowed = row.tolerance[i] + row.tolerance[j], length = norm(chord);
@@ -63,14 +66,10 @@ std::optional<double> loose(const PointRow& row, std::size_t i, std::size_t j, V
 Passage passage_of(const PointRow& row, std::size_t i) {
   constexpr double kQuarter = 0.5 * kHalfTurn;
   const std::size_t n = row.points.size();
-  const auto chord_of = [&](std::size_t k) {
-    return k + 1 < n ? row.points[k + 1] - row.points[k]
-                     : row.points.front() + row.lap - row.points[k];
-  };
   const auto loose_of = [&](std::size_t k) {
-    return loose(row, k, k + 1 < n ? k + 1 : 0, chord_of(k));
+    return loose(row, k, k + 1 < n ? k + 1 : 0, chord_of(row, k));
   };
-  const Vec2 chord = chord_of(i);
+  const Vec2 chord = chord_of(row, i);
   const auto own = loose_of(i);
   Passage out{heading(chord), 0.0, !own};
   if (!own) return out;
@@ -84,7 +83,7 @@ Passage passage_of(const PointRow& row, std::size_t i) {
     const std::size_t other =
         behind ? (i + 1) % row.intervals() : (i + row.intervals() - 1) % row.intervals();
     const auto turned_by = loose_of(other);
-    const Vec2 beside = chord_of(other);
+    const Vec2 beside = chord_of(row, other);
     const double turn = std::abs(std::atan2(cross(chord, beside), dot(chord, beside)));
     most = std::max(most, turned_by ? turn + *turned_by : kQuarter);
   }
@@ -92,13 +91,13 @@ Passage passage_of(const PointRow& row, std::size_t i) {
   return out;
 }
 
-bool allows(const Passage& passage, HeadingRange headings) {
+bool allows(const Passage& passage, HeadingRange headings, double rounded) {
   const double half = 0.5 * (headings.high - headings.low);
-  if (half > 0.5 * kHalfTurn + kRoundedTurn) return false;
+  if (half > 0.5 * kHalfTurn + rounded) return false;
   if (passage.any) return true;
   const double middle = 0.5 * (headings.low + headings.high);
   const double off = std::remainder(middle - passage.heading, 2.0 * std::numbers::pi);
-  return std::abs(off) + half <= passage.most + kRoundedTurn;
+  return std::abs(off) + half <= passage.most + rounded;
 }
 
 HeadingRange headings_along(double theta, double kappa0, double kappa1, double length, double s0,
@@ -112,7 +111,7 @@ HeadingRange headings_along(double theta, double kappa0, double kappa1, double l
 }
 
 std::size_t windings(const Chain& chain, const PointRow& row, const std::vector<Foot>& feet,
-                     std::size_t first, std::size_t last) {
+                     std::size_t first, std::size_t last, double rounded) {
   if (chain.plane != Plane::kMap) return 0;
   const std::vector<Element> joints = chain.joints();
   std::size_t out = 0;
@@ -127,7 +126,9 @@ std::size_t windings(const Chain& chain, const PointRow& row, const std::vector<
       const HeadingRange begun = headings_between(chain, joints, {}, feet.front());
       headings = both(headings, {begun.low + lap, begun.high + lap});
     }
-    if (!allows(passage_of(row, i), headings)) ++out;
+    // which every passage allows: its neighbours need not be looked at
+    if (allows({heading(chord_of(row, i)), kSwing, false}, headings)) continue;
+    if (!allows(passage_of(row, i), headings, rounded)) ++out;
   }
   return out;
 }

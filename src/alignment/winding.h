@@ -33,11 +33,20 @@ struct Passage {
 
 /// That between points i and i + 1. A curve goes nowhere back along the chord, and leaves it by no
 /// more than the chords before and behind do (a quarter turn at the ends, where there are none) and
-/// a twelfth of half a turn, but for what chords may be turned by as points move by their tolerances.
+/// a twelfth of half a turn, but for what chords may be turned by as points move by their
+/// tolerances.
 [[nodiscard]] Passage passage_of(const PointRow& row, std::size_t i);
 
-/// Whether it allows these headings. No curve turns by more than half a turn there.
-[[nodiscard]] bool allows(const Passage& passage, HeadingRange headings);
+/// rad: what rounding makes of half a turn, which three points on half a circle may have.
+inline constexpr double kRoundedTurn = 1e-9;
+/// rad: what rounding makes of headings at feet that are found again: a place on the curve, known
+/// to the digits of coordinates, times the curvature of what rounds a corner.
+inline constexpr double kRefoundTurn = 1e-6;
+
+/// Whether it allows these headings, with so much for rounding, rad. No curve turns by more than
+/// half a turn there.
+[[nodiscard]] bool allows(const Passage& passage, HeadingRange headings,
+                          double rounded = kRoundedTurn);
 
 /// Those of a clothoid from `s0` to `s1` of its length, which begins with heading `theta`.
 [[nodiscard]] HeadingRange headings_along(double theta, double kappa0, double kappa1, double length,
@@ -47,6 +56,6 @@ struct Passage {
 /// turns there as points do not show. None in a graph.
 [[nodiscard]] std::size_t windings(const Chain& chain, const PointRow& row,
                                    const std::vector<Foot>& feet, std::size_t first,
-                                   std::size_t last);
+                                   std::size_t last, double rounded = kRoundedTurn);
 
 }  // namespace obvid::alignment

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kOfTolerance = 0.5;    ///< that chords between the points are off what is drawn
 constexpr double kFewestOfPiece = 8.0;  ///< distances on the shortest piece, for its kind to show
-constexpr double kMostDistances = 2000.0;  ///< on the whole curve: its search takes half a minute
+constexpr double kMostDistances = 2000.0;  ///< on the whole curve: more take minutes
 
 struct Drawn {
   double length = 0.0, shortest = HUGE_VAL, sharpest = 0.0;
@@ -69,8 +69,9 @@ PointSeries with_drawn_points(const PointSeries& series, double tolerance,
     }
     ++kept;
   }
-  const std::string at = fmt::format("points of what is drawn were taken at distances of at most {} {}",
-                                     significant(step, 3), series.units.text());
+  const std::string at =
+      fmt::format("points of what is drawn were taken at distances of at most {} {}",
+                  significant(step, 3), series.units.text());
   if (step > wanted) {
     warnings.push_back(
         fmt::format("{}, the nearest that there are: between them the alignment may "
