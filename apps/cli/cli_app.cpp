@@ -42,9 +42,9 @@ Result<void> check_extras(const CLI::App& command, const std::vector<std::string
                       did_you_mean(option, option_names(command), see)));
   }
   const bool in_batches = name == "alignment" || name == "region";
-  return fail(usage("one argument too many: '" + extras.front() + "'",
-                    in_batches ? "many files at once: obvid batch FILES -o out.h5 --job " + name
-                               : see));
+  return fail(
+      usage("one argument too many: '" + extras.front() + "'",
+            in_batches ? "many files at once: obvid batch FILES -o out.h5 --job " + name : see));
 }
 
 std::string with_exit_codes(const std::string& text) {
