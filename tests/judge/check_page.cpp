@@ -124,12 +124,7 @@ class PageCheck {
     const Json& given = member(report_, "given");
     const Sentence s = sentence_of(value, file_.printed_unit());
     const auto figure_at = [&](std::size_t i) { return i < s.figures.size() ? s.figures[i] : ""; };
-    if (label == "contour") {
-      is_text("closed", value.substr(0, value.find(',')), file_.closed ? "closed" : "open");
-      is("pieces", figure_at(0), static_cast<double>(file_.pieces.size()));
-      is("points", figure_at(1), static_cast<double>(file_.points.size()));
-      is("runs", figure_at(2), static_cast<double>(file_.runs.size()));
-    } else if (label == "carrier") {
+    if (label == "carrier") {
       is_text("carrier", value, file_.carrier);
     } else if (label == "lengths in") {
       is_text("unit", value, file_.printed_unit());
