@@ -124,7 +124,11 @@ class PageCheck {
     const Json& given = member(report_, "given");
     const Sentence s = sentence_of(value, file_.printed_unit());
     const auto figure_at = [&](std::size_t i) { return i < s.figures.size() ? s.figures[i] : ""; };
-    if (label == "carrier") {
+    if (label == "contour") {  // "9 pieces through 10 points, 1 joint free between them in 2 runs"
+      is("pieces", figure_at(0), static_cast<double>(file_.pieces.size()));
+      is("points", figure_at(1), static_cast<double>(file_.points.size()));
+      is("runs", s.figures.empty() ? "" : s.figures.back(), static_cast<double>(file_.runs.size()));
+    } else if (label == "carrier") {
       is_text("carrier", value, file_.carrier);
     } else if (label == "lengths in") {
       is_text("unit", value, file_.printed_unit());

@@ -124,7 +124,7 @@ TEST(JudgeTexts, FindsEveryDoctoredFigureOfAPage) {
       "region "
       "width 8.3·10⁻⁴ mm</text><text class=\"verdict good\">✓ proved</text></svg>"
       "<table id=\"figures\"><caption>Figures</caption>\n<tbody>\n";
-  page += figure_row("contour", "open, 9 pieces through 10 points in 1 run");
+  page += figure_row("contour", "9 pieces through 10 points in 1 run");
   page += figure_row("carrier", "spiral") + figure_row("lengths in", "mm");
   page += figure_row("vertices", "0 (curvature extrema, at least 0 unless a curve winds)");
   page += figure_row("inflections", "0");
@@ -153,7 +153,7 @@ TEST(JudgeTexts, FindsEveryDoctoredFigureOfAPage) {
                    {"8.3·10⁻⁴", "8.1·10⁻⁴"},
                    {"8.3·10⁻⁴", "8.3·10⁻³"},
                    {"✓", "✗"},
-                   {"open, 9", "closed, 9"},
+                   {"9 pieces through", "8 pieces through"},
                    {"10 points", "11 points"},
                    {"<td>mm<", "<td>in<"},
                    {"<td>spiral<", "<td>arcs<"},
