@@ -192,6 +192,13 @@ std::string input_or_pipe(const std::string& input) {
   return "-";
 }
 
+std::vector<std::string> inputs_or_pipe(std::vector<std::string> inputs) {
+  if (!inputs.empty()) return inputs;
+  std::string piped = input_or_pipe("");
+  if (!piped.empty()) inputs.push_back(std::move(piped));
+  return inputs;
+}
+
 namespace {
 
 /// `--option = value`, as the parser ends its sentence about a value that it cannot read.

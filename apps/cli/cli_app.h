@@ -86,6 +86,8 @@ template <class Options>
 /// What a command takes in place of a missing input: "-" where something comes through a pipe or
 /// from a file, else nothing. Waits for it; reads nothing.
 [[nodiscard]] std::string input_or_pipe(const std::string& input);
+/// The same for a list.
+[[nodiscard]] std::vector<std::string> inputs_or_pipe(std::vector<std::string> inputs);
 
 /// Width of the column of names in `--help`.
 inline constexpr std::size_t kHelpColumn = 28;

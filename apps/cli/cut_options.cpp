@@ -103,12 +103,8 @@ Result<Command> checked_cut(const CLI::App& app, RawCut& raw) {
   if (raw.reading.curve == "all") raw.reading.curve.reset();  // which is what is done
   OBVID_TRY(set_import(raw.reading, command.import));
   OBVID_TRY(set_cut(raw.values, command.job));
-  if (command.inputs.empty()) {
-    command.inputs = {input_or_pipe("")};
-    if (command.inputs.front().empty()) {
-      return fail(usage("cut needs a drawing", "see obvid cut --help"));
-    }
-  }
+  command.inputs = inputs_or_pipe(std::move(command.inputs));
+  if (command.inputs.empty()) return fail(usage("cut needs a drawing", "see obvid cut --help"));
   OBVID_TRY(settle_streams(command, raw.format, raw.csv, "nc"));
   if (raw.csv) command.outputs.emplace_back("-.csv");
   if (raw.csv) command.quiet = true;

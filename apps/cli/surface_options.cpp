@@ -413,9 +413,7 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
   SurfaceOptions& make = raw.make;
   make.command = text.name;
   make.job.kind = kind_of(text);
-  if (raw.inputs.empty()) {
-    if (std::string piped = input_or_pipe(""); !piped.empty()) raw.inputs = {std::move(piped)};
-  }
+  raw.inputs = inputs_or_pipe(std::move(raw.inputs));
   make.job.inputs.assign(raw.inputs.begin(), raw.inputs.end());
   if (auto* second = second_inputs(make.job)) second->assign(raw.across.begin(), raw.across.end());
   OBVID_TRY(settle_streams(make, raw.format));

@@ -992,8 +992,9 @@ Result<void> check_points(const std::vector<Vec2>& points, const AlignmentOption
 /// beside one of ten metres that is not enough; around a loop begun elsewhere, where its ends may
 /// join.
 struct Attempt {
-  double part;   ///< of the tolerances
-  double begin;  ///< of the points
+  double part;           ///< of the tolerances
+  double begin;          ///< of the points
+  bool rounded = false;  ///< no search: the chords with rounded corners
 };
 constexpr std::array kAttempts = {Attempt{1.0, 0.0},  Attempt{1.0, 0.5},  Attempt{0.5, 0.0},
                                   Attempt{0.5, 0.25}, Attempt{0.25, 0.0}, Attempt{0.25, 0.75},
@@ -1019,7 +1020,7 @@ std::string advice_for_others(const AlignmentOptions& options, const Sought& sou
 }
 
 /// What is begun with where no search came to elements: on a map, where no limits are given.
-constexpr Attempt kRoundedChords = {0.0, 0.0};
+constexpr Attempt kRoundedChords = {1.0, 0.0, true};
 
 /// Elements from one of these searches, or of the chords with rounded corners.
 Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
@@ -1043,11 +1044,10 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   std::vector<double> within = tolerance;
   const double part = attempt.part * (options.without_steps ? kBeforeTransitions : 1.0);
   for (double& one : within) one *= part;
-  const bool rounded = attempt.part == kRoundedChords.part;
   Sought search = sought;
   if (sought.corners) search.plane = Plane::kGraph;  // for arcs likewise: they begin as parabolas
-  auto nodes = rounded ? Result<std::vector<Node>>(rounded_corners(points, tolerance))
-                       : fewest_pieces(points, within, options, search, run);
+  auto nodes = attempt.rounded ? Result<std::vector<Node>>(rounded_corners(points, tolerance))
+                               : fewest_pieces(points, within, options, search, run);
   OBVID_TRY(nodes);
   if (search.plane != sought.plane) {
     for (Node& node : *nodes) node.theta = std::atan(node.theta);
@@ -1057,7 +1057,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   set_chain(*nodes, points.size(), sought, chain, feet);
   find_feet(chain, points, feet);
   Simplifier out(std::move(points), std::move(tolerance), options, sought, std::move(chain),
-                 std::move(feet), begin, rounded);
+                 std::move(feet), begin, attempt.rounded);
   OBVID_TRY(options.closed ? out.run_around(others, run) : out.run(others, run));
   const double largest = out.largest();
   if (!(largest <= 1.0)) {

@@ -76,9 +76,8 @@ std::string message_of(const Work& work, const Trouble& trouble) {
   return out;
 }
 
-/// What the command would have warned of, one behind the other.
-std::string warnings_of(const Work& work) {
-  std::vector<std::string> all = reported_warnings(work.kind, work.report.get());
+/// What the command would have warned of, one behind the other; `all`: what the report has.
+std::string warnings_of(const Work& work, std::vector<std::string> all) {
   const auto add = [&](const auto& made, auto warning_at) {
     for (std::size_t k = 0; made && warning_at(made.get(), k) != nullptr; ++k) {
       all.emplace_back(warning_at(made.get(), k));
@@ -124,7 +123,7 @@ void add_row(const std::string& id, const Work& work, const Trouble& trouble, do
              Columns& rows) {
   const int code = trouble.code != 0 ? trouble.code : work.error ? work.error->code : 0;
   obvid_figures figures = figures_of_work(work);
-  std::vector<double> more = take_report(work.kind, work.report.get(), figures);
+  TakenReport taken = take_report(work.kind, work.report.get(), figures);
   const bool formed = work.contour || work.space || work.report;
   Status status = code == 0 ? Status::kDone : Status::kFailed;
   if (code != 0 && formed && code / 100 == OBVID_NOT_PROVED) status = Status::kNotKept;
@@ -134,13 +133,13 @@ void add_row(const std::string& id, const Work& work, const Trouble& trouble, do
   row.number(static_cast<double>(status));
   row.number(code);
   row.text(one_line(message_of(work, trouble), kLongestMessage));
-  row.text(one_line(warnings_of(work), kLongestMessage));
+  row.text(one_line(warnings_of(work, std::move(taken.warnings)), kLongestMessage));
   for (const int count : {figures.points, figures.pieces, figures.vertices, figures.bound,
                           figures.inflections, figures.corners, figures.proved}) {
     row.number(count);
   }
   for (const double length : {figures.error, figures.move, figures.width}) row.number(length);
-  for (const double one : more) row.number(one);
+  for (const double one : taken.values) row.number(one);
   row.number(seconds);
 }
 

@@ -42,6 +42,16 @@ double largest_at(const ReportJson& object, const char* rows, const char* name) 
   return out;
 }
 
+std::vector<std::string> warnings_in(const ReportJson& report) {
+  std::vector<std::string> out;
+  const auto at = report.find("warnings");
+  if (at == report.end() || !at->is_array()) return out;
+  for (const ReportJson& one : *at) {
+    if (one.is_string()) out.push_back(one.get<std::string>());
+  }
+  return out;
+}
+
 std::vector<double> of_compare(const ReportJson& report, obvid_figures& figures) {
   std::vector<double> out(5 * kCarriers.size(), kUnknown);
   const auto rows = report.find("carriers");
@@ -230,36 +240,31 @@ std::vector<Column> report_columns(const JobKind& kind) {
   return out;
 }
 
-std::vector<double> take_report(const JobKind& kind, const char* text, obvid_figures& figures) {
-  std::vector<double> nothing;
+TakenReport take_report(const JobKind& kind, const char* text, obvid_figures& figures) {
+  TakenReport out;
   for (const Column& column : report_columns(kind)) {
-    nothing.push_back(column.type == Column::Type::kNumber ? kUnknown : kUnknownCount);
+    out.values.push_back(column.type == Column::Type::kNumber ? kUnknown : kUnknownCount);
   }
-  if (text == nullptr || !kind.reports || kind.name == "verify") return nothing;
+  if (text == nullptr || !kind.reports || kind.name == "verify") return out;
   const ReportJson report = ReportJson::parse(text, nullptr, false);
-  if (!report.is_object()) return nothing;
+  if (!report.is_object()) return out;
+  out.warnings = warnings_in(report);
   if (kind.name == "compare") {
-    return kind.against ? of_compared_curves(report, figures) : of_compare(report, figures);
-  }
-  if (kind.name == "suggest") return of_suggest(report, std::move(nothing), figures);
-  if (kind.name == "alignment") return of_alignment(report, figures);
-  if (kind.name == "cut") return of_cut(report);
-  if (kind.name == "spline") return of_spline(report, figures);
-  if (kind.name == "nurbs") return of_nurbs(report, figures);
-  if (kind.name == "analyse") of_analyse(report, figures);
-  if (kind.name == "region") of_region(report, figures);
-  return nothing;
-}
-
-std::vector<std::string> reported_warnings(const JobKind& kind, const char* text) {
-  std::vector<std::string> out;
-  if (text == nullptr || !kind.reports) return out;
-  const ReportJson report = ReportJson::parse(text, nullptr, false);
-  if (!report.is_object() || !report.contains("warnings") || !report["warnings"].is_array()) {
-    return out;
-  }
-  for (const ReportJson& one : report["warnings"]) {
-    if (one.is_string()) out.push_back(one.get<std::string>());
+    out.values = kind.against ? of_compared_curves(report, figures) : of_compare(report, figures);
+  } else if (kind.name == "suggest") {
+    out.values = of_suggest(report, std::move(out.values), figures);
+  } else if (kind.name == "alignment") {
+    out.values = of_alignment(report, figures);
+  } else if (kind.name == "cut") {
+    out.values = of_cut(report);
+  } else if (kind.name == "spline") {
+    out.values = of_spline(report, figures);
+  } else if (kind.name == "nurbs") {
+    out.values = of_nurbs(report, figures);
+  } else if (kind.name == "analyse") {
+    of_analyse(report, figures);
+  } else if (kind.name == "region") {
+    of_region(report, figures);
   }
   return out;
 }

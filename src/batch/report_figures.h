@@ -15,12 +15,13 @@ namespace obvid::batch {
 /// Columns that only this job has, between those of all and `seconds`.
 [[nodiscard]] std::vector<Column> report_columns(const JobKind& kind);
 
-/// Fills in what a report says and returns the values of the columns above; unknown where `report`
-/// is NULL.
-[[nodiscard]] std::vector<double> take_report(const JobKind& kind, const char* report,
-                                              obvid_figures& figures);
+struct TakenReport {
+  std::vector<double> values;  ///< of the columns above
+  std::vector<std::string> warnings{};
+};
 
-/// The warnings of a report that is at hand in any case; none where `report` is NULL.
-[[nodiscard]] std::vector<std::string> reported_warnings(const JobKind& kind, const char* report);
+/// Fills in what a report says and returns the rest; values are unknown where `report` is NULL.
+[[nodiscard]] TakenReport take_report(const JobKind& kind, const char* report,
+                                      obvid_figures& figures);
 
 }  // namespace obvid::batch

@@ -325,12 +325,16 @@ double stored_curvature(const RationalBezier& piece, bool at_start) {
 }
 
 double accurate_curvature(const Piece& piece, double t) {
+  return accurate_curvature(piece, t, evaluate(piece, t));
+}
+
+double accurate_curvature(const Piece& piece, double t, const Jet& jet) {
   const auto* bezier = std::get_if<RationalBezier>(&piece);
   const bool at_end = t == 0.0 || t == 1.0;
   if (bezier != nullptr && bezier->degree > 1 && at_end && !is_singular_end(piece, t)) {
     return stored_curvature(*bezier, t == 0.0);
   }
-  return curvature(evaluate(piece, t));
+  return curvature(jet);
 }
 
 void keep_end_curvatures(RationalBezier& piece, WantedCurvatures wanted, InnerWeights weights) {

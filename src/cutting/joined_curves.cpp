@@ -2,37 +2,15 @@
 #include "joined_curves.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
+
+#include "obvid/numeric/internal/disjoint_sets.h"
 
 namespace obvid::cutting {
 namespace {
 
 /// Of a chain's length: ends nearer to each other look as if they were meant to meet.
 constexpr double kSmallGap = 0.01;
-
-/// Which of some things belong together (disjoint sets).
-class Together {
- public:
-  explicit Together(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// False where they were together already.
-  bool join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return false;
-    parent_[std::max(a, b)] = std::min(a, b);
-    return true;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// Ends by their numbers: 2 i where curve i begins, 2 i + 1 where it ends.
 Vec2 end_of(const std::vector<ArcPath>& curves, std::size_t end) {
@@ -67,8 +45,8 @@ Piece between(const Piece& piece, Vec2 start, Vec2 end) {
 }
 
 struct Met {
+  ClosedGap gap;
   std::optional<Piece> line;  ///< that has to lead from one to the other
-  double gap = 0.0, moved = 0.0;
 };
 
 /// Lets a piece end where the other one starts.
@@ -77,10 +55,10 @@ Met meet(Piece& piece, Piece& next) {
       10.0;  // times the gap: ends then turn by less than a tenth of a radian
   const Vec2 from = end_point(piece), to = start_point(next);
   Met out;
-  out.gap = norm(to - from);
-  if (out.gap == 0.0) return out;
+  out.gap.width = norm(to - from);
+  if (out.gap.width == 0.0) return out;
   const auto is_long = [&](const Piece& one) {
-    return norm(end_point(one) - start_point(one)) >= kLonger * out.gap;
+    return norm(end_point(one) - start_point(one)) >= kLonger * out.gap.width;
   };
   if (!is_long(piece) || !is_long(next)) {
     out.line = LinePiece{from, to};
@@ -89,16 +67,20 @@ Met meet(Piece& piece, Piece& next) {
   const Vec2 middle = 0.5 * (from + to);
   piece = between(piece, start_point(piece), middle);
   next = between(next, middle, end_point(next));
-  out.moved = 0.5 * out.gap;
+  out.gap.moved = 0.5 * out.gap.width;
   return out;
+}
+
+void count_in(JoinedCurves::Chain& chain, const ClosedGap& gap) {
+  chain.largest_gap = std::max(chain.largest_gap, gap.width);
+  chain.moved = std::max(chain.moved, gap.moved);
 }
 
 void append(JoinedCurves::Chain& chain, ArcPath next) {
   std::vector<Piece>& pieces = chain.path.pieces;
   if (!pieces.empty()) {
     const Met met = meet(pieces.back(), next.pieces.front());
-    chain.largest_gap = std::max(chain.largest_gap, met.gap);
-    chain.moved = std::max(chain.moved, met.moved);
+    count_in(chain, met.gap);
     if (met.line) pieces.push_back(*met.line);
   }
   pieces.insert(pieces.end(), next.pieces.begin(), next.pieces.end());
@@ -106,16 +88,16 @@ void append(JoinedCurves::Chain& chain, ArcPath next) {
 
 }  // namespace
 
-double close_gap(ArcPath& path) {
+ClosedGap close_gap(ArcPath& path) {
   const Met met = meet(path.pieces.back(), path.pieces.front());
   if (met.line) path.pieces.push_back(*met.line);
   path.closed = true;
-  return met.moved;
+  return met.gap;
 }
 
 JoinedCurves joined_curves(const std::vector<ArcPath>& open, double within) {
   const std::size_t ends = 2 * open.size();
-  Together places(ends);
+  numeric::DisjointSets places(ends);
   near_ends(open, within, [&](std::size_t a, std::size_t b, double) { places.join(a, b); });
   std::vector<std::vector<std::size_t>> at(ends);  // ends that meet, by the first of them
   for (std::size_t i = 0; i < ends; ++i) at[places.find(i)].push_back(i);
@@ -149,17 +131,13 @@ JoinedCurves joined_curves(const std::vector<ArcPath>& open, double within) {
       if (!following || *following == begin) break;
       end = *following;
     }
-    if (loop) {
-      chain.largest_gap = std::max(chain.largest_gap, norm(start_point(chain.path.pieces.front()) -
-                                                           end_point(chain.path.pieces.back())));
-      chain.moved = std::max(chain.moved, close_gap(chain.path));
-    }
+    if (loop) count_in(chain, close_gap(chain.path));
     begins.push_back(begin);
     finishes.push_back(end);
     out.chains.push_back(std::move(chain));
   }
 
-  Together parts(ends);
+  numeric::DisjointSets parts(ends);
   for (std::size_t k = 0; k < out.chains.size() && !out.enclosing; ++k) {
     if (out.chains[k].path.closed) continue;
     if (!parts.join(places.find(begins[k]), places.find(finishes[k]))) out.enclosing = k;

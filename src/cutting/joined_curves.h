@@ -9,6 +9,11 @@
 
 namespace obvid::cutting {
 
+struct ClosedGap {
+  double width = 0.0;
+  double moved = 0.0;  ///< how far its ends were moved; 0: a line leads over it
+};
+
 /// Open curves that were put together where exactly two ends meet.
 struct JoinedCurves {
   struct Chain {
@@ -33,7 +38,7 @@ struct JoinedCurves {
 [[nodiscard]] JoinedCurves joined_curves(const std::vector<ArcPath>& open, double within);
 
 /// Lets the last piece end where the first one starts: half way, pieces similar to what they were;
-/// by a line where one of them is not ten times as long as the gap. How far ends were moved.
-double close_gap(ArcPath& path);
+/// by a line where one of them is not ten times as long as the gap.
+ClosedGap close_gap(ArcPath& path);
 
 }  // namespace obvid::cutting

@@ -140,7 +140,7 @@ class TrackMaker {
       out_.warnings.push_back(fmt::format(
           "{}: its ends are {} apart, within the tolerance: it is closed", track.name, told(gap)));
     }
-    track.deviation += close_gap(track.edge);
+    track.deviation += close_gap(track.edge).moved;
   }
 
   /// Open curves whose ends are as near as the tolerance are one curve; where three and more ends

@@ -26,7 +26,7 @@ struct Sample {
 
 Sample sample(const Piece& piece, double t) {
   const Jet jet = evaluate(piece, t);
-  return {jet.point, jet.d1, accurate_curvature(piece, t)};
+  return {jet.point, jet.d1, accurate_curvature(piece, t, jet)};
 }
 
 /// Width of the region between two samples; the bilens where rounding hides the region.

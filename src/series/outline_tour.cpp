@@ -6,9 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 #include <utility>
+
+#include "obvid/numeric/internal/disjoint_sets.h"
 
 namespace obvid {
 namespace {
@@ -43,16 +44,13 @@ std::vector<Order> nearest_of_all(const std::vector<Vec2>& points) {
 /// Shortest edges first, none that would make a third at a point or close a ring.
 class GreedyRow {
  public:
-  explicit GreedyRow(const std::vector<Vec2>& points) : points_(points), beside_(points.size()) {
-    group_.resize(points.size());
-    std::iota(group_.begin(), group_.end(), Index{0});
-  }
+  explicit GreedyRow(const std::vector<Vec2>& points)
+      : points_(points), beside_(points.size()), rows_(points.size()) {}
 
   void add(Index a, Index b) {
-    if (beside_[a].size() == 2 || beside_[b].size() == 2 || root(a) == root(b)) return;
+    if (beside_[a].size() == 2 || beside_[b].size() == 2 || !rows_.join(a, b)) return;
     beside_[a].push_back(b);
     beside_[b].push_back(a);
-    group_[root(a)] = root(b);
     ++edges_;
   }
 
@@ -63,7 +61,8 @@ class GreedyRow {
       const Order ends = open_ends();
       for (const Index a : ends) {
         for (const Index b : ends) {
-          if (a < b && root(a) != root(b)) best = std::min(best, {between(points_, a, b), a, b});
+          if (a < b && rows_.find(a) != rows_.find(b))
+            best = std::min(best, {between(points_, a, b), a, b});
         }
       }
       add(std::get<1>(best), std::get<2>(best));
@@ -80,10 +79,6 @@ class GreedyRow {
   }
 
  private:
-  Index root(Index a) {
-    while (group_[a] != a) a = group_[a] = group_[group_[a]];
-    return a;
-  }
   [[nodiscard]] Order open_ends() const {
     Order out;
     for (Index i = 0; i < points_.size(); ++i) {
@@ -94,7 +89,7 @@ class GreedyRow {
 
   const std::vector<Vec2>& points_;
   std::vector<Order> beside_;
-  Order group_;
+  numeric::DisjointSets rows_;  // what belongs to one
   Index edges_ = 0;
 };
 

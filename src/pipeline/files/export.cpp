@@ -338,6 +338,9 @@ Result<Exported> airfoil_file(const ContourExport& e) {
   return out;
 }
 
+/// Whether a name was given.
+bool is_named(const ExportOptions& options) { return options.name != ExportOptions{}.name; }
+
 /// Whether there is anything that a file of the curve alone would not say.
 bool is_said(const StoredAlignment& one) {
   return one.first_station != 0.0 || !one.transitions.empty() || one.profile;
@@ -346,7 +349,7 @@ bool is_said(const StoredAlignment& one) {
 /// What the file of the contour says where nothing else was asked for.
 ExportOptions with_stored(const ExportOptions& asked, const StoredContour& stored) {
   ExportOptions out = asked;
-  if (out.name == ExportOptions{}.name && !stored.name.empty()) out.name = stored.name;
+  if (!is_named(out) && !stored.name.empty()) out.name = stored.name;
   if (!stored.alignment || is_said({out.first_station, out.transitions, out.profile})) return out;
   out.first_station = stored.alignment->first_station;
   out.transitions = stored.alignment->transitions;
@@ -385,7 +388,7 @@ std::string without_profile(const VerticalProfile& profile) {
 /// The curve's name, else that of the file that it was formed from.
 std::string name_of_road(const ExportOptions& options) {
   const std::string file = std::filesystem::path(options.picture.name).stem().string();
-  return options.name == ExportOptions{}.name && !file.empty() ? file : options.name;
+  return !is_named(options) && !file.empty() ? file : options.name;
 }
 
 }  // namespace
@@ -404,7 +407,7 @@ Result<void> can_plot(const ContourExport& e) {
 
 Result<Exported> contour_as_json(const ContourExport& e) {
   StoredContour stored = e.stored;
-  if (e.options.name != ExportOptions{}.name) stored.name = e.options.name;
+  if (is_named(e.options)) stored.name = e.options.name;
   StoredAlignment own{e.options.first_station, e.options.transitions, e.options.profile};
   stored.alignment.reset();
   if (is_said(own)) stored.alignment = std::move(own);

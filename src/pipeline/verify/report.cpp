@@ -255,12 +255,11 @@ class PartMeasure {
   /// Both ends as the pieces have them; arcs leave a joint's curvature to its element.
   [[nodiscard]] ChordFrame frame_of(const Stretch& s, const Ends& e) const {
     const bool arcs = steps_at_joints(contour_.carrier);
-    const auto curvature_of = [&](std::size_t k, double t) {
-      return accurate_curvature(contour_.pieces[k], t);
-    };
-    const double start =
-        arcs ? start_element(contour_, s.first).kappa : curvature_of(s.first, s.t0);
-    const double end = arcs ? end_element(contour_, s.last).kappa : curvature_of(s.last, s.t1);
+    const std::vector<Piece>& pieces = contour_.pieces;
+    const double start = arcs ? start_element(contour_, s.first).kappa
+                              : accurate_curvature(pieces[s.first], s.t0, e.start);
+    const double end = arcs ? end_element(contour_, s.last).kappa
+                            : accurate_curvature(pieces[s.last], s.t1, e.end);
     return chord_frame(e.start.point, e.start.d1, start, e.end.point, e.end.d1, end);
   }
 

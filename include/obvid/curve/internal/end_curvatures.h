@@ -23,6 +23,8 @@ enum class InnerWeights { kFixed, kFree };
 /// all digits that its numbers have (`stored_curvature`), else that of its jet, which in nearly
 /// straight pieces has lost those that cancel.
 [[nodiscard]] double accurate_curvature(const Piece& piece, double t);
+/// The same where the jet is at hand.
+[[nodiscard]] double accurate_curvature(const Piece& piece, double t, const Jet& jet);
 
 /// Moves inner control points so that the stored curvatures are the wanted ones (degree 2, 4 or 5,
 /// positive weights). In a nearly straight piece half a unit of the last bit of a control point is
