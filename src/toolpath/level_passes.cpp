@@ -44,12 +44,17 @@ void LevelPasses::Crossing::narrow(Vec2 at, double over) {
 // Regula falsi with halvings (Illinois).
 template <class Over>
 void LevelPasses::Crossing::close_in(double near, const Over& over) {
+  constexpr double kNearEnd = 0.02;  // of the way: no step ends nearer to where it began
+  constexpr int kHalvedEvery = 4;    // steps, so that a bent line ends, too
   double low = clear.over, high = held.over;
   int last = 0;
   for (int k = 0; k < kMostCloser && norm(held.at - clear.at) > near; ++k) {
     if (clear.over > -near) break;
     double part = 0.5;
-    if (std::isfinite(low) && k % 4 != 3) part = std::clamp(low / (low - high), 0.02, 0.98);
+    const bool halved = (k + 1) % kHalvedEvery == 0;
+    if (std::isfinite(low) && !halved) {
+      part = std::clamp(low / (low - high), kNearEnd, 1.0 - kNearEnd);
+    }
     const Vec2 p = clear.at + part * (held.at - clear.at);
     const double h = over(p);
     narrow(p, h);
