@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every figure that two commands, or a text, a file and a picture, both print is the same figure.
 
-usage: figures_agree.py PROGRAM DATA OWN [--all] [--only TEXT] [--jobs N]
+usage: figures_agree.py PROGRAM DATA OWN [--every-file | --all] [--only TEXT] [--jobs N]
 
 DATA   folder of public data sets; where it is not there only OWN is swept, and that is said
 OWN    folders of files that come with the sources, separated by commas
---all  every file and every carrier instead of a spread over them
+--every-file  every file instead of a spread over them: spirals and one more carrier, which take turns
+--all         every file, every option and every carrier
 
 What is compared, for each series of points: table, JSON and contour file of `fit`; `verify` (table,
 JSON), `analyse` (table, JSON, picture) and `convert` (files, picture) of that contour file; the
@@ -749,7 +750,7 @@ def spread(things, count):
     return [things[round(i * (len(things) - 1) / (count - 1))] for i in range(count)]
 
 
-def jobs_of(data, own, everything):
+def jobs_of(data, own, every_file, everything):
     """(path, options, carriers) of series, (path,) of drawings; and how many files there are."""
     jobs, there, turn = [], 0, 0
     for folder in own:
@@ -766,7 +767,7 @@ def jobs_of(data, own, everything):
         files = sorted(p for p in data.glob(pattern) if p.is_file())
         there += len(files)
         small = [p for p in files if p.stat().st_size <= BYTES_OF_A_SMALL_FILE]
-        for i, path in enumerate(files if everything else spread(small, count)):
+        for i, path in enumerate(files if every_file else spread(small, count)):
             for options in choices if everything else [choices[i % len(choices)]]:
                 turn += 1  # carriers take turns, spirals are always there
                 some = ["spiral", CARRIERS[1 + turn % (len(CARRIERS) - 1)]]
@@ -775,7 +776,7 @@ def jobs_of(data, own, everything):
         files = sorted(p for p in data.glob(pattern) if p.is_file())
         there += len(files)
         small = [p for p in files if p.stat().st_size <= 10 * BYTES_OF_A_SMALL_FILE]
-        jobs += [(path,) for path in (files if everything else spread(small, count))]
+        jobs += [(path,) for path in (files if every_file else spread(small, count))]
     for surfaces, folder in [(OWN_SURFACES, own[0]), (SURFACES, data)]:
         for kind, patterns, options in surfaces:
             paths = [folder / (pattern % axis) if "%s" in pattern else folder / pattern
@@ -791,6 +792,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("data", type=pathlib.Path)
     parser.add_argument("own")
+    parser.add_argument("--every-file", action="store_true")
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--only", default="", help="files whose path holds this")
     parser.add_argument("--jobs", type=int, default=min(2, os.cpu_count() or 1))
@@ -799,7 +801,7 @@ def main():
     if not asked.data.is_dir():
         print(f"{asked.data} is not there: only the files of the sources are swept")
     own = [pathlib.Path(folder).resolve() for folder in asked.own.split(",")]
-    jobs, there = jobs_of(asked.data.resolve(), own, asked.all)
+    jobs, there = jobs_of(asked.data.resolve(), own, asked.every_file or asked.all, asked.all)
     jobs = [job for job in jobs if asked.only in str(job[0])]
     start = time.monotonic()
     bad = checks = runs = formed = 0
@@ -822,7 +824,7 @@ def main():
             checks, runs, formed = checks + checked, runs + ran, formed + made
             bad += bool(faults)
             if faults:
-                print("DISAGREE " + " ".join([str(job[0]), *(job[1] if len(job) == 3 else [])]))
+                print("DISAGREE " + " ".join([str(job[0]), *(job[1] if len(job) == 3 else [])]), flush=True)
                 for fault in faults:
                     print("    " + (fault if len(fault) < 400 else fault[:400] + " ..."))
     swept = len({job[0] for job in jobs})
