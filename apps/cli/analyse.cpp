@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/job_files.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
@@ -47,6 +48,12 @@ std::string points_page(const AnalyseOptions& options, const AnalysedSeries& poi
   return page_text(page);
 }
 
+Result<std::string> points_file_of(FileFormat format, const AnalyseOptions& options,
+                                   const AnalysedSeries& points) {
+  if (format != FileFormat::kPage) return analysis_file(format, points);
+  return points_page(options, points);
+}
+
 /// Tables of points; a picture needs a curve.
 Result<std::vector<std::string>> write_tables(const AnalyseOptions& options,
                                               const AnalysedSeries& points) {
@@ -54,17 +61,9 @@ Result<std::vector<std::string>> write_tables(const AnalyseOptions& options,
   for (const std::string& path : options.outputs) {
     const auto format = analysis_format_of(path);
     OBVID_TRY(format);
-    if (*format == FileFormat::kSamples) {
-      files.push_back({path, {}, csv_text(series_rows(points.series, points.analysis))});
-    } else if (*format == FileFormat::kContour) {
-      files.push_back({path, {}, series_report_json(points.series, points.analysis)});
-    } else if (*format == FileFormat::kPage) {
-      files.push_back({path, {}, points_page(options, points)});
-    } else {
-      return error(ErrorCode::kBadOption, "points alone make no picture of a curve")
-          .where(path)
-          .hint("use `obvid fit POINTS -o NAME.svg`; analyse writes .csv, .json and .html");
-    }
+    auto text = points_file_of(*format, options, points);
+    if (!text) return fail(of_file(text.error(), path));
+    files.push_back({path, *format, std::move(*text)});
   }
   return write_files(files, options.input);
 }

@@ -14,6 +14,7 @@
 #include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/element_table.h"
+#include "obvid/pipeline/internal/job_files.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
@@ -182,33 +183,6 @@ std::string audit_text(const AnalysedDrawing& analysed, bool all) {
   return out;
 }
 
-/// The picture is of one curve: the one that was asked for, else the longest.
-const CurveAudit& pictured(const std::vector<CurveAudit>& audits,
-                           const std::optional<std::size_t>& asked) {
-  if (asked && *asked < audits.size()) return audits[*asked];
-  return *std::max_element(
-      audits.begin(), audits.end(),
-      [](const CurveAudit& a, const CurveAudit& b) { return a.length < b.length; });
-}
-
-std::string audit_report_json(const AnalysedDrawing& analysed) {
-  const auto& points = analysed.points;
-  return audit_json(analysed.drawing, analysed.audits,
-                    points ? series_report_json(points->series, points->analysis) : "");
-}
-
-/// The picture of the curve that is asked for, or of the longest.
-Result<std::string> audit_picture(const AnalyseOptions& options, const AnalysedDrawing& analysed) {
-  const CurveAudit& a = pictured(analysed.audits, analysed.asked);
-  ExportOptions titled;
-  titled.picture = {analysed.drawing.name + ": " + a.label, as_drawn(a)};
-  titled.plots = options.plots;
-  const auto drawn =
-      export_contour({a.contour, std::nullopt, a.certificate}, FileFormat::kPicture, titled);
-  OBVID_TRY(drawn);
-  return drawn->files.front().text;
-}
-
 DataTable place_rows(const CurveAudit& a) {
   DataTable out{heads_of(a.station ? "station,what,x,y,radius_before,radius_after,size"
                                    : "s,what,x,y,radius_before,radius_after,size")};
@@ -254,10 +228,10 @@ Result<std::string> audit_page(const AnalyseOptions& options, const AnalysedDraw
   page.tables.push_back(
       table_of_page("curves", "Curves and series of points", drawing_rows(drawing, audits)));
   if (!audits.empty()) {
-    auto picture = audit_picture(options, analysed);
+    auto picture = analysis_file(FileFormat::kPicture, analysed, options.plots);
     OBVID_TRY(picture);
     page.pictures.push_back(std::move(*picture));
-    page.figures.emplace_back("picture", pictured(audits, asked).label);
+    page.figures.emplace_back("picture", pictured_curve(analysed)->label);
     page.notes.emplace_back(kJointsLegend);
     add_details(options, analysed, page);
   }
@@ -274,9 +248,14 @@ Result<std::string> audit_page(const AnalyseOptions& options, const AnalysedDraw
   return page_text(page);
 }
 
-Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& options,
-                                                      const AnalysedDrawing& analysed) {
-  const std::vector<CurveAudit>& audits = analysed.audits;
+Result<std::string> drawing_file_of(FileFormat format, const AnalyseOptions& options,
+                                    const AnalysedDrawing& analysed) {
+  if (format == FileFormat::kPage) return audit_page(options, analysed);
+  return analysis_file(format, analysed, options.plots);
+}
+
+Result<std::vector<std::string>> write_audit_files(const AnalyseOptions& options,
+                                                   const AnalysedDrawing& analysed) {
   std::vector<Output> outputs;
   for (const std::string& path : options.outputs) {
     const auto format = analysis_format_of(path);
@@ -284,26 +263,9 @@ Result<std::vector<std::string>> write_audit_pictures(const AnalyseOptions& opti
     outputs.push_back({path, *format, {}});
   }
   for (Output& output : outputs) {
-    if (output.format == FileFormat::kSamples || output.format == FileFormat::kContour) {
-      output.text = output.format == FileFormat::kSamples
-                        ? csv_text(drawing_rows(analysed.drawing, audits))
-                        : audit_report_json(analysed);
-      continue;
-    }
-    if (output.format == FileFormat::kPage) {
-      auto page = audit_page(options, analysed);
-      OBVID_TRY(page);
-      output.text = std::move(*page);
-      continue;
-    }
-    if (audits.empty()) {
-      return error(ErrorCode::kBadOption, "points alone make no picture of a curve")
-          .where(output.path)
-          .hint("name an .html, .csv or .json");
-    }
-    auto picture = audit_picture(options, analysed);
-    OBVID_TRY(picture);
-    output.text = std::move(*picture);
+    auto text = drawing_file_of(output.format, options, analysed);
+    if (!text) return fail(of_file(text.error(), output.path));
+    output.text = std::move(*text);
   }
   return write_files(outputs, options.input);
 }
@@ -326,13 +288,15 @@ Result<AnalysedDrawing> analysed_drawing(const AnalyseOptions& options) {
 int audit_drawing(const AnalyseOptions& options) {
   const auto analysed = analysed_drawing(options);
   if (!analysed) return report(analysed.error());
-  const auto written = write_audit_pictures(options, *analysed);
+  const auto written = write_audit_files(options, *analysed);
   warn(analysed->drawing.warnings);
   if (!written) return report(written.error());
   const auto& [all, audits, points, asked] = *analysed;
   std::string text;
   if (options.json) {
-    text = audit_report_json(*analysed);
+    const auto told = analysis_file(FileFormat::kContour, *analysed);
+    if (!told) return report(told.error());
+    text = *told;
   } else if (options.csv) {
     text = csv_text(drawing_rows(all, audits));
   } else if (!options.quiet) {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "obvid/core/files.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/fit_figures.h"
+#include "obvid/pipeline/internal/job_files.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/internal/summary.h"
@@ -28,11 +28,6 @@ namespace obvid {
 namespace {
 
 constexpr int kComparedDigits = 4;
-
-std::string verdict_text(const ComparedCarrier& row) {
-  if (row.fit.certificate.proved) return "proved";
-  return promises_monotone(row.carrier) ? "NOT proved" : "not monotone";
-}
 
 std::string length_text(double value) { return significant(value, kComparedDigits); }
 
@@ -67,7 +62,7 @@ Table carrier_table(const Comparison& compared) {
                length_text(row.fit.report.largest_deviation),
                length_text(row.fit.report.carrier_deviation),
                length_text(row.fit.report.outside_spirals_region),
-               significant(row.seconds * 1e3, 3), verdict_text(row)});
+               significant(row.seconds * 1e3, 3), carrier_verdict(row)});
   }
   return table;
 }
@@ -145,40 +140,6 @@ std::string comparison_text(const PointSeries& series, const Comparison& compare
   return out;
 }
 
-DataTable carrier_rows(const Comparison& compared) {
-  DataTable out{heads_of(
-      "carrier,pieces,control_points,continuity,vertices,inflections,error_bound,deviation,"
-      "outside,seconds,verdict")};
-  for (const ComparedCarrier& row : compared.carriers) {
-    DataRow& cells = out.rows.emplace_back(DataRow{to_string(row.carrier)});
-    if (row.refusal) {
-      cells.resize(out.heads.size() - 1);
-      cells.emplace_back(code_text(*row.refusal));
-      continue;
-    }
-    const Certificate& certificate = row.fit.certificate;
-    const DataRow figures = {row.fit.contour.pieces.size(),
-                             row.control_points == 0 ? DataCell() : DataCell(row.control_points),
-                             continuity_name(row),
-                             certificate.vertices,
-                             certificate.inflections,
-                             finite_cell(row.fit.report.largest_deviation),
-                             row.fit.report.carrier_deviation,
-                             row.fit.report.outside_spirals_region,
-                             row.seconds,
-                             verdict_text(row)};
-    cells.insert(cells.end(), figures.begin(), figures.end());
-  }
-  return out;
-}
-
-std::string carriers_csv(const PointSeries&, const Comparison& compared) {
-  return csv_text(carrier_rows(compared));
-}
-
-/// What to write under a name: .svg picture, .csv or .json table.
-using Maker = std::function<std::string(const PointSeries&, const Comparison&)>;
-
 std::string comparison_page(const PointSeries& series, const Comparison& compared,
                             const ShownCurvatures& shown, const std::string& asked) {
   ReportPage page;
@@ -201,24 +162,10 @@ std::string comparison_page(const PointSeries& series, const Comparison& compare
   return page_text(page);
 }
 
-Result<Maker> maker_of(const std::string& path, const ShownCurvatures& shown,
-                       const std::string& asked) {
-  const auto format = table_format_of(path, "a comparison", ".csv and .json (tables)");
-  OBVID_TRY(format);
-  switch (*format) {
-    case FileFormat::kPage:
-      return Maker([shown, asked](const PointSeries& series, const Comparison& compared) {
-        return comparison_page(series, compared, shown, asked);
-      });
-    case FileFormat::kPicture:
-      return Maker([shown](const PointSeries& series, const Comparison& compared) {
-        return comparison_svg(series, compared, shown);
-      });
-    case FileFormat::kContour:
-      return Maker(&comparison_json);
-    default:
-      return Maker(&carriers_csv);
-  }
+Result<std::string> comparison_file_of(FileFormat format, const PointSeries& series,
+                                       const Comparison& compared, const CompareOptions& options) {
+  if (format != FileFormat::kPage) return comparison_file(format, series, compared, options.shown);
+  return comparison_page(series, compared, options.shown, options.asked);
 }
 
 }  // namespace
@@ -228,11 +175,11 @@ int run(const CompareOptions& options) {
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
   }
-  std::vector<Maker> makers;
+  std::vector<Output> outputs;
   for (const std::string& path : options.outputs) {
-    const Result<Maker> maker = maker_of(path, options.shown, options.asked);
-    if (!maker) return report(maker.error());
-    makers.push_back(*maker);
+    const auto format = table_format_of(path, "a comparison", ".csv and .json (tables)");
+    if (!format) return report(format.error());
+    outputs.push_back({path, *format, {}});
   }
   ProgressBar bar(options.progress);
   Result<PointSeries> series = read_series(options.input, options.import);
@@ -257,14 +204,15 @@ int run(const CompareOptions& options) {
     }
     return report(compared.error());
   }
-  std::vector<Output> outputs;
-  for (std::size_t i = 0; i < makers.size(); ++i) {
-    outputs.push_back({options.outputs[i], {}, makers[i](*series, *compared)});
+  for (Output& output : outputs) {
+    auto text = comparison_file_of(output.format, *series, *compared, options);
+    if (!text) return report(text.error());
+    output.text = std::move(*text);
   }
   const auto written = write_files(outputs, options.input);
   if (!written) return report(written.error());
   std::string shown = options.json  ? comparison_json(*series, *compared)
-                      : options.csv ? carriers_csv(*series, *compared)
+                      : options.csv ? csv_text(carrier_rows(*compared))
                                     : comparison_text(*series, *compared);
   if (options.quiet && !options.json && !options.csv) return 0;
   if (!written->empty() && !options.json && !options.csv) {

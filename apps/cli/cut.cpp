@@ -9,6 +9,7 @@
 #include "obvid/core/files.h"
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/file_formats.h"
+#include "obvid/pipeline/internal/job_files.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "outputs.h"
 #include "table.h"
@@ -132,16 +133,10 @@ int run(const CutCommand& command) {
   bar.clear();
   if (!made) return report(made.error());
   for (Output& output : *outputs) {
-    if (output.format == FileFormat::kGcode) {
-      output.text = made->program.text;
-    } else if (output.format == FileFormat::kPage) {
-      output.text = cut_page(*made, command);
-    } else if (output.format == FileFormat::kSamples) {
-      output.text = csv_text(cut_rows(*made));
-    } else {
-      const Sketch sketch = cut_sketch(*made, command.job);
-      output.text = output.format == FileFormat::kPicture ? sketch_svg(sketch) : sketch_dxf(sketch);
-    }
+    auto text = output.format == FileFormat::kPage ? Result<std::string>(cut_page(*made, command))
+                                                   : cut_file(output.format, *made, command.job);
+    if (!text) return report(text.error());
+    output.text = std::move(*text);
   }
   const auto written = write_files(*outputs, command.inputs.front());
   if (!written) return report(written.error());

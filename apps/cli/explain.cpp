@@ -2,12 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string>
-#include <vector>
 
 #include "commands.h"
-#include "obvid/core/internal/near_name.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "terminal.h"
 
@@ -44,14 +41,6 @@ std::string list_of_codes(bool as_json) {
   return lines;
 }
 
-Error unknown_code(const std::string& typed) {
-  std::vector<std::string> names;
-  for (const ErrorText& text : error_texts()) names.push_back(name_of(text.code));
-  const std::string near = nearest_name(typed, names);
-  return {ErrorCode::kUsage, fmt::format("there is no error code '{}'", typed), "",
-          near.empty() ? "`obvid explain` lists all codes" : fmt::format("did you mean {}?", near)};
-}
-
 }  // namespace
 
 int run(const ExplainOptions& options) {
@@ -59,19 +48,15 @@ int run(const ExplainOptions& options) {
   if (options.code.empty()) {
     text = list_of_codes(options.json);
   } else {
-    std::string typed = options.code;
-    if (std::isdigit(static_cast<unsigned char>(typed[0])) != 0) typed = fmt::format("E{}", typed);
-    typed[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(typed[0])));
-    const auto all = error_texts();
-    const auto same = [&typed](const ErrorText& t) { return name_of(t.code) == typed; };
-    const auto found = std::find_if(all.begin(), all.end(), same);
-    if (found == all.end()) return report(unknown_code(typed));
+    const auto found = error_text_of(options.code);
+    if (!found) return report(found.error());
     if (options.json) {
       text = error_text_json(*found);
     } else {
-      text = fmt::format(
-          "{}\n\n{}\n{}\nExit code {}.\n", bold(fmt::format("{}: {}", typed, found->title)),
-          wrapped(found->meaning, ""), wrapped(found->remedy, ""), exit_code(found->code));
+      text = fmt::format("{}\n\n{}\n{}\nExit code {}.\n",
+                         bold(fmt::format("{}: {}", name_of(found->code), found->title)),
+                         wrapped(found->meaning, ""), wrapped(found->remedy, ""),
+                         exit_code(found->code));
     }
   }
   if (options.quiet) return 0;

@@ -19,6 +19,11 @@ Result<Output> output_of(const std::string& path) {
       .hint("possible are " + known_endings());
 }
 
+Error of_file(Error error, const std::string& path) {
+  error.where = path;
+  return error;
+}
+
 Result<FileFormat> table_format_of(const std::string& path, const std::string& what,
                                    const std::string& tables) {
   const auto format = format_of(path);

@@ -44,6 +44,9 @@ struct FileNotes {
                                                    const StoredContour& stored,
                                                    const ExportOptions& options, FileNotes& notes);
 
+/// The error, told of the file that could not be made.
+[[nodiscard]] Error of_file(Error error, const std::string& path);
+
 /// Writes all texts, each file whole or not at all; names what was written. Errors: E102; E203, and
 /// nothing is written, where the input or another output would be replaced.
 [[nodiscard]] Result<std::vector<std::string>> write_files(const std::vector<Output>& outputs,

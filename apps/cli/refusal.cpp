@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "obvid/core/files.h"
+#include "obvid/pipeline/internal/job_files.h"
 #include "obvid/pipeline/internal/refusal.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
@@ -82,7 +83,7 @@ std::string refusal_text(const PointSeries& series, const WhyNot& why,
 /// NAME.why-not.svg for each picture: what failed must not look like a success.
 Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& options,
                                                         const std::string& name,
-                                                        const WhyNot& why) {
+                                                        const Refusal& refusal) {
   const Result<std::vector<Output>> asked = outputs_of(options.outputs, options.input);
   OBVID_TRY(asked);
   std::vector<Output> pictures;
@@ -91,12 +92,9 @@ Result<std::vector<std::string>> write_refusal_pictures(const FitOptions& option
     const auto path = std::filesystem::path(output.path).replace_extension(".why-not.svg");
     Result<Output> picture = output_of(path.string());
     OBVID_TRY(picture);
-    ExportOptions titled;
-    titled.picture = {name, ""};
-    const auto drawn = export_contour({why.fit.contour, why.fit.report, why.fit.certificate},
-                                      FileFormat::kPicture, titled);
+    auto drawn = refusal_file(FileFormat::kPicture, refusal, name);
     OBVID_TRY(drawn);
-    picture->text = drawn->files.front().text;
+    picture->text = std::move(*drawn);
     pictures.push_back(std::move(*picture));
   }
   return write_files(pictures, options.input);
@@ -110,7 +108,7 @@ int tell_refusal(const FitOptions& options, const PointSeries& series, const Err
   if (!explained) return report(explained.error());
   const auto& [told, why, range] = *explained;
   Result<std::vector<std::string>> written;
-  if (why && why->found) written = write_refusal_pictures(options, series.name, *why);
+  if (why && why->found) written = write_refusal_pictures(options, series.name, *explained);
   bar.clear();
   warn(series.warnings);  // a formed contour carries them itself
   const int code = report(told);

@@ -8,6 +8,7 @@
 
 #include "interrupt.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/job_files.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/trade_off.h"
 #include "outputs.h"
@@ -105,7 +106,11 @@ int suggest(const FitOptions& options) {
     }
     return report(found.error());
   }
-  for (Output& chart : *charts) chart.text = trade_off_svg(*found);
+  for (Output& chart : *charts) {
+    auto text = suggestion_file(chart.format, *found, series->warnings);
+    if (!text) return report(text.error());
+    chart.text = std::move(*text);
+  }
   const Result<std::vector<std::string>> written = write_files(*charts, options.input);
   bar.clear();
   if (!written) return report(written.error());

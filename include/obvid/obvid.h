@@ -61,6 +61,9 @@ typedef struct obvid_error {
 } obvid_error;
 
 OBVID_API void obvid_error_free(obvid_error* error);
+/* What an error code means and what helps: `text` is JSON, of "E401" an object, of NULL an array of
+ * all. OBVID_USAGE for codes that there are not. */
+OBVID_API int obvid_explain(const char* code, char** text, obvid_error** error);
 OBVID_API void obvid_free(char* text);
 
 /* ---- progress and cancellation ----------------------------------------------------------------
@@ -106,10 +109,17 @@ OBVID_API int obvid_fit(const obvid_input* input, const char* options, const obv
  * would do; `report` is set beside it. 0 and a report of NULL: there is a contour. */
 OBVID_API int obvid_why_not(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
+/* The nearest contour that there is and what would have to move, as a file: "svg". Without points
+ * that would have to move, the error of obvid_fit. */
+OBVID_API int obvid_why_not_file(const obvid_input* input, const char* options, const char* ending,
+                                 const obvid_run* run, obvid_files** files, obvid_error** error);
 /* How many vertices which tolerance would need. Fails with OBVID_NO_CONTOUR or OBVID_NOT_PROVED,
  * the report there, where no tolerance gives a contour that keeps its promise. */
 OBVID_API int obvid_suggest(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
+/* The same as a file: "svg" (a chart) or "json". */
+OBVID_API int obvid_suggest_file(const obvid_input* input, const char* options, const char* ending,
+                                 const obvid_run* run, obvid_files** files, obvid_error** error);
 /* The points that were read and what is given at them; of a drawing those of the
  * curve that is taken. */
 OBVID_API int obvid_series(const obvid_input* input, const char* options, const obvid_run* run,
@@ -118,6 +128,10 @@ OBVID_API int obvid_series(const obvid_input* input, const char* options, const 
 /* What the points say; of a drawing: what a curvature comb would show of its curves. */
 OBVID_API int obvid_analyse(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
+/* The same as a file: "csv" or "json" (tables), of a drawing "svg", too: the curve of the option
+ * "curve", else the longest. Takes the options of pictures, as obvid_export does. */
+OBVID_API int obvid_analyse_file(const obvid_input* input, const char* options, const char* ending,
+                                 const obvid_run* run, obvid_files** files, obvid_error** error);
 /* Where every fair contour through the points must lie; with the option "construction" also the
  * table of that construction. */
 OBVID_API int obvid_region(const obvid_input* input, const char* options, const obvid_run* run,
@@ -128,6 +142,10 @@ OBVID_API int obvid_worksheet(const obvid_input* input, const char* options, con
 /* All curve families side by side. */
 OBVID_API int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
+/* The same as a file: "svg" (side by side), "csv" or "json" (tables). Takes the option
+ * "curvature-range", too. */
+OBVID_API int obvid_compare_file(const obvid_input* input, const char* options, const char* ending,
+                                 const obvid_run* run, obvid_files** files, obvid_error** error);
 /* Curves laid over each other: points are formed, contour files and curves of drawings are taken as
  * they are. How far all are from the first one; `files`: a picture (suffix ".svg") and the
  * deviation at every place (".csv"); NULL: not wanted. Remarks are the warnings of the inputs. */
@@ -277,8 +295,8 @@ OBVID_API int obvid_alignment(const obvid_input* input, const obvid_input* heigh
                               const char* options, const obvid_run* run, obvid_contour** contour,
                               obvid_files** files, char** report, obvid_error** error);
 /* Every curve of drawings and contour files as one program for a mill, a laser or a torch: files
- * are the G-code, a picture (suffix ".svg") and a drawing of the paths (".dxf"). Points are
- * refused. */
+ * are the G-code, a picture (suffix ".svg"), a drawing of the paths (".dxf") and a table of the
+ * outlines (".csv"). Points are refused. */
 OBVID_API int obvid_cut(const obvid_input* const* inputs, size_t count, const char* options,
                         const obvid_run* run, obvid_files** files, char** report,
                         obvid_error** error);

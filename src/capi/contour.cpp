@@ -20,12 +20,8 @@ Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, cons
                                               const char* options, const obvid_run* run) {
   Result<Request> request = request_of(options, kFiles);
   OBVID_TRY(request);
-  const auto format = format_of("contour." + std::string(ending));
-  if (!format) {
-    return fail({ErrorCode::kUnknownFormat,
-                 "no format is known for the file extension ." + std::string(ending), "",
-                 "possible are " + known_endings()});
-  }
+  const auto format = format_of_ending(ending);
+  OBVID_TRY(format);
   ExportOptions& formats = request->formats;
   formats.name = contour.name;
   formats.picture = contour.picture;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,6 +18,7 @@
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
+#include "obvid/pipeline/internal/job_files.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/refusal.h"
 #include "obvid/pipeline/internal/region_files.h"
@@ -28,10 +31,19 @@ namespace {
 constexpr Known kForming{.fit = true, .construction = true, .import = true};
 constexpr Known kWorksheet{.fit = true, .construction = true, .worksheet = true, .import = true};
 constexpr Known kFitting{.fit = true, .import = true};
+constexpr Known kComparing{.fit = true, .import = true, .shown = true};
+constexpr Known kPicturing{.import = true, .plots = true};
 constexpr Known kOverlaying{.fit = true, .import = true, .curves = true};
 constexpr Known kImporting{.import = true};
 constexpr Known kCutting{.import = true, .cut = true};
 constexpr Known kAligning{.import = true, .alignment = true};
+
+/// Of a program that cuts: suffix of the file, and what it is.
+constexpr std::array<std::pair<const char*, FileFormat>, 4> kFilesOfCuts = {
+    {{"", FileFormat::kGcode},
+     {".svg", FileFormat::kPicture},
+     {".dxf", FileFormat::kDxf},
+     {".csv", FileFormat::kSamples}}};
 
 Result<PointSeries> series_of(const obvid_input& input, const Request& request, bool drawings,
                               const RunContext& run) {
@@ -105,28 +117,62 @@ int report_on_points(const obvid_input* input, const char* options, const Known&
   });
 }
 
-Result<std::string> drawing_report(const obvid_input& input, const Request& request,
-                                   const RunContext& run) {
+Result<AnalysedDrawing> analysed_drawing(const obvid_input& input, const Request& request,
+                                         const RunContext& run) {
   Result<Drawing> drawing = drawing_of(input, request, run);
   OBVID_TRY(drawing);
   if (request.units) {
     if (auto told = take_units(drawing->units, *request.units)) drawing->warnings.push_back(*told);
   }
-  const auto all = analyse_drawing(std::move(*drawing), request.import, input.name, run);
-  OBVID_TRY(all);
-  const auto& points = all->points;
-  return audit_json(all->drawing, all->audits,
-                    points ? series_report_json(points->series, points->analysis) : "");
+  return analyse_drawing(std::move(*drawing), request.import, input.name, run);
 }
 
-Result<std::string> points_report(PointSeries& series, const RunContext& run) {
-  const Result<Analysis> analysis = analyse(series.points);
+Result<AnalysedSeries> analysed_points(const obvid_input& input, const Request& request,
+                                       const RunContext& run) {
+  Result<PointSeries> series = series_of(input, request, false, run);
+  OBVID_TRY(series);
+  OBVID_TRY(may_go_on(run));
+  Result<Analysis> analysis = analyse(series->points);
   OBVID_TRY(analysis);
-  add_rounding_warning(series, *analysis);
-  Watch watch(run);
-  std::string text = series_report_json(series, *analysis, &watch);
-  if (watch.was_cancelled()) return fail(cancelled_error());
-  return text;
+  add_rounding_warning(*series, *analysis);
+  return AnalysedSeries{std::move(*series), std::move(*analysis)};
+}
+
+/// What `analyse` finds, as a file: of the report its JSON.
+Result<std::string> analysed(FileFormat format, const obvid_input& input, const Request& request,
+                             const RunContext& run) {
+  OBVID_TRY(may_go_on(run));
+  const bool drawing = input.by_path || (!input.points && is_drawing_text(input.text, input.name));
+  if (drawing) {
+    const auto found = analysed_drawing(input, request, run);
+    OBVID_TRY(found);
+    return analysis_file(format, *found, request.formats.plots, run);
+  }
+  const auto found = analysed_points(input, request, run);
+  OBVID_TRY(found);
+  return analysis_file(format, *found, run);
+}
+
+/// A job on a series of points as one file: `make` gives its text.
+template <class Make>
+int file_of_points(const obvid_input* input, const char* options, const Known& known,
+                   const char* ending, const obvid_run* run, obvid_files** files,
+                   obvid_error** error, Make&& make) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, known);
+    OBVID_TRY(request);
+    const auto format = format_of_ending(ending);
+    OBVID_TRY(format);
+    const RunContext context = context_of(run);
+    const Result<PointSeries> series = series_of(*input, *request, true, context);
+    OBVID_TRY(series);
+    Result<std::string> text = make(*format, *series, *request, context);
+    OBVID_TRY(text);
+    auto out = std::make_unique<obvid_files>();
+    out->files.push_back({"", std::move(*text)});
+    *files = out.release();
+    return {};
+  });
 }
 
 Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const Request& request,
@@ -163,6 +209,17 @@ Result<Fit> formed(const PointSeries& series, const Request& request, const RunC
   auto made = fit_construction(series, request.worksheet, run);
   if (!made) return fail(explained(series, request.worksheet, made.error(), run));
   return made;
+}
+
+/// Why `fit` finds no contour; nothing where it finds one.
+Result<std::optional<Refusal>> refused(const PointSeries& series, const Request& request,
+                                       const RunContext& run) {
+  const Result<Fit> made = fit(series, request.job, RunContext({}, run.cancelled));
+  if (made) return std::nullopt;
+  if (category(made.error().code) != ErrorCategory::kNoContour) return fail(made.error());
+  auto found = explain_refusal(series, request.job, made.error(), run);
+  OBVID_TRY(found);
+  return std::move(*found);
 }
 
 /// The points that would have to move, else those that the refusal names.
@@ -217,13 +274,12 @@ int obvid_why_not(const obvid_input* input, const char* options, const obvid_run
     const Result<PointSeries> series = series_of(*input, *request, true, context);
     OBVID_TRY(series);
     if (report != nullptr) *report = nullptr;
-    const Result<Fit> made = fit(*series, request->job, RunContext({}, context.cancelled));
-    if (made) return {};
-    if (category(made.error().code) != ErrorCategory::kNoContour) return fail(made.error());
-    const Result<Refusal> found = explain_refusal(*series, request->job, made.error(), context);
-    OBVID_TRY(found);
-    hand_out_text(refusal_json(found->error, *series, found->why, found->range, {}), report);
-    code = hand_out(found->error, error, points_in_the_way(*found));
+    const auto refusal = refused(*series, *request, context);
+    OBVID_TRY(refusal);
+    if (!*refusal) return {};
+    const Refusal& found = **refusal;
+    hand_out_text(refusal_json(found.error, *series, found.why, found.range, {}), report);
+    code = hand_out(found.error, error, points_in_the_way(found));
     return {};
   });
   return failed != 0 ? failed : code;
@@ -261,18 +317,76 @@ int obvid_analyse(const obvid_input* input, const char* options, const obvid_run
     const Result<Request> request = request_of(options, kImporting);
     OBVID_TRY(request);
     const RunContext context = context_of(run);
-    OBVID_TRY(may_go_on(context));
-    Result<std::string> text = [&]() -> Result<std::string> {
-      const bool drawing =
-          input->by_path || (!input->points && is_drawing_text(input->text, input->name));
-      if (drawing) return drawing_report(*input, *request, context);
-      Result<PointSeries> series = series_of(*input, *request, false, context);
-      OBVID_TRY(series);
-      OBVID_TRY(may_go_on(context));
-      return points_report(*series, context);
-    }();
+    const auto text = analysed(FileFormat::kContour, *input, *request, context);
     OBVID_TRY(text);
     hand_out_text(*text, report);
+    return {};
+  });
+}
+
+int obvid_analyse_file(const obvid_input* input, const char* options, const char* ending,
+                       const obvid_run* run, obvid_files** files, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const Result<Request> request = request_of(options, kPicturing);
+    OBVID_TRY(request);
+    const auto format = format_of_ending(ending);
+    OBVID_TRY(format);
+    auto text = analysed(*format, *input, *request, context_of(run));
+    OBVID_TRY(text);
+    auto out = std::make_unique<obvid_files>();
+    out->files.push_back({"", std::move(*text)});
+    *files = out.release();
+    return {};
+  });
+}
+
+int obvid_compare_file(const obvid_input* input, const char* options, const char* ending,
+                       const obvid_run* run, obvid_files** files, obvid_error** error) {
+  return file_of_points(input, options, kComparing, ending, run, files, error,
+                        [](FileFormat format, const PointSeries& series, const Request& request,
+                           const RunContext& context) -> Result<std::string> {
+                          const auto found = compare_carriers(series, request.job, context);
+                          OBVID_TRY(found);
+                          return comparison_file(format, series, *found,
+                                                 request.formats.plots.curvatures);
+                        });
+}
+
+int obvid_suggest_file(const obvid_input* input, const char* options, const char* ending,
+                       const obvid_run* run, obvid_files** files, obvid_error** error) {
+  return file_of_points(input, options, kFitting, ending, run, files, error,
+                        [](FileFormat format, const PointSeries& series, const Request& request,
+                           const RunContext& context) -> Result<std::string> {
+                          const auto found = trade_off(series, request.job, context);
+                          OBVID_TRY(found);
+                          return suggestion_file(format, *found, series.warnings);
+                        });
+}
+
+int obvid_why_not_file(const obvid_input* input, const char* options, const char* ending,
+                       const obvid_run* run, obvid_files** files, obvid_error** error) {
+  return file_of_points(input, options, kFitting, ending, run, files, error,
+                        [](FileFormat format, const PointSeries& series, const Request& request,
+                           const RunContext& context) -> Result<std::string> {
+                          const auto refusal = refused(series, request, context);
+                          OBVID_TRY(refusal);
+                          if (!*refusal) {
+                            return obvid::error(ErrorCode::kBadOption,
+                                                "there is a contour: nothing is in its way");
+                          }
+                          return refusal_file(format, **refusal, series.name, context);
+                        });
+}
+
+int obvid_explain(const char* code, char** text, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    if (code == nullptr) {
+      hand_out_text(error_texts_json(), text);
+      return {};
+    }
+    const auto found = error_text_of(code);
+    OBVID_TRY(found);
+    hand_out_text(error_text_json(*found), text);
     return {};
   });
 }
@@ -314,16 +428,15 @@ int obvid_cut(const obvid_input* const* inputs, size_t count, const char* option
     }
     auto made = make_cut(std::move(drawings), request->import, job, context);
     OBVID_TRY(made);
-    Watch watch(context);
     std::unique_ptr<obvid_files> out;
     if (files != nullptr) {
       out = std::make_unique<obvid_files>();
-      const Sketch sketch = cut_sketch(*made, job);
-      out->files.push_back({"", std::move(made->program.text)});
-      out->files.push_back({".svg", sketch_svg(sketch, &watch)});
-      out->files.push_back({".dxf", sketch_dxf(sketch, &watch)});
+      for (const auto& [suffix, format] : kFilesOfCuts) {
+        auto text = cut_file(format, *made, job, context);
+        OBVID_TRY(text);
+        out->files.push_back({suffix, std::move(*text)});
+      }
       out->remarks = made->warnings;
-      if (watch.was_cancelled()) return fail(cancelled_error());
     }
     hand_out_text(cut_json(*made), report);
     if (files != nullptr) *files = out.release();

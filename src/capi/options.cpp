@@ -135,12 +135,13 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"trailing-edge-form", text(f.trailing_form)},
                 {"unit-chord", flag(f.unit_chord)},
                 {"svg", text(f.svg)},
-                {"plot", text(f.plot)},
-                {"curvature-range", text(f.curvature_range)},
                 {"step", text(f.step)},
                 {"dxf", text(f.dxf)},
                 {"face", number(f.face_width)}});
   }
+  const bool plots = known.formats || known.plots;
+  if (plots) all.insert({"plot", text(f.plot)});
+  if (plots || known.shown) all.insert({"curvature-range", text(f.curvature_range)});
   return all;
 }
 
@@ -196,6 +197,14 @@ Result<Request> request_of(const char* options, const Known& known) {
   OBVID_TRY(take(*object, setters(written, out, known)));
   OBVID_TRY(check(written, known, out));
   return out;
+}
+
+Result<FileFormat> format_of_ending(const char* ending) {
+  const std::string name = ending == nullptr ? "" : ending;
+  const auto format = format_of("file." + name);
+  if (format) return *format;
+  return error(ErrorCode::kUnknownFormat, "no format is known for the file extension ." + name)
+      .hint("possible are " + known_endings());
 }
 
 }  // namespace obvid::capi

@@ -40,6 +40,8 @@ struct Known {
   bool space = false;         ///< direction of the projection
   bool import = false;        ///< curve, drawing, chord-tolerance, and those of `points`
   bool formats = false;       ///< of files
+  bool plots = false;         ///< of pictures of a curve
+  bool shown = false;         ///< of pictures: curvature-range
   bool points = false;        ///< columns, skip, scale, rotate, move, mirror
   bool cut = false;           ///< of `obvid cut`
   bool alignment = false;     ///< of `obvid alignment`
@@ -49,5 +51,8 @@ struct Known {
 /// Reads a JSON object with the names of the command line; NULL and "" are no options. Errors: E308
 /// no JSON object; E201 a name that the job does not know; E203 a value that is not possible.
 [[nodiscard]] Result<Request> request_of(const char* options, const Known& known);
+
+/// Of contours and reports, by a file extension without its dot. Error: E202.
+[[nodiscard]] Result<FileFormat> format_of_ending(const char* ending);
 
 }  // namespace obvid::capi

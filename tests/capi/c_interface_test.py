@@ -136,10 +136,11 @@ def export(contour, ending, options=None):
     return out.decode()
 
 
-def worksheet(handle, ending, options=None):
+def job_file(name, handle, ending, options=None):
+    """What a job makes for one file."""
     files, size = C.c_void_p(), C.c_size_t()
     chosen = json.dumps(options).encode() if options is not None else None
-    call(lib.obvid_worksheet, handle, chosen, ending.encode(), None, C.byref(files))
+    call(getattr(lib, "obvid_" + name), handle, chosen, ending.encode(), None, C.byref(files))
     data = lib.obvid_files_data(files, C.c_size_t(0), C.byref(size))
     out = C.string_at(data, size.value)
     lib.obvid_files_free(files)
@@ -257,7 +258,7 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
                                                                        "lead-in": 1.2, "controller": "linuxcnc"}
         with tempfile.TemporaryDirectory() as folder:
             typed = [word for name, value in options.items() for word in ("--" + name, str(value))]
-            names = [os.path.join(folder, "plate" + ending) for ending in (".nc", ".svg", ".dxf")]
+            names = [os.path.join(folder, "plate" + ending) for ending in (".nc", ".svg", ".dxf", ".csv")]
             printed, _ = program("cut", plate, *typed, "--json", *[word for name in names for word in ("-o", name)])
             files, report, size = C.c_void_p(), C.c_void_p(), C.c_size_t()
             inputs = (C.c_void_p * 1)(read(plate).value)
@@ -443,15 +444,59 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
                   "--tolerance", "0.01", "--json")
         self.same(job("suggest", read(SERIES)), "fit", SERIES, "--suggest", "--json")
 
+    def test_pictures_and_tables_of_jobs(self):
+        refused = {"start-heading": 170, "end-heading": 10}
+        jobs = [("analyse_file", SERIES, {}, ["csv", "json"], ["analyse"], []),
+                ("analyse_file", DRAWING, {"plot": "curvature"}, ["csv", "json", "svg"], ["analyse"], ["--plot", "curvature"]),
+                ("compare_file", SERIES, {"curvature-range": "all"}, ["csv", "json", "svg"], ["compare"],
+                 ["--curvature-range", "all"]),
+                ("suggest_file", SERIES, {}, ["svg"], ["fit"], ["--suggest"]),
+                ("why_not_file", SERIES, refused, ["svg"], ["fit"], ["--start-heading", "170", "--end-heading", "10"])]
+        with tempfile.TemporaryDirectory() as folder:
+            for name, path, options, endings, command, typed in jobs:
+                for ending in endings:
+                    with self.subTest(job=name, ending=ending):
+                        target = os.path.join(folder, "file." + ending)
+                        program(*command, path, *typed, "-o", target)
+                        if name == "why_not_file":
+                            target = target.replace(".svg", ".why-not.svg")
+                        with open(target, newline="") as file:
+                            theirs = file.read()
+                        ours = job_file(name, read(path), ending, options)
+                        if (name, ending) == ("compare_file", "csv"):  # its last but one column is the time
+                            ours, theirs = (re.sub(r"[^,\n]*(,[^,\n]*\n)", r"\1", text) for text in (ours, theirs))
+                        self.assertEqual(timeless(ours), timeless(theirs))
+                        os.remove(target)
+
+    def test_files_that_jobs_do_not_have(self):
+        for name, path, ending, options, code in [
+                ("analyse_file", SERIES, "svg", {}, 203), ("analyse_file", SERIES, "step", {}, 202),
+                ("compare_file", SERIES, "dxf", {}, 202), ("suggest_file", SERIES, "csv", {}, 202),
+                ("why_not_file", SERIES, "svg", {}, 203), ("compare_file", SERIES, "xyz", {}, 202)]:
+            with self.subTest(job=name, ending=ending), self.assertRaises(Failed) as refused:
+                job_file(name, read(path), ending, options)
+            self.assertEqual(refused.exception.code, code)
+
+    def test_what_codes_mean(self):
+        def explained(code):
+            text = C.c_void_p()
+            return call(lib.obvid_explain, code, C.byref(text), report=text)
+
+        self.assertEqual(explained(b"e401"), program("explain", "E401", "--json")[0])
+        self.assertEqual(explained(None), program("explain", "--json")[0])
+        with self.assertRaises(Failed) as refused:
+            explained(b"E999")
+        self.assertEqual(refused.exception.code, 201)
+
     def test_worksheets(self):
         with tempfile.TemporaryDirectory() as folder:
             for ending in ["csv", "tex", "json", "svg", "dxf"]:
                 name = os.path.join(folder, "sheet." + ending)
                 program("region", SERIES, "--insert", "3", "-o", name)
                 with open(name, newline="") as file:
-                    self.assertEqual(worksheet(read(SERIES), ending, {"insert": [3]}), file.read(), ending)
+                    self.assertEqual(job_file("worksheet", read(SERIES), ending, {"insert": [3]}), file.read(), ending)
         with self.assertRaises(Failed) as refused:
-            worksheet(read(SERIES), "step")
+            job_file("worksheet", read(SERIES), "step")
         self.assertEqual(refused.exception.code, 202)
 
     def test_constructions(self):

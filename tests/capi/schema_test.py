@@ -282,6 +282,8 @@ class Options(unittest.TestCase):
         yield "fit", lambda o: c.call(lib.obvid_fit, points, o, None, None, None)
         for name in ("why_not", "suggest", "series", "analyse", "region", "compare"):
             yield name, lambda o, name=name: c.call(getattr(lib, "obvid_" + name), points, o, None, ref(text))
+        for name in ("why_not_file", "suggest_file", "analyse_file", "compare_file"):
+            yield name, lambda o, name=name: c.call(getattr(lib, "obvid_" + name), points, o, b"svg", None, ref(out))
         yield "worksheet", lambda o: c.call(lib.obvid_worksheet, points, o, b"csv", None, ref(out))
         yield "stored", lambda o: c.call(lib.obvid_stored, drawn, o, None, ref(out))
         yield "export", lambda o: c.call(lib.obvid_export, contour, b"dxf", o, None, ref(out))

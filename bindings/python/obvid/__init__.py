@@ -25,8 +25,11 @@ from .errors import (
 from .jobs import (
     Source,
     analyse,
+    analyse_file,
     compare,
     compare_curves,
+    compare_file,
+    explain,
     fit,
     fit_many,
     fit_space,
@@ -37,8 +40,10 @@ from .jobs import (
     read_text,
     region,
     suggest,
+    suggest_file,
     verify,
     why_not,
+    why_not_file,
     worksheet,
 )
 from .reports import (
@@ -74,7 +79,7 @@ __all__ = [
     "SpaceSamples", "SpaceVerification", "Spline", "Suggestion", "Surface", "SurfaceBranch", "SurfaceCut",
     "SurfaceSamples", "SurfaceSection", "Table", "Toolpath",
     "UsageError", "Verification",
-    "__version__", "alignment", "analyse", "compare", "compare_curves", "cut", "fit", "fit_many", "fit_space", "many", "nurbs", "read", "read_contour",
-    "read_space", "read_surface", "read_text", "region", "skin", "spline", "suggest", "surface", "toolpath",
-    "verify", "why_not", "worksheet",
+    "__version__", "alignment", "analyse", "analyse_file", "compare", "compare_curves", "compare_file", "cut", "explain", "fit", "fit_many", "fit_space", "many", "nurbs", "read", "read_contour",
+    "read_space", "read_surface", "read_text", "region", "skin", "spline", "suggest", "suggest_file", "surface", "toolpath",
+    "verify", "why_not", "why_not_file", "worksheet",
 ]  # fmt: skip

@@ -25,12 +25,14 @@ class CutProgram(NamedTuple):
     drawing: str  #: DXF of outlines, paths, edges of the cut and rapid moves
     report: Json  #: outlines in the order of cutting, figures; docs/schema/cut.schema.json
     remarks: Tuple[str, ...]
+    table: str  #: CSV of the outlines
 
     def write(self, path: Union[str, "os.PathLike[str]"]) -> List[str]:
-        """Writes .svg the picture, .dxf the drawing, .nc, .ngc, .gcode or .tap the program."""
+        """Writes .svg the picture, .dxf the drawing, .csv the table, .nc, .ngc, .gcode or .tap the program."""
         target = pathlib.Path(path)
         programs = dict.fromkeys((".nc", ".ngc", ".gcode", ".tap"), self.program)
-        text = {".svg": self.picture, ".dxf": self.drawing, **programs}.get(target.suffix.lower())
+        others = {".svg": self.picture, ".dxf": self.drawing, ".csv": self.table}
+        text = {**others, **programs}.get(target.suffix.lower())
         if text is None:
             raise UsageError(202, "no format of cutting programs has this file extension", str(path))
         return write_all(target, ([("", text.encode())], self.remarks))
@@ -73,5 +75,5 @@ def cut(drawings: Union[Drawing, Sequence[Drawing]], **options: Any) -> CutProgr
             raise raise_error(error)
     report = json.loads(taken_text(said) or "{}")
     made, remarks = taken_files(files)
-    program, picture, drawing = (data.decode() for _, data in made)
-    return CutProgram(program, picture, drawing, report, remarks)
+    program, picture, drawing, table = (data.decode() for _, data in made)
+    return CutProgram(program, picture, drawing, report, remarks, table)

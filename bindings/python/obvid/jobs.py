@@ -8,7 +8,7 @@ import json
 import math
 import os
 import pathlib
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, TypeVar, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -241,7 +241,7 @@ def _fit_options(
         name.replace("_", "-"): o.get(name)
         for name in ("along", "carrier", "noise", "tolerance", "corner_angle", "units", "curve", "drawing",
                      "chord_tolerance", "prefer", "continuity", "construction", "fixation",
-                     "align", "enlarge")
+                     "align", "enlarge", "curvature_range")
     }  # fmt: skip
     options.update(_placing(o))
     options["convex"] = True if o.get("convex") else None
@@ -441,13 +441,37 @@ def analyse(
     >>> a.vertices, a.runs[0].direction
     (0, 1)
     """
-    unknown = sorted(set(placing) - set(_PLACING))
-    if unknown:
-        raise TypeError(f"unknown option {unknown[0]!r}; there are {', '.join(_PLACING)}")
-    options = options_text({"units": units, "curve": curve, "drawing": drawing, **_placing(placing)})
+    options = _analyse_options({"units": units, "curve": curve, "drawing": drawing}, placing)
     watched = {"progress": progress, "cancelled": cancelled}
     values = _report("analyse", _source(points), options, watched)
     return Analysis.of(values) if "segments" in values else DrawingAnalysis.of(values)
+
+
+def _analyse_options(options: Mapping[str, Any], placing: Mapping[str, Any]) -> Optional[bytes]:
+    unknown = sorted(set(placing) - set(_PLACING))
+    if unknown:
+        raise TypeError(f"unknown option {unknown[0]!r}; there are {', '.join(_PLACING)}")
+    return options_text({**options, **_placing(placing)})
+
+
+def analyse_file(
+    points: Points,
+    path: Union[str, "os.PathLike[str]"],
+    *,
+    units: Optional[str] = None,
+    curve: Union[int, str, None] = None,
+    drawing: Optional[str] = None,
+    plot: Optional[str] = None,
+    curvature_range: Optional[str] = None,
+    progress: Optional[ProgressFunction] = None,
+    cancelled: Optional[CancelledFunction] = None,
+    **placing: Any,
+) -> List[str]:
+    """Writes what `analyse` finds: .csv, .json the tables; of a drawing .svg the curve that is asked
+    for, else the longest. Returns what is to be said of it."""
+    options = {"units": units, "curve": curve, "drawing": drawing, "plot": plot, "curvature-range": curvature_range}
+    watched = {"progress": progress, "cancelled": cancelled}
+    return _file_of("analyse_file", _source(points), path, _analyse_options(options, placing), watched)
 
 
 def region(points: Points, **options: Any) -> Table:
@@ -485,11 +509,23 @@ def worksheet(
     watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
     source = _prepared(points, options)
     text = _fit_options(source, options, (*_CONSTRUCTION, "insert"))
+    return _file_of("worksheet", source, path, text, watched)
+
+
+def _file_of(
+    job: str,
+    source: "Source",
+    path: Union[str, "os.PathLike[str]"],
+    options: Optional[bytes],
+    watched: Mapping[str, Any],
+) -> List[str]:
+    """What a job of the library makes of points for one file, written."""
     target = pathlib.Path(path)
     out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
     with Run(watched["progress"], watched["cancelled"]) as run:
         ending = target.suffix.lstrip(".").encode()
-        if lib.obvid_worksheet(source._handle, text, ending, run, C.byref(out), C.byref(error)):
+        work = getattr(lib, "obvid_" + job)
+        if work(source._handle, options, ending, run, C.byref(out), C.byref(error)):
             raise raise_error(error)
     return write_all(target, taken_files(out))
 
@@ -499,6 +535,34 @@ def compare(points: Points, **options: Any) -> List[CarrierRow]:
     watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
     source = _prepared(points, options)
     return carrier_rows(_report("compare", source, _fit_options(source, options), watched))
+
+
+def compare_file(points: Points, path: Union[str, "os.PathLike[str]"], **options: Any) -> List[str]:
+    """Writes what `compare` finds: .svg the carriers side by side; .csv, .json the table. Options of `fit`
+    and ``curvature_range``. Returns what is to be said of it."""
+    return _fit_file("compare_file", points, path, options, ("curvature_range",))
+
+
+def suggest_file(points: Points, path: Union[str, "os.PathLike[str]"], **options: Any) -> List[str]:
+    """Writes what `suggest` finds: .svg a chart, .json the table. Options of `fit`."""
+    return _fit_file("suggest_file", points, path, options)
+
+
+def why_not_file(points: Points, path: Union[str, "os.PathLike[str]"], **options: Any) -> List[str]:
+    """Writes the nearest contour that there is where `fit` finds none, as a picture: .svg. Options of `fit`."""
+    return _fit_file("why_not_file", points, path, options)
+
+
+def _fit_file(
+    job: str,
+    points: Points,
+    path: Union[str, "os.PathLike[str]"],
+    options: Dict[str, Any],
+    more: Tuple[str, ...] = (),
+) -> List[str]:
+    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    source = _prepared(points, options)
+    return _file_of(job, source, path, _fit_options(source, options, more), watched)
 
 
 def compare_curves(
@@ -564,6 +628,20 @@ def why_not(points: Points, **options: Any) -> Optional[NoContourError]:
     except NoContourError as reason:
         return reason
     return None
+
+
+def explain(code: Union[str, int, None] = None) -> Any:
+    """What an error code means and what helps; without one all of them.
+
+    >>> import obvid
+    >>> obvid.explain("E401")["code"]
+    'E401'
+    """
+    text, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    asked = None if code is None else str(code).encode()
+    if lib.obvid_explain(asked, C.byref(text), C.byref(error)):
+        raise raise_error(error)
+    return json.loads(taken_text(text) or "null")
 
 
 Result = TypeVar("Result")

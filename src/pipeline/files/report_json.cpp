@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "obvid/core/internal/near_name.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/audit.h"
@@ -307,6 +309,21 @@ void add_error_text(JsonText& json, const ErrorText& text) {
 }
 
 }  // namespace
+
+Result<ErrorText> error_text_of(std::string_view typed) {
+  std::string wanted(typed);
+  if (!wanted.empty()) {
+    if (std::isdigit(static_cast<unsigned char>(wanted[0])) != 0) wanted.insert(0, "E");
+    wanted[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(wanted[0])));
+  }
+  std::vector<std::string> names;
+  for (const ErrorText& text : error_texts()) {
+    names.push_back(fmt::format("E{}", static_cast<int>(text.code)));
+    if (names.back() == wanted) return text;
+  }
+  return error(ErrorCode::kUsage, fmt::format("there is no error code '{}'", wanted))
+      .hint(did_you_mean(wanted, names, "`obvid explain` lists all codes"));
+}
 
 std::string error_text_json(const ErrorText& text) {
   JsonText json;

@@ -74,6 +74,19 @@ Job on_points(const char* name, Report job, const char* options, bool drawing = 
           }};
 }
 
+using File = int (*)(const obvid_input*, const char*, const char*, const obvid_run*, obvid_files**,
+                     obvid_error**);
+
+Job file_of_points(const char* name, File job, const char* ending, const char* options = nullptr,
+                   bool drawing = false) {
+  return {name, [=](const Handles& h, const obvid_run* run) {
+            obvid_files* files = nullptr;
+            const int code =
+                job(drawing ? h.drawing : h.points, options, ending, run, &files, nullptr);
+            return told(files) + code_text(code);
+          }};
+}
+
 Job fit(const char* options) {
   return {std::string("fit ") + options, [=](const Handles& h, const obvid_run* run) {
             obvid_contour* contour = nullptr;
@@ -165,12 +178,13 @@ std::vector<Job> jobs() {
       on_points("region", obvid_region, "{\"tolerance\": 0.1}"),
       on_points("compare", obvid_compare, "{}"),
       on_points("why_not", obvid_why_not, "{\"start-heading\": 170, \"end-heading\": 10}"),
-      {"worksheet",
-       [](const Handles& h, const obvid_run* run) {
-         obvid_files* files = nullptr;
-         const int code = obvid_worksheet(h.points, nullptr, "csv", run, &files, nullptr);
-         return told(files) + code_text(code);
-       }},
+      file_of_points("worksheet", obvid_worksheet, "csv"),
+      file_of_points("analyse_file", obvid_analyse_file, "csv"),
+      file_of_points("analyse_file of a drawing", obvid_analyse_file, "svg", nullptr, true),
+      file_of_points("compare_file", obvid_compare_file, "svg"),
+      file_of_points("suggest_file", obvid_suggest_file, "svg"),
+      file_of_points("why_not_file", obvid_why_not_file, "svg",
+                     "{\"start-heading\": 170, \"end-heading\": 10}"),
       {"stored",
        [](const Handles& h, const obvid_run* run) {
          obvid_contour* contour = nullptr;

@@ -63,6 +63,9 @@ struct Written {
 /// The series itself: its points and what is given at them.
 [[nodiscard]] std::string series_json(const PointSeries& series);
 
+/// That of a code as it is typed: "E401", "e401", "401". Error: E201 where there is none, with the
+/// one that is like it.
+[[nodiscard]] Result<ErrorText> error_text_of(std::string_view typed);
 /// What an error code means and what helps, and all of them as an array.
 [[nodiscard]] std::string error_text_json(const ErrorText& text);
 [[nodiscard]] std::string error_texts_json();
