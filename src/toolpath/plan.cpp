@@ -412,8 +412,10 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
       all = levels->in_order();
       out.report.levels = levels->levels();
     }
-    const Family rest = left != nullptr ? in_short_order(*family, !options.one_way) : *family;
-    all.insert(all.end(), rest.begin(), rest.end());
+    const auto append = [&](const Family& more) {
+      all.insert(all.end(), more.begin(), more.end());
+    };
+    left != nullptr ? append(in_short_order(*family, !options.one_way)) : append(*family);
     lay_moves(all, options, rule.level(), walker, out);
     OBVID_TRY(finish(*part, cells, reach, left, options, run, out));
     const bool high = options.scallop && out.report.scallop.found > *options.scallop &&
