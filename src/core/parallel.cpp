@@ -11,8 +11,23 @@
 #include <thread>
 #include <vector>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 namespace obvid {
 namespace {
+
+/// That this process may run on at a time: the machine's, unless it is bound to some of them.
+std::size_t processors() {
+#ifdef __linux__
+  cpu_set_t own;
+  if (sched_getaffinity(0, sizeof own, &own) == 0) {
+    return std::max<std::size_t>(1, static_cast<std::size_t>(CPU_COUNT(&own)));
+  }
+#endif
+  return std::max(1U, std::thread::hardware_concurrency());
+}
 
 /// Numbers are handed out one after another: whoever is free takes the next.
 class Share {
@@ -58,7 +73,7 @@ constexpr std::chrono::milliseconds kBetweenQuestions{5};
 void shared_out(std::size_t count, std::size_t threads,
                 const std::function<void(std::size_t)>& work,
                 const std::function<void()>& meanwhile) {
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  if (threads == 0) threads = processors();
   Share share(count, work);
   std::vector<std::thread> helpers;
   std::mutex mutex;

@@ -16,6 +16,7 @@
 #include "obvid/io/read_points.h"
 #include "offset_table.h"
 #include "read_blade_table.h"
+#include "read_streamsurfaces.h"
 
 namespace obvid {
 namespace {
@@ -253,7 +254,7 @@ Result<void> check_no_matrices(const std::vector<std::string>& paths) {
     if (path == "-") return {};  // standard input is read once
     const auto text = read_file(path);
     if (!text || is_blade_table(*text) || is_airfoil_of_blade(*text)) continue;
-    if (is_offset_text(*text)) continue;
+    if (is_offset_text(*text) || is_on_streamsurfaces(*text)) continue;
     const auto rows = number_rows(*text, path);
     const bool named = rows && column_named(*rows, "x") >= 0;
     if (!rows || named || is_rotor(*rows) || !is_matrix(*rows)) continue;
@@ -322,6 +323,10 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
     for (const Vec2 p : airfoil->points) section.points.push_back({p.x, p.y, 0.0});
     section.rounding = {airfoil->rounding.x, airfoil->rounding.y, 0.0};
     out = ParsedSections{{std::move(section)}, true};
+  } else if (is_on_streamsurfaces(text)) {
+    auto sections = parse_streamsurfaces(text, name);
+    OBVID_TRY(sections);
+    return ParsedSections{std::move(*sections)};
   } else if (is_offset_text(text)) {
     auto table = parse_offset_table(text, name);
     OBVID_TRY(table);

@@ -10,20 +10,18 @@ namespace {
 constexpr double kLeastParameterStep = 1e-4;  // of the range of the parameter: poles, folds
 
 /// To the next line of parameters: as far as the narrowest place allows.
-double step_of(const Part& part, const StepRule& rule, const Pass& pass, double length) {
-  double step = length;
+double step_of(const Part& part, const StepRule& rule, const Pass& pass, double length,
+               std::size_t threads) {
   const Rail& rail = pass.rail;
   const NurbsSurface& surface = part.model().patches[rail.patch].surface;
-  for (const auto& piece : pass.pieces) {
-    for (const PassPoint& p : piece) {
-      if (p.lifted) continue;
-      const SurfaceJet jet = evaluate(surface, p.place.u, p.place.v);
-      const Vec3 along = unit(rail.along_v ? jet.dv : jet.du);
-      const Vec3 to = rail.along_v ? jet.du : jet.dv;
-      const double speed = norm(to - dot(to, along) * along);
-      if (speed > 0.0) step = std::min(step, rule.across(part, p.place, along) / speed);
-    }
-  }
+  const double step = least_over(pass, length, threads, [&](const PassPoint& p) {
+    if (p.lifted) return length;
+    const SurfaceJet jet = evaluate(surface, p.place.u, p.place.v);
+    const Vec3 along = unit(rail.along_v ? jet.dv : jet.du);
+    const Vec3 to = rail.along_v ? jet.du : jet.dv;
+    const double speed = norm(to - dot(to, along) * along);
+    return speed > 0.0 ? rule.across(part, p.place, along) / speed : length;
+  });
   return std::max(step, kLeastParameterStep * length);
 }
 
@@ -44,7 +42,7 @@ Result<Family> isoparametric(const Part& part, const ToolpathOptions& options, c
       rail.fixed = at;
       auto pass = walker.walk(rail);
       OBVID_TRY(pass);
-      const double step = step_of(part, rule, *pass, range.length());
+      const double step = step_of(part, rule, *pass, range.length(), walker.threads());
       if (left != nullptr) left->keep(*pass);
       family.push_back(std::move(*pass));
       if (at >= range.to) break;

@@ -17,7 +17,10 @@ constexpr int kMostHalvings = 40;         // halvings between stations
 constexpr double kEnd = 1e-4;           // of the share: walls at a border rise that fast before it
 constexpr double kMeasured = 0.25;      // radii: longer ways are not judged by three places alone
 constexpr double kMeasuredBend = 0.25;  // of the share: how far these may lie off the chord
-constexpr std::size_t kIsoSteps = 64;   // to guess the length of a line of parameters
+/// Shorter rails, such as links, are walked on the calling thread: others take longer to start.
+constexpr std::size_t kStationsShared = 16;
+constexpr std::size_t kPointsTogether = 256;  // of a pass, for the thread that takes them
+constexpr std::size_t kIsoSteps = 64;         // to guess the length of a line of parameters
 /// Contacts that move so much faster than the cutter, to places that lean otherwise (change of the
 /// unit normal): it changes from one side of a valley to the other.
 constexpr double kJump = 10.0;
@@ -55,6 +58,22 @@ Rail between(const Rail& a, const Rail& b) {
   out.fixed = 0.5 * (a.fixed + b.fixed);
   for (std::size_t i = 0; i < a.axis.size(); ++i) out.axis[i] = 0.5 * (a.axis[i] + b.axis[i]);
   return out;
+}
+
+double least_over(const Pass& pass, double most, std::size_t threads,
+                  const std::function<double(const PassPoint&)>& of) {
+  std::vector<const PassPoint*> all;
+  for (const auto& piece : pass.pieces) {
+    for (const PassPoint& p : piece) all.push_back(&p);
+  }
+  std::vector<double> least((all.size() + kPointsTogether - 1) / kPointsTogether, most);
+  in_parallel(least.size(), threads, [&](std::size_t k) {
+    const std::size_t end = std::min(all.size(), (k + 1) * kPointsTogether);
+    for (std::size_t i = k * kPointsTogether; i < end; ++i) {
+      least[k] = std::min(least[k], of(*all[i]));
+    }
+  });
+  return least.empty() ? most : *std::min_element(least.begin(), least.end());
 }
 
 void append_kept(const std::vector<PassPoint>& piece, const std::vector<bool>& kept,
@@ -252,10 +271,11 @@ void Walker::fill_both(const Rail& rail, const Station& a, double ta, const Stat
 // Stretches between stations know nothing of each other: they are walked side by side.
 Result<Pass> Walker::walk(const Rail& rail) {
   const auto ts = stations(rail);
+  const std::size_t threads = ts.size() < kStationsShared ? 1 : threads_;
   std::vector<Station> ends(ts.size());
-  in_parallel(ts.size(), threads_, [&](std::size_t i) { ends[i] = at(rail, ts[i]); });
+  in_parallel(ts.size(), threads, [&](std::size_t i) { ends[i] = at(rail, ts[i]); });
   std::vector<Stretch> stretches(ts.size() - 1);
-  in_parallel(stretches.size(), threads_, [&](std::size_t i) {
+  in_parallel(stretches.size(), threads, [&](std::size_t i) {
     stretches[i].most = most_points_ - std::min(most_points_, points_);
     fill(rail, ends[i], ts[i], ends[i + 1], ts[i + 1], 0, stretches[i]);
   });

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,10 @@ struct Pass {
   std::vector<std::vector<PassPoint>> pieces;
   [[nodiscard]] bool empty() const { return pieces.empty(); }
 };
+
+/// The least of `most` and what `of` says of the points of a pass, shared out among threads.
+[[nodiscard]] double least_over(const Pass& pass, double most, std::size_t threads,
+                                const std::function<double(const PassPoint&)>& of);
 
 /// Of a piece of a pass the points that are kept, as pieces of their own; single points are none.
 void append_kept(const std::vector<PassPoint>& piece, const std::vector<bool>& kept,

@@ -281,6 +281,20 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
   }
 }
 
+/// Of all that goes down and forward at once: against the level, degrees.
+double steepest_descent(const std::vector<ToolpathMove>& moves) {
+  double steepest = 0.0;  // height lost for each length seen from above
+  for (const ToolpathMove& move : moves) {
+    if (move.kind != ToolMove::kPlunge) continue;
+    for (std::size_t i = 1; i < move.points.size(); ++i) {
+      const double level = level_distance(move.points[i - 1], move.points[i]);
+      if (!(level > 0.0)) continue;
+      steepest = std::max(steepest, (move.points[i - 1].z - move.points[i].z) / level);
+    }
+  }
+  return std::atan(steepest) / kOneDegree;
+}
+
 /// Prints the program, reads it back and reports on that.
 Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
                     const Leftover* left, const ToolpathOptions& options, const RunContext& run,
@@ -289,6 +303,7 @@ Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nea
   OBVID_TRY(program);
   out.program = std::move(*program);
   out.report.minutes = out.program.minutes;
+  out.report.entries.steepest_deg = steepest_descent(out.moves);
   const auto seen = check_program(part, cells, reach, left, out.program.text,
                                   *exchange::machine_units_in(out.units), options, run);
   OBVID_TRY(seen);
@@ -412,8 +427,10 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
       all = levels->in_order();
       out.report.levels = levels->levels();
     }
-    const Family rest = left != nullptr ? in_short_order(*family, !options.one_way) : *family;
-    all.insert(all.end(), rest.begin(), rest.end());
+    const auto append = [&](const Family& more) {
+      all.insert(all.end(), more.begin(), more.end());
+    };
+    left != nullptr ? append(in_short_order(*family, !options.one_way)) : append(*family);
     lay_moves(all, options, rule.level(), walker, out);
     OBVID_TRY(finish(*part, cells, reach, left, options, run, out));
     const bool high = options.scallop && out.report.scallop.found > *options.scallop &&

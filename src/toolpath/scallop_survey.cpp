@@ -8,18 +8,19 @@
 #include <utility>
 
 #include "moves.h"
+#include "obvid/core/internal/parallel.h"
 
 namespace obvid::toolpath {
 namespace {
 
 constexpr int kMostRounds = 10;
-constexpr std::size_t kSpotsUnasked = 256;  // before whoever waits is asked whether to go on
-constexpr double kTakenOff = 0.9;           // of a height: more than that is nothing taken off
-constexpr int kMostInVain = 3;              // passes one after the other that took nothing off
-constexpr double kPassMargin = 3.0;         // cells that a pass goes beyond high places
-constexpr double kPassesTogether = 2.0;     // diameters: passes nearer to each other become one
-constexpr double kLeastPassStep = 0.002;    // of the level step: nearer passes help no more
-constexpr double kLeastLine = 1e-7;         // of the range of parameters, likewise
+constexpr std::size_t kSpotsTogether = 256;  // before whoever waits is asked whether to go on
+constexpr double kTakenOff = 0.9;            // of a height: more than that is nothing taken off
+constexpr int kMostInVain = 3;               // passes one after the other that took nothing off
+constexpr double kPassMargin = 3.0;          // cells that a pass goes beyond high places
+constexpr double kPassesTogether = 2.0;      // diameters: passes nearer to each other become one
+constexpr double kLeastPassStep = 0.002;     // of the level step: nearer passes help no more
+constexpr double kLeastLine = 1e-7;          // of the range of parameters, likewise
 
 /// As they are printed where no arcs stand for them.
 void append_sweeps(const Pass& pass, double within, std::vector<Sweep>& sweeps) {
@@ -29,6 +30,14 @@ void append_sweeps(const Pass& pass, double within, std::vector<Sweep>& sweeps) 
     tips = thinned(tips, within);
     for (std::size_t i = 1; i < tips.size(); ++i) sweeps.push_back({tips[i - 1], tips[i]});
   }
+}
+
+void append_sweeps(const std::vector<Pass>& passes, double within, std::size_t threads,
+                   std::vector<Sweep>& sweeps) {
+  std::vector<std::vector<Sweep>> all(passes.size());
+  in_parallel(all.size(), threads,
+              [&](std::size_t k) { append_sweeps(passes[k], within, all[k]); });
+  for (const auto& some : all) sweeps.insert(sweeps.end(), some.begin(), some.end());
 }
 
 }  // namespace
@@ -56,10 +65,8 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels,
   if (!(scallop_ > 0.0)) return count;
   std::vector<Sweep> sweeps;
   if (!begun_) {
-    for (const Pass& pass : family) append_sweeps(pass, print_, sweeps);
-    if (levels != nullptr) {
-      for (const Pass& pass : levels->passes()) append_sweeps(pass, print_, sweeps);
-    }
+    append_sweeps(family, print_, walker_.threads(), sweeps);
+    if (levels != nullptr) append_sweeps(levels->passes(), print_, walker_.threads(), sweeps);
   }
   begun_ = true;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -75,7 +82,7 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels,
           high->begin(), high->end(), [&](const HighSpot& s) { return s.normal.z > flat_from_; });
       const auto added = levels->add({wall, high->end()}, run);
       OBVID_TRY(added);
-      for (const Pass& pass : *added) append_sweeps(pass, print_, sweeps);
+      append_sweeps(*added, print_, walker_.threads(), sweeps);
       count += added->size();
       high->erase(wall, high->end());
     }
@@ -171,10 +178,10 @@ double ScallopSurvey::length(const Rail& rail) const {
 }
 
 /// From the last rail to the farthest of places beyond it.
-Vec2 ScallopSurvey::outside(const Rail& rail, const std::vector<HighSpot>& spots) const {
+Vec2 ScallopSurvey::outside(const Rail& rail, const Spots& spots) const {
   double farthest = 0.0;
-  for (const HighSpot& spot : spots) {
-    const Across aim = across(spot);
+  for (const HighSpot* spot : spots) {
+    const Across aim = across(*spot);
     const double off = aim.across - dot(rail.axis_at(aim.t), frame_.across());
     if (std::abs(off) > std::abs(farthest)) farthest = off;
   }
@@ -184,11 +191,15 @@ Vec2 ScallopSurvey::outside(const Rail& rail, const std::vector<HighSpot>& spots
 Result<std::vector<ScallopSurvey::Wanted>> ScallopSurvey::wanted(const Family& family,
                                                                  const std::vector<HighSpot>& high,
                                                                  const RunContext& run) {
-  std::map<Sides, std::vector<HighSpot>> places;
-  std::size_t seen = 0;
-  for (const HighSpot& spot : high) {
-    if (++seen % kSpotsUnasked == 0) OBVID_TRY(may_go_on(run));
-    if (const auto both = sides(family, spot)) places[*both].push_back(spot);
+  std::vector<std::optional<Sides>> beside(high.size());
+  const std::size_t blocks = (high.size() + kSpotsTogether - 1) / kSpotsTogether;
+  OBVID_TRY(in_parallel(blocks, walker_.threads(), run, [&](std::size_t k) {
+    const std::size_t end = std::min(high.size(), (k + 1) * kSpotsTogether);
+    for (std::size_t i = k * kSpotsTogether; i < end; ++i) beside[i] = sides(family, high[i]);
+  }));
+  std::map<Sides, Spots> places;
+  for (std::size_t i = 0; i < high.size(); ++i) {
+    if (beside[i]) places[*beside[i]].push_back(&high[i]);
   }
   std::vector<Wanted> out;
   for (const auto& [both, spots] : places) {
@@ -199,7 +210,7 @@ Result<std::vector<ScallopSurvey::Wanted>> ScallopSurvey::wanted(const Family& f
       for (Vec2& axis : rail.axis) axis = axis + out_there;
     }
     std::vector<double> ts;
-    for (const HighSpot& spot : spots) ts.push_back(across(spot).t);
+    for (const HighSpot* spot : spots) ts.push_back(across(*spot).t);
     std::sort(ts.begin(), ts.end());
     const double whole = std::max(length(rail), part_.cutter().radius);
     const double margin = kPassMargin * spacing_ / whole;

@@ -39,6 +39,8 @@ class ScallopSurvey {
     }
   };
 
+  using Spots = std::vector<const HighSpot*>;
+
   /// Leaves those out where passes were added some times and took nothing off.
   void give_up(std::vector<HighSpot>& high);
   [[nodiscard]] Result<std::vector<Wanted>> wanted(const Family& family,
@@ -48,7 +50,7 @@ class ScallopSurvey {
   [[nodiscard]] std::optional<double> across(const Rail& rail, const HighSpot& spot,
                                              double t) const;
   [[nodiscard]] std::optional<Sides> sides(const Family& family, const HighSpot& spot) const;
-  [[nodiscard]] Vec2 outside(const Rail& rail, const std::vector<HighSpot>& spots) const;
+  [[nodiscard]] Vec2 outside(const Rail& rail, const Spots& spots) const;
   [[nodiscard]] double length(const Rail& rail) const;
 
   const Part& part_;

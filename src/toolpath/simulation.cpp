@@ -343,7 +343,10 @@ Result<std::vector<HighSpot>> Simulation::above(double limit, double within,
     }
   });
   OBVID_TRY(looked);
+  std::size_t count = 0;
+  for (const auto& spots : found) count += spots.size();
   std::vector<HighSpot> out;
+  out.reserve(count);
   for (const auto& spots : found) out.insert(out.end(), spots.begin(), spots.end());
   return out;
 }

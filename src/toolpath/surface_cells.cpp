@@ -204,18 +204,21 @@ void SurfaceCells::sort_into_tiles(double tile) {
     first += t.count;
     t.count = 0;
   }
-  std::vector<Cell> cells(cells_.size());
-  std::vector<Origin> origins(cells_.size());
   number_.resize(cells_.size());
   for (std::size_t k = 0; k < cells_.size(); ++k) {
     Tile& t = tiles_[tile_of[k]];
-    const std::uint32_t to = t.first + t.count++;
-    cells[to] = cells_[k];
-    origins[to] = origins_[k];
-    number_[k] = to;
+    number_[k] = t.first + t.count++;
   }
-  cells_ = std::move(cells);
-  origins_ = std::move(origins);
+  // in place: a second list of a hundred megabytes costs more than to put the first one in order
+  std::vector<std::uint32_t> to = number_;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    while (to[k] != k) {
+      const std::uint32_t there = to[k];
+      std::swap(cells_[k], cells_[there]);
+      std::swap(origins_[k], origins_[there]);
+      std::swap(to[k], to[there]);
+    }
+  }
 }
 
 }  // namespace obvid::toolpath

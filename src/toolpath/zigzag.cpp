@@ -52,13 +52,10 @@ Result<Family> zigzag(const Part& part, const ToolpathOptions& options, const St
     rail.plane = frame.plane;
     auto pass = walk_where_left(walker, rail, left);
     OBVID_TRY(pass);
-    double step = rule.level();
-    for (const auto& piece : pass->pieces) {
-      for (const PassPoint& p : piece) {
-        if (p.place.normal.z <= flat) continue;
-        step = std::min(step, rule.form(part, p.place).along(frame.across()));
-      }
-    }
+    const double step = least_over(*pass, rule.level(), walker.threads(), [&](const PassPoint& p) {
+      if (p.place.normal.z <= flat) return rule.level();
+      return rule.form(part, p.place).along(frame.across());
+    });
     if (options.steep_deg) keep_flat(*pass, flat, rule.level());
     if (!pass->empty()) family.push_back(std::move(*pass));
     b += step;

@@ -167,6 +167,32 @@ SurfaceModel light_of(const SurfaceModel& model, const std::string& name) {
   return out;
 }
 
+/// The skin that is fair across within a share of its size; `light`: in few control points, too.
+SurfaceModel fair_of(const std::vector<std::string>& files, std::optional<double> noise,
+                     double size, bool light, const std::string& name) {
+  constexpr double kShare = 1e-4, kLightShare = 0.5;  // of the size, of that
+  SurfaceModel out;
+  const auto sections = read_sections(files);
+  EXPECT_TRUE(sections) << name;
+  if (!sections) return out;
+  SkinJob job;
+  job.sections.noise = noise;
+  job.fair_across = kShare * size;
+  if (light) job.light = kLightShare * kShare * size;
+  const auto made = fit_skin(*sections, job);
+  EXPECT_TRUE(made && made->skin.fair) << name << (made ? "" : to_line(made.error()));
+  if (!made || !made->skin.fair) return out;
+  EXPECT_LE(made->skin.fair->moved, *job.fair_across) << name;
+  EXPECT_LE(made->skin.across.found, made->skin.fair->before.found) << name;
+  std::size_t points = 0;
+  for (const SurfacePatch& patch : made->skin.patches) points += patch.surface.points.size();
+  std::printf("%-12s fair across%s: %zu control points, %zu changes, %zu before\n", name.c_str(),
+              light ? " and light" : "", points, made->skin.across.found,
+              made->skin.fair->before.found);
+  out.patches = made->skin.patches;
+  return out;
+}
+
 TEST_F(SkinsInFreecad, PublicHullsAndBladesAreValidAndMeetTheirSections) {
   const auto hull = [](const char* name) {
     return public_file(std::string("hulls_grids/") + name + "_x.dat");
@@ -181,15 +207,16 @@ TEST_F(SkinsInFreecad, PublicHullsAndBladesAreValidAndMeetTheirSections) {
     std::vector<std::string> files;
     std::optional<double> noise;  // of measured or rounded sections, units of the file
     std::size_t patches;
+    bool fair = false;  // looked at fair across, too: that takes seconds
   };
   const std::vector<Body> bodies = {
-      {"series60", {hull("Series60Offset")}, {}, 1},
+      {"series60", {hull("Series60Offset")}, {}, 1, true},
       {"trawler", {hull("TrawlerOffset")}, {}, 1},
       {"patrol",
        {hull("wpb_offset_bottom"), hull("wpb_offset_mid"), hull("wpb_offset_top")},
        {},
        3},
-      {"rotor37", {public_file("turbomachinery_nasa/rotor37geometry.dat")}, 1e-4, 1},
+      {"rotor37", {public_file("turbomachinery_nasa/rotor37geometry.dat")}, 1e-4, 1, true},
       {"iea15", blade, 2e-4, 2},
   };
   for (const Body& body : bodies) {
@@ -203,6 +230,11 @@ TEST_F(SkinsInFreecad, PublicHullsAndBladesAreValidAndMeetTheirSections) {
     model.patches = made.skin.patches;
     add(model, body.name);
     add(light_of(model, body.name), std::string(body.name) + "_light");
+    for (const bool light : {false, true}) {
+      if (!body.fair) continue;
+      SurfaceModel fair = fair_of(body.files, body.noise, size_of(model), light, body.name);
+      add(std::move(fair), std::string(body.name) + (light ? "_fair_light" : "_fair"));
+    }
   }
   judge();
 }

@@ -99,7 +99,14 @@ def program(binary, folder, *options, code=0, part="part.json"):
 def counted(report, entries):
     kinds = [kind(ways) for _, ways in entries]
     found = {name: kinds.count(name) for name in ("helical", "ramped", "straight")}
-    assert found == report["entries"], (found, report["entries"])
+    told = dict(report["entries"])
+    steepest = told.pop("steepest")
+    assert found == told, (found, told)
+    # coordinates are printed to 0.001 mm: ways of 0.2 mm tell an angle to 0.6 degrees
+    long = [(a - b, np.hypot(*(b - a)[:2])) for _, ways in entries for a, b in ways if np.hypot(*(b - a)[:2]) > 0.2]
+    seen = max((math.degrees(math.atan2(way[2], level)) for way, level in long), default=0.0)
+    assert seen <= steepest + 0.6, (seen, steepest)
+    assert (steepest > 0.0) == (found["helical"] + found["ramped"] > 0), (steepest, found)
     return found
 
 
@@ -135,6 +142,7 @@ def check_rough(binary, folder, cutter, diameter, corner, angle, entry, ramp, *m
     assert gouge <= TOLERANCE, f"{name}: {gouge} into the allowance"
     entries = entries_of(moves, 321.0)
     found = counted(report, entries)
+    assert report["entries"]["steepest"] <= ramp + 1e-6, "over level passes ramps are as steep as asked for at most"
     for _, ways_down in entries:
         if kind(ways_down) != "helical":
             continue
@@ -175,7 +183,7 @@ def check_finish(binary, folder, cutter, diameter, corner, strategy, entry, over
     entries = entries_of(moves, 321.0)
     found = counted(report, entries)
     plain, _, _ = program(binary, folder, *options, code=code)
-    assert plain["entries"] == {"helical": 0, "ramped": 0, "straight": len(entries)}, plain["entries"]
+    assert plain["entries"] == {"helical": 0, "ramped": 0, "straight": len(entries), "steepest": 0.0}, plain["entries"]
     tips = np.concatenate([along(a, b, 0.1) for _, ways in entries for a, b in ways])
     xs, ys = np.meshgrid(np.arange(0.0, WIDE + 1e-9, 0.4), np.arange(0.0, DEEP + 1e-9, 0.4))
     points = np.stack([xs.ravel(), ys.ravel(), height(xs.ravel(), ys.ravel())], axis=-1)
@@ -235,6 +243,8 @@ def check_ceiling(binary, folder):
             if entry == "ramp":
                 assert np.allclose(lift[free], falls[free], atol=0.02), (entry, lift[free], falls[free])
         assert entry == "helix" or (level > 0 and judged > 0), (level, judged)
+        downhill = math.degrees(math.atan(math.tan(math.radians(degrees)) + slope))  # back over the slope, and falling
+        assert entry == "helix" or report["entries"]["steepest"] > downhill - 0.01, (report["entries"], downhill)
     # stretches that end beside the stock are no narrow ones, though they are cut one way
     report, _, said = program(binary, folder, "--cutter", "ball", "--diameter", 6, "--strategy", "rough", "--one-way",
                               "--step-down", 2, "--allowance", 0.3, part="slope.json")

@@ -9,6 +9,10 @@
 #include <thread>
 #include <vector>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 namespace obvid {
 namespace {
 
@@ -29,6 +33,28 @@ TEST(InParallel, DoesEachNumberOnce) {
     EXPECT_EQ(again, std::vector<int>(100, 1));
   }
 }
+
+#ifdef __linux__
+// As many threads as the process may run at a time, not as the machine has: `taskset -c 0` is one.
+TEST(InParallel, OfAProcessBoundToOneProcessorTheCallerDoesAll) {
+  std::thread([] {
+    cpu_set_t all, one;
+    ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+    int first = 0;
+    while (!CPU_ISSET(first, &all)) ++first;
+    CPU_ZERO(&one);
+    CPU_SET(first, &one);
+    ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<int> elsewhere{0};
+    in_parallel(50, 0, [&](std::size_t) {
+      if (std::this_thread::get_id() != caller) ++elsewhere;
+      std::this_thread::sleep_for(100us);  // so that others would come to it
+    });
+    EXPECT_EQ(elsewhere, 0);
+  }).join();
+}
+#endif
 
 TEST(InParallel, NobodyAsksWhereNobodyMayStop) {
   bool asks = false;

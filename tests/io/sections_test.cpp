@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -61,6 +62,81 @@ TEST(ReadSections, RotorBladesComeFromCylindersAroundTheirAxis) {
   EXPECT_NEAR(p[1].y, 2.0 * std::sin(0.5), 1e-15);
   EXPECT_NEAR(p[3].y, -2.0 * std::sin(0.5), 1e-15);
   EXPECT_NEAR(p[4].z, 2.0 * std::cos(0.25), 1e-15);
+}
+
+// The layout in which NASA published rotor 67: prose, counts, and blocks of places for each
+// surface.
+constexpr std::string_view kOnStreamsurfaces = R"(
+ A rotor, told from hub to casing in 2 streamsurfaces.  Clearance is 0.024.
+ THE DIMENSIONS ARE IN FEET.
+        JM      NS      NB      JLE     JTE
+        110     14      22      16      85
+ re-run with 6 digits
+   JM   NS   NB  JLE  JTE
+    5    2   22    2    4
+ Surface number  1 from hub (surface 1 is the hub)
+ Axial Distance
+  1.000000
+ -1.000000  0.000000
+  0.100000  0.200000  1.000000
+ Radius*Theta Distance
+  1.000000
+  0.000000  0.100000  0.250000  0.300000  0.300000
+ Delta (Radius*Theta) = Tangential thickness
+  1.000000
+  0.000000  0.000000  0.050000  0.000000  0.000000
+ Radius
+  1.000000
+  0.500000  0.500000  0.500000  0.600000  0.600000
+ Surface number  2 from hub
+ Axial Distance
+  2.000000
+ -0.500000  0.000000  0.050000  0.100000  0.500000
+ Radius*Theta Distance
+  1.000000
+  0.000000  0.100000  0.250000  0.300000  0.300000
+ Delta (Radius*Theta) = Tangential thickness
+  1.000000
+  0.000000  0.000000  0.050000  0.000000  0.000000
+ Radius
+  1.000000
+  1.000000  1.000000  1.000000  1.000000  1.000000
+)";
+
+TEST(ReadSections, BladesOnStreamsurfacesAreTheSideThatIsToldAndTheThicknessBeside) {
+  const auto parsed = parse_sections(kOnStreamsurfaces, "f");
+  ASSERT_TRUE(parsed) << to_line(parsed.error());
+  ASSERT_EQ(parsed->sections.size(), 2u);
+  EXPECT_FALSE(parsed->flat);
+  for (const SpaceSeries& section : parsed->sections) {
+    EXPECT_EQ(section.units, Units("ft"));
+    // places 4, 3, 2 of the side that is told, 3 and 4 of the other: the edge at 2 once
+    ASSERT_EQ(section.points.size(), 5u);
+    EXPECT_EQ(section.rounding.x, 5e-7);
+    EXPECT_GE(section.rounding.y, 3 * 5e-7);
+  }
+  const auto& hub = parsed->sections[0].points;
+  const std::array<std::array<double, 3>, 5> axial_arc_radius = {
+      {{0.2, 0.3, 0.6}, {0.1, 0.25, 0.5}, {0.0, 0.1, 0.5}, {0.1, 0.2, 0.5}, {0.2, 0.3, 0.6}}};
+  for (std::size_t i = 0; i < hub.size(); ++i) {
+    const auto [x, arc, r] = axial_arc_radius[i];
+    EXPECT_EQ(hub[i].x, x);
+    EXPECT_NEAR(std::hypot(hub[i].y, hub[i].z), r, 1e-15);
+    EXPECT_NEAR(r * std::atan2(hub[i].y, hub[i].z), arc, 1e-15);
+  }
+  EXPECT_EQ(parsed->sections[1].points[1].x, 2.0 * 0.05);  // the scale of the block
+}
+
+TEST(ReadSections, BladesOnStreamsurfacesThatEndEarlyAreRefusedWithTheirLine) {
+  std::string cut(kOnStreamsurfaces.substr(0, kOnStreamsurfaces.find(" Surface number  2")));
+  const auto ends = parse_sections(cut, "f");
+  ASSERT_FALSE(ends);
+  EXPECT_EQ(ends.error().code, ErrorCode::kBadCount);
+  std::string swapped(kOnStreamsurfaces);
+  swapped.replace(swapped.find(" Radius\n"), 8, " Width\n ");
+  const auto unknown = parse_sections(swapped, "f");
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().where.substr(0, 2), "f:");
 }
 
 TEST(ReadSections, RotorThirtySevenHasThirteenSectionsAtTheirRadii) {

@@ -85,6 +85,32 @@ TEST(Toolpath, AFlatMillGoesUpAVerticalWallWithoutCuttingIntoIt) {
   }
 }
 
+TEST(Toolpath, TheProgramDoesNotDependOnTheNumberOfThreads) {
+  const auto wave = [](double x, double y) { return std::sin(x / 3.0) * std::cos(y / 4.0); };
+  const SurfaceModel model = test::model_of({test::surface_of(wave, {0, 0}, {12, 9}, 13)});
+  for (const auto strategy :
+       {ToolpathStrategy::kZigzag, ToolpathStrategy::kIsoparametric,
+        ToolpathStrategy::kConstantScallop, ToolpathStrategy::kZLevel, ToolpathStrategy::kRough}) {
+    ToolpathOptions o = ball(3.0);
+    o.strategy = strategy;
+    if (strategy == ToolpathStrategy::kZLevel) o.steep_deg = 5.0;
+    if (strategy == ToolpathStrategy::kRough) {
+      o.scallop.reset();
+      o.step_over = 1.0;
+    }
+    o.threads = 1;
+    const auto alone = plan(model, o);
+    ASSERT_TRUE(alone) << to_line(alone.error());
+    EXPECT_GT(alone->report.passes, 1U);
+    o.threads = 3;
+    const auto shared = plan(model, o);
+    ASSERT_TRUE(shared) << to_line(shared.error());
+    EXPECT_EQ(alone->program.text, shared->program.text);
+    EXPECT_EQ(alone->report.scallop.most, shared->report.scallop.most);
+    EXPECT_EQ(alone->report.gouge.most, shared->report.gouge.most);
+  }
+}
+
 TEST(Toolpath, RefusesSizesThatMakeNoSense) {
   const auto model = test::model_of({test::plate({0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {9, 9, 0})});
   const auto code = [&](auto&& change) {

@@ -108,7 +108,8 @@ struct ToolpathMove {
 /// Ways down from rapid moves to passes.
 struct ToolpathEntries {
   std::size_t helical = 0, ramped = 0;
-  std::size_t straight = 0;  ///< roughing: beside the stock
+  std::size_t straight = 0;   ///< roughing: beside the stock
+  double steepest_deg = 0.0;  ///< of helices and ramps against the level, anywhere on their way
 };
 
 struct ToolpathReport {

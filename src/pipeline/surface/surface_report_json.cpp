@@ -146,10 +146,15 @@ void add_deviation(JsonText& json, const char* name, const Deviation& found, boo
   json.end_object();
 }
 
-/// Found at a place, and what is nowhere exceeded.
+/// Found at a place, and what is nowhere exceeded; where nothing was found there is no place.
 void add_measured(JsonText& json, const char* name, const ToolpathReport::Measured& measured) {
   json.key(name).begin_object().pair("found", measured.found).pair("most", measured.most);
-  add_coordinates(json, "place", measured.place).end_object();
+  if (measured.found > 0.0) {
+    add_coordinates(json, "place", measured.place);
+  } else {
+    json.key("place").null();
+  }
+  json.end_object();
 }
 
 }  // namespace
@@ -272,7 +277,8 @@ std::string toolpath_report_json(const MadeToolpath& made, const Written& writte
   json.pair("leftover_area", r.leftover_area).pair("leftover_depth", r.leftover_depth);
   json.pair("flat_area", r.flat_area).pair("flat_left", r.flat_left).pair("safe_z", r.safe_z);
   json.key("entries").begin_object().pair("helical", r.entries.helical);
-  json.pair("ramped", r.entries.ramped).pair("straight", r.entries.straight).end_object();
+  json.pair("ramped", r.entries.ramped).pair("straight", r.entries.straight);
+  json.pair("steepest", r.entries.steepest_deg).end_object();
   json.pair("levels", r.levels).pair("narrow_stretches", r.narrow_stretches);
   json.pair("blocks", made.path.program.blocks).pair("arc_blocks", made.path.program.arc_blocks);
   json.key("not_kept").begin_array();

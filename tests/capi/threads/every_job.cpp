@@ -51,7 +51,7 @@ std::string code_text(int code) { return code == 0 ? "" : " E" + std::to_string(
 
 struct Handles {
   obvid_input *points = nullptr, *drawing = nullptr, *grid = nullptr, *rail = nullptr,
-              *table = nullptr, *net = nullptr, *stations = nullptr;
+              *table = nullptr, *net = nullptr, *stations = nullptr, *corner = nullptr;
   obvid_input *step = nullptr, *faces = nullptr;  ///< curves and faces of files of the CAD kernel
   obvid_contour* contour = nullptr;
   obvid_space* space = nullptr;
@@ -294,6 +294,22 @@ std::vector<Job> jobs() {
          obvid_surface_free(surface);
          return taken(text) + code_text(code);
        }},
+      {"fillet",
+       [](const Handles& h, const obvid_run* run) {
+         obvid_surface* surface = nullptr;
+         char* text = nullptr;
+         const int code = obvid_surface_make("fillet", &h.corner, 1, nullptr, 0,
+                                             "{\"faces\": \"floor,wall\", \"radius\": 5}", run,
+                                             &surface, &text, nullptr);
+         std::string out = taken(text) + code_text(code);
+         obvid_files* files = nullptr;
+         if (surface != nullptr &&
+             obvid_surface_export(surface, "json", nullptr, nullptr, &files, nullptr) == 0) {
+           out += told(files);
+         }
+         obvid_surface_free(surface);
+         return out;
+       }},
       {"surface_cut",
        [](const Handles& h, const obvid_run* run) {
          obvid_files* files = nullptr;
@@ -398,6 +414,20 @@ void from_two_threads(std::size_t count, const std::function<void(std::size_t)>&
   other.join();
 }
 
+/// A surface file: two plates, 40 x 30 and 40 x 25, that share an edge at a right angle.
+std::string plates_at_a_corner() {
+  const auto plate = [](const char* name, const char* far) {
+    return std::string("{\"name\": \"") + name +
+           "\", \"degree_u\": 1, \"degree_v\": 1, \"knots_u\": [0, 0, 1, 1], \"knots_v\": [0, 0, "
+           "1, 1], "
+           "\"points\": [[0, 0, 0], [40, 0, 0], [0, " +
+           far + "], [40, " + far + "]]}";
+  };
+  return "{\"format\": \"obvid-surface\", \"version\": 1, \"name\": \"corner\", \"units\": \"mm\", "
+         "\"units_source\": \"given\", \"patches\": [" +
+         plate("floor", "30, 0") + ", " + plate("wall", "0, 25") + "]}";
+}
+
 bool prepare(const std::string& folder, Handles& h) {
   const auto read = [&](const char* name, obvid_input** input) {
     return obvid_read_file((folder + name).c_str(), input, nullptr) == 0;
@@ -415,9 +445,11 @@ bool prepare(const std::string& folder, Handles& h) {
   }
   grid[0] = h.grid;
   const std::string table = "x,f\n0,0\n1,0.84\n2,0.9\n3,0.14\n",
-                    net = "row,col,x,y,z\n0,0,0,0,0\n0,1,1,0,1\n1,0,0,1,0\n1,1,1,1,3\n";
+                    net = "row,col,x,y,z\n0,0,0,0,0\n0,1,1,0,1\n1,0,0,1,0\n1,1,1,1,3\n",
+                    corner = plates_at_a_corner();
   if (obvid_read_text(table.data(), table.size(), "table", &h.table, nullptr) != 0 ||
-      obvid_read_text(net.data(), net.size(), "net", &h.net, nullptr) != 0) {
+      obvid_read_text(net.data(), net.size(), "net", &h.net, nullptr) != 0 ||
+      obvid_read_text(corner.data(), corner.size(), "corner.json", &h.corner, nullptr) != 0) {
     return false;
   }
   return obvid_space_points(helix.data(), 8, &h.rail, nullptr) == 0 &&
@@ -467,8 +499,8 @@ int main(int count, char** arguments) {
   obvid_surface_free(h.surface);
   obvid_space_free(h.space);
   obvid_contour_free(h.contour);
-  for (obvid_input* input :
-       {h.points, h.drawing, h.grid, h.rail, h.table, h.net, h.stations, h.step, h.faces}) {
+  for (obvid_input* input : {h.points, h.drawing, h.grid, h.rail, h.table, h.net, h.stations,
+                             h.corner, h.step, h.faces}) {
     obvid_input_free(input);
   }
   std::printf("%zu jobs, %d faults\n", all.size(), faults.load());
