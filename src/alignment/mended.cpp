@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "fewest_pieces.h"
 #include "rounded_corners.h"
@@ -39,7 +40,7 @@ class Mender {
     if (!ends_) behind_ = cut_between(stretch_.last);
     const bool linear = (begins_ || chain_.law[before_.element] == Transition::kClothoid) &&
                         (ends_ || chain_.law[behind_.element] == Transition::kClothoid);
-    if (!linear) return std::nullopt;
+    if (!linear || !is_in_order()) return std::nullopt;
     take_path();
     const std::vector<Node> nodes = rounded_corners(path_, allowed_);
     out_.chain.plane = chain_.plane;
@@ -57,6 +58,18 @@ class Mender {
   }
 
  private:
+  /// Whether the feet of all points before the cuts lie before them, and those behind behind them:
+  /// where a chain winds they may not.
+  [[nodiscard]] bool is_in_order() const {
+    const auto place_of = [](const auto& at) { return std::pair(at.element, at.s); };
+    if (!begins_ && !ends_ && place_of(behind_) < place_of(before_)) return false;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      if (i < stretch_.first && place_of(before_) < place_of(feet_[i])) return false;
+      if (i > stretch_.last && place_of(feet_[i]) < place_of(behind_)) return false;
+    }
+    return true;
+  }
+
   /// Half way between the feet of points i and i + 1.
   [[nodiscard]] Cut cut_between(std::size_t i) const {
     const Foot &a = feet_[i], &b = feet_[i + 1];
