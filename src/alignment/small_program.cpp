@@ -102,7 +102,7 @@ bool SmallProgram::maximum_of(const std::array<double, N>& goal, double box,
       }
       x[out] = sum * inverse;
       if constexpr (N == kUnknowns) {
-        // what bounds one maximum bounds others: the next ones meet it first (Welzl 1991)
+        // what bounds one maximum bounds others: the next ones meet it first
         std::rotate(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(i),
                     rows.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       }
