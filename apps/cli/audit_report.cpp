@@ -60,7 +60,7 @@ std::string joints_table(const std::vector<CurveAudit>& audits) {
     if (i > before) table.gap();
     before = i + 1;
     const CurveAudit& a = audits[i];
-    table.row({std::to_string(i + 1), std::to_string(a.contour.pieces.size()),
+    table.row({std::to_string(i + 1), std::to_string(figures_of(a).pieces),
                audit_continuity(a.continuity), count_text(a, a.vertices),
                count_text(a, a.visible_vertices), count_text(a, a.inflections), least_radius(a)});
   }

@@ -22,10 +22,15 @@ constexpr double kLeastShare = 1e-3;  ///< of the largest offset: what weighs at
 /// Of the tolerance, or of the largest offset where that is more: a gap that steps may leave, on
 /// the way.
 constexpr double kLoose = 0.1;
-constexpr double kCloser = 0.7;       ///< a gap has to become this share of itself
-constexpr int kClosing = 40;          ///< steps that close what is left, at the most
-constexpr double kRounding = 1e-13;   ///< of the size: what rounding makes of a gap
-constexpr double kSettled = 1e-9;     ///< growth of the fit, of itself, at which it is done
+constexpr double kCloser = 0.7;      ///< a gap has to become this share of itself
+constexpr int kClosing = 40;         ///< steps that close what is left, at the most
+constexpr double kRounding = 1e-13;  ///< of the size: what rounding makes of a gap
+constexpr double kSettled = 1e-9;    ///< growth of the fit, of itself, at which it is done
+/// Likewise for higher powers: the largest offset changes by a share of it.
+constexpr double kSettledPower = 1e-5;
+/// Of offsets over tolerances: a mean of higher powers that is least leaves one that is larger, and
+/// steps that ended early are not farther from the least.
+constexpr double kHopelessMean = 1.02;
 constexpr double kAtTheLeast = 1e-3;  ///< of the least length: what is no longer is held there
 constexpr double kShorter = 0.5;      ///< of what it is longer than the least: lost in one step
 constexpr double kTurn = 0.3;         ///< rad: an element turns by no more in one step
@@ -157,6 +162,10 @@ class Fitter {
     for (const double l : chain.length) size += l;
     for (const Vec2 p : points) size = std::max({size, std::abs(p.x), std::abs(p.y)});
     closed_ = kClosed * *std::min_element(tolerance.begin(), tolerance.end()) + kRounding * size;
+    const PointRow row{points, tolerance};
+    for (std::size_t i = 0; i < row.intervals() && chain.plane == Plane::kMap; ++i) {
+      passages_.push_back(passage_of(row, i));
+    }
   }
 
   Fitted run() {
@@ -175,10 +184,12 @@ class Fitter {
     for (const double power : kPowers) {
       if (out.largest <= 1.0) break;
       improve(power);
-      if (!is_closed() || largest() >= out.largest) continue;
-      out.largest = largest();
-      best = chain_;
-      best_feet = feet_;
+      if (is_closed() && largest() < out.largest) {
+        out.largest = largest();
+        best = chain_;
+        best_feet = feet_;
+      }
+      if (mean(power) > kHopelessMean) break;
     }
     chain_ = std::move(best);
     feet_ = std::move(best_feet);
@@ -256,6 +267,11 @@ class Fitter {
       sum += power == 2.0 ? ratio(i) * ratio(i) : std::pow(std::abs(ratio(i)), power);
     }
     return sum;
+  }
+
+  /// Mean of a power of the offsets over the tolerances, its root: no largest offset is smaller.
+  [[nodiscard]] double mean(double power) const {
+    return std::pow(objective(power) / static_cast<double>(feet_.size()), 1.0 / power);
   }
 
   /// Row of derivatives of n . C at the foot, for the end e of the chain or a foot.
@@ -510,7 +526,8 @@ class Fitter {
       const bool better = take_step(power, damping, [&](double gap_after, double after) {
         return gap > loose ? gap_after < kCloser * gap : after < before && gap_after <= loose;
       });
-      if (!better || (before - objective(power) < kSettled * before && gap <= loose)) break;
+      const double settled = power == 2.0 ? kSettled : kSettledPower;
+      if (!better || (before - objective(power) < settled * before && gap <= loose)) break;
     }
     damping = kDampingClosing;
     for (int i = 0; i < kClosing && gap_of(chain_) > closed_; ++i) {
@@ -549,7 +566,7 @@ class Fitter {
   }
 
   [[nodiscard]] std::size_t winding(const Chain& chain, const std::vector<Foot>& feet) const {
-    const PointRow row{points_, tolerance_};
+    const PointRow row{points_, tolerance_, false, {}, &passages_};
     return windings(chain, row, feet, 0, row.intervals());
   }
 
@@ -564,7 +581,8 @@ class Fitter {
   std::vector<Foot>& feet_;
   const Held& held_;
   std::size_t first_length_ = 0, unknowns_ = 0;
-  double closed_ = 0.0;  ///< units: a gap that counts as none
+  double closed_ = 0.0;            ///< units: a gap that counts as none
+  std::vector<Passage> passages_;  ///< of the intervals of points, on a map
   std::vector<std::size_t> column_;
   std::vector<Element> joints_;
   std::vector<TransitionLaw> laws_;
@@ -593,10 +611,40 @@ std::vector<Element> Chain::joints() const {
   return out;
 }
 
+std::vector<double> Chain::headings() const {
+  std::vector<double> out = {theta};
+  for (std::size_t k = 0; k < size(); ++k) {
+    const double k0 = curvature(k, 0), k1 = curvature(k, 1);
+    double turn = 0.5;
+    if (law[k] != Transition::kClothoid) turn = TransitionLaw(law[k], k0, k1, length[k]).turn(1.0);
+    out.push_back(out.back() + (k0 + (k1 - k0) * turn) * length[k]);
+  }
+  return out;
+}
+
+namespace {
+
+/// What a step of Newton's method along an element leaves along it, at the most, and what it
+/// changes the offset by: to the third power of the step.
+struct FootStep {
+  double left = 0.0, offset = 0.0;
+};
+
+FootStep step_of(const Chain& chain, const Foot& foot, double kappa, double step) {
+  if (chain.law[foot.element] != Transition::kClothoid) return {HUGE_VAL, 0.0};
+  const double change = chain.curvature(foot.element, 1) - chain.curvature(foot.element, 0);
+  const double rate = std::abs(change) / chain.length[foot.element];
+  return {0.5 * (rate * std::abs(foot.offset) + kappa * kappa * std::abs(foot.along)) * step * step,
+          -0.5 * kappa * foot.along * step};
+}
+
+}  // namespace
+
 void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<Foot>& feet) {
   constexpr int kNewton = 12;
   const std::vector<Element> joints = chain.joints();
   const std::vector<TransitionLaw> laws = laws_of(chain);
+  const bool map = chain.plane == Plane::kMap;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Foot& foot = feet[i];
     for (int step = 0; step < kNewton; ++step) {
@@ -605,14 +653,21 @@ void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<
       }
       while (foot.s < 0.0 && foot.element > 0) foot.s += chain.length[--foot.element];
       const Element at = place_on(chain, laws, joints, foot.element, foot.s);
-      const Vec2 away = points[i] - at.point;
-      foot.offset = cross(forward(chain.plane, at.theta), away);
-      foot.along = dot(lengthwise(chain.plane, at.theta), away);
-      const double stretch =
-          chain.plane == Plane::kMap ? std::max(0.2, 1.0 - at.kappa * foot.offset) : 1.0;
-      const double size = norm(at.point - chain.start) + chain.length[foot.element];
-      if (std::abs(foot.along) <= kRounding * size) break;
-      foot.s += foot.along / stretch;
+      const Vec2 away = points[i] - at.point, ahead = forward(chain.plane, at.theta);
+      foot.offset = cross(ahead, away);
+      foot.along = map ? dot(ahead, away) : away.x;
+      const double stretch = map ? std::max(0.2, 1.0 - at.kappa * foot.offset) : 1.0;
+      const double rounding =
+          kRounding * (norm(at.point - chain.start) + chain.length[foot.element]);
+      if (std::abs(foot.along) <= rounding) break;
+      const double way = foot.along / stretch, next = foot.s + way;
+      const bool same = next >= 0.0 && next <= chain.length[foot.element];
+      const FootStep taken = step_of(chain, foot, at.kappa, way);
+      foot.s = next;
+      if (!map || !same || !(taken.left <= rounding)) continue;
+      foot.offset += taken.offset;
+      foot.along = 0.0;
+      break;
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fewest_pieces.h"
+#include "mended.h"
 #include "obvid/alignment/internal/borne_grades.h"
 #include "obvid/alignment/internal/transition_law.h"
 #include "rounded_corners.h"
@@ -39,6 +40,11 @@ constexpr int kPolishes = 3;             ///< over the whole alignment, where an
 constexpr std::size_t kLeastAround = 4;  ///< elements that a loop begins with
 /// Of the tolerances, before transitions are put between elements with a step of the curvature.
 constexpr double kBeforeTransitions = 0.9;
+/// Intervals of points beside those that are passed otherwise than they may be that become chords
+/// with them, one number after the other until that does.
+constexpr std::array<std::size_t, 4> kMendedBeside = {0, 1, 3, 7};
+/// Of the intervals: where more are passed otherwise than they may be, another search does better.
+constexpr double kMostMended = 0.1;
 constexpr int kMoreAtSeam = 2;  ///< elements that may be added to close a loop
 
 class Simplifier {
@@ -71,6 +77,7 @@ class Simplifier {
       least = std::min(least, kOfShortest * shortest);
     }
     least_length_ = std::max(least, options.least_length);
+    limited_length_ = options.least_length > 0.0;
     if (options.least_radius > 0.0) largest_curvature_ = 1.0 / options.least_radius;
     if (without_steps_) {
       for (double& one : tolerance_) one *= kBeforeTransitions;
@@ -86,8 +93,9 @@ class Simplifier {
     }
     if (!rounded_) OBVID_TRY(polish(run, &joints));  // what is rounded passes the points already
     if (others) OBVID_TRY(polish_to_tolerance(run));
-    if (others && largest() > 1.0) return {};
+    if (others && largest() > 1.0 && !mend(others)) return {};
     OBVID_TRY(simplify(run));
+    if (!is_good() && mend(others)) OBVID_TRY(simplify(run));
     straighten();
     if (!without_steps_) return {};
     give_room();
@@ -103,14 +111,15 @@ class Simplifier {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
     if (!rounded_) OBVID_TRY(polish(run, &joints));
-    if (others && largest() > kHopelessOffset) return {};
+    if (others && largest() > kHopelessOffset && !mend(others)) return {};
     OBVID_TRY(close(run));
     if (others) OBVID_TRY(polish_to_tolerance(run));
-    if (others && largest() > 1.0) return {};
+    if (others && largest() > 1.0 && !mend(others)) return {};
     for (int turn = 0; turn < 2; ++turn) {
       OBVID_TRY(simplify(run));
       turn_to(chain_.size() / 2);
     }
+    if (!is_good() && mend(others)) OBVID_TRY(simplify(run));
     OBVID_TRY(merge_all(run));
     turn_to_first_given();
     if (largest() > 1.0) OBVID_TRY(polish(run));
@@ -131,6 +140,8 @@ class Simplifier {
   }
 
   [[nodiscard]] const Chain& chain() const { return chain_; }
+  /// Whether stretches of it are no elements of the search.
+  [[nodiscard]] bool is_mended() const { return mended_; }
   /// Whether it turns between neighbouring points as they do not show.
   [[nodiscard]] bool winds() const {
     const PointRow points = row();
@@ -146,6 +157,68 @@ class Simplifier {
   }
 
  private:
+  /// Whether an interval of points is passed as it may be: its points within their tolerances, and
+  /// not wound through. Feet are found.
+  [[nodiscard]] bool is_good_at(std::size_t interval) const {
+    const PointRow points = row();
+    for (const std::size_t i : {interval, (interval + 1) % points_.size()}) {
+      if (!(std::abs(feet_[i].offset) <= tolerance_[i])) return false;
+    }
+    return windings(chain_, points, feet_, interval, interval + 1, kRefoundTurn) == 0;
+  }
+
+  [[nodiscard]] std::size_t bad_intervals() {
+    find_feet(chain_, points_, feet_);
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < row().intervals(); ++i) out += is_good_at(i) ? 0 : 1;
+    return out;
+  }
+
+  [[nodiscard]] bool is_good() { return bad_intervals() == 0; }
+
+  /// Stretches whose points are left, or that are wound through, become their chords with rounded
+  /// corners; what lies beside stays. False where not all can, or, with `others`, where they are
+  /// many.
+  bool mend(bool others) {
+    const bool limits = std::isfinite(largest_curvature_) || limited_length_;
+    if (chain_.plane != Plane::kMap || constant_ || without_steps_ || limits) return false;
+    const auto intervals = static_cast<double>(row().intervals());
+    std::size_t bad = bad_intervals();
+    if (others && static_cast<double>(bad) > kMostMended * intervals) return false;
+    while (bad > 0) {
+      std::size_t first = 0;
+      while (is_good_at(first)) ++first;
+      std::size_t last = first;
+      while (last + 1 < row().intervals() && !is_good_at(last + 1)) ++last;
+      const std::size_t before = bad;
+      if (!mend(first, last, bad)) return false;
+      bad = bad_intervals();
+      if (bad >= before) return false;
+    }
+    const double shortest = *std::min_element(chain_.length.begin(), chain_.length.end());
+    least_length_ = std::min(least_length_, kOfShortest * shortest);
+    mended_ = true;
+    return true;
+  }
+
+  /// Intervals [first, last], which are bad, and as many beside them as that takes. `bad`: so many
+  /// are now.
+  bool mend(std::size_t first, std::size_t last, std::size_t bad) {
+    for (const std::size_t more : kMendedBeside) {
+      PointStretch stretch{first - std::min(first, more),
+                           std::min(last + 1 + more, points_.size() - 1)};
+      if (closed_ && (stretch.first == 0 || stretch.last + 1 == points_.size())) return false;
+      auto mended = with_rounded_chords(chain_, feet_, row(), stretch);
+      if (!mended) continue;
+      std::swap(chain_, mended->chain);
+      std::swap(feet_, mended->feet);
+      if (bad_intervals() < bad) return true;
+      std::swap(chain_, mended->chain);
+      std::swap(feet_, mended->feet);
+    }
+    return false;
+  }
+
   /// Begins the chain at the joint behind the first point.
   void turn_to_first_given() {
     const std::size_t first = (points_.size() - first_given_) % points_.size();
@@ -798,7 +871,7 @@ class Simplifier {
       }
     }
     Window window = cut(next, first, last);
-    return fits(window) && commit(std::move(next), feet_, window);
+    return accept(std::move(next), feet_, std::move(window));
   }
 
   /// Elements that share a curvature follow one another: those beside the window tell.
@@ -934,10 +1007,12 @@ class Simplifier {
   bool closed_ = false;               ///< the pose at the end is that at the start, and stays
   Vec2 lap_;                          ///< from the start to the end
   std::size_t first_given_ = 0;       ///< number, as given, of the first point
+  bool mended_ = false;               ///< stretches are chords with rounded corners
   bool rounded_ = false;              ///< begun with chords whose corners are rounded
   Chain chain_;
   std::vector<Foot> feet_;
   double least_length_ = 0.0;
+  bool limited_length_ = false;  ///< as was asked for
   double largest_curvature_ = std::numeric_limits<double>::infinity();
 };
 
@@ -1000,8 +1075,9 @@ constexpr std::array kAttempts = {Attempt{1.0, 0.0},  Attempt{1.0, 0.5},  Attemp
                                   Attempt{0.5, 0.25}, Attempt{0.25, 0.0}, Attempt{0.25, 0.75},
                                   Attempt{0.1, 0.5}};
 
-/// Points beyond which there is one search: another one of that many takes a minute, and chords are
-/// short. Not of profiles: that of as many heights takes some seconds.
+/// Points beyond which the first elements that are found are taken, and those of a search are made
+/// fewer even where they leave the tolerance: another search takes some seconds, and chords are
+/// short. Not of profiles: that of as many heights is faster.
 constexpr std::size_t kMostSearchedAgain = 400;
 
 /// Other elements than those that left the tolerance: less is asked of them, or more of what no
@@ -1104,23 +1180,28 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     return out;
   };
   std::optional<Error> first;
+  std::optional<Simplifier> best;
   const bool again = sought.constant || given.size() <= kMostSearchedAgain;
   double tried = 0.0;  // of open points it is all the same where they begin
   for (const Attempt& attempt : kAttempts) {
     if (!options.closed && attempt.part == tried) continue;
     tried = attempt.part;
-    const bool others = again && &attempt != &kAttempts.back();
+    const bool others = (again || first) && &attempt != &kAttempts.back();
     auto found = searched(points, allowed, options, sought, attempt, others, run);
-    if (found) return result_of(*found);
+    if (found) {
+      const bool whole = !found->is_mended();
+      if (!best || found->chain().size() < best->chain().size()) best = std::move(*found);
+      if (whole || !again) break;
+      continue;
+    }
     const ErrorCode code = found.error().code;
     const bool by_search = code == ErrorCode::kNoSpiral || code == ErrorCode::kToleranceNotReached;
     if (!by_search) return fail(found.error());
     if (!first) first = found.error();
-    if (!again) break;
   }
+  if (best) return result_of(*best);
   const bool limits = options.least_length > 0.0 || options.least_radius > 0.0;
-  const bool few = given.size() <= kMostSearchedAgain;
-  if (sought.plane == Plane::kMap && !sought.constant && !limits && few) {
+  if (sought.plane == Plane::kMap && !sought.constant && !limits) {
     auto found = searched(points, allowed, options, sought, kRoundedChords, false, run);
     if (found) return result_of(*found);
     if (found.error().code == ErrorCode::kCancelled) return fail(found.error());

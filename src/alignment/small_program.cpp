@@ -58,7 +58,7 @@ bool on_line(double goal, const std::vector<HalfSpaceOf<1>>& rows, double box, d
 template <std::size_t N>
 bool SmallProgram::maximum_of(const std::array<double, N>& goal, double box,
                               std::array<double, N>& x) {
-  const auto& rows = std::get<N>(rows_);
+  auto& rows = std::get<N>(rows_);
   if constexpr (N == 1) {
     return on_line(goal[0], rows, box, x[0]);
   } else {
@@ -101,6 +101,11 @@ bool SmallProgram::maximum_of(const std::array<double, N>& goal, double box,
         sum -= row.a[to] * inner[k];
       }
       x[out] = sum * inverse;
+      if constexpr (N == kUnknowns) {
+        // what bounds one maximum bounds others: the next ones meet it first
+        std::rotate(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(i),
+                    rows.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      }
     }
     return true;
   }

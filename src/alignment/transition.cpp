@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/alignment/transition.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "obvid/alignment/internal/transition_law.h"
-#include "obvid/contour/clothoids.h"
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/numeric/internal/gauss.h"
@@ -20,7 +21,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kPartTurn = 0.5;
 constexpr double kPartShare = 0.125;  // the middle, where Helmert's law has a corner, is a joint
 constexpr int kMostClothoids = 1024;
-constexpr int kLooks = 4;  ///< places of a clothoid that are compared
+constexpr int kLooks = 8;  ///< places of a clothoid that are compared
 
 // The cubic parabola y = x^3/3: slope x^2, curvature 2 G(x), arc length S(x) from its inflection.
 // All others are larger or smaller ones.
@@ -180,6 +181,11 @@ double plain_turn(Transition kind, double u) {
 
 }  // namespace
 
+std::size_t elements_in(std::size_t pieces, const std::vector<PlacedTransition>& transitions) {
+  for (const PlacedTransition& one : transitions) pieces -= one.pieces - 1;
+  return pieces;
+}
+
 std::optional<Transition> transition_named(std::string_view name) {
   const auto at = std::find(kTransitionNames.begin(), kTransitionNames.end(), name);
   if (at == kTransitionNames.end()) return std::nullopt;
@@ -210,6 +216,12 @@ TransitionLaw::TransitionLaw(Transition kind, double kappa0, double kappa1, doub
 std::optional<double> TransitionLaw::inflection() const {
   if (kind_ != Transition::kCubic || !exists_ || !(from_ < 0.0 && to_ > 0.0)) return std::nullopt;
   return -before_ / along_;
+}
+
+double TransitionLaw::bends_back() const {
+  if (kind_ == Transition::kClothoid) return 1.0;
+  if (kind_ != Transition::kCubic) return 0.5;
+  return from_ < 0.0 && to_ > 0.0 ? -before_ / along_ : 1.0;
 }
 
 TransitionLaw::Place TransitionLaw::at(double u) const {
@@ -271,32 +283,162 @@ Element transition_at(Transition kind, const Element& start, double kappa1, doub
   return transition_at(TransitionLaw(kind, start.kappa, kappa1, length), start, kappa1, length, s);
 }
 
-std::vector<ClothoidPiece> clothoids_along(Transition kind, const Element& start, double kappa1,
-                                           double length, double tolerance) {
+namespace {
+
+/// Two clothoids between two elements of a transition between which its curvature bends to one
+/// side: it grows or falls along both, is that of the elements at their ends, and the way and the
+/// turning between them are the transition's.
+class ClothoidPair {
+ public:
+  ClothoidPair(const Element& from, const Element& to, double length) : from_(from), to_(to) {
+    const double change = to.kappa - from.kappa;
+    below_ = from.kappa + to.kappa - 2.0 * (to.theta - from.theta) / length;
+    straight_ = !(std::abs(below_) > kStraightLaw * std::abs(change) &&
+                  std::abs(below_) * length > kStraightTurn);
+    unknown_ = {0.5, below_, length};
+  }
+
+  /// False where there are none.
+  bool solve() {
+    constexpr int kMost = 40;
+    constexpr double kMet = 4.0 * 0x1p-53;  // of the length, and rad
+    if (straight_) return true;
+    double before = HUGE_VAL;
+    for (int k = 0; k < kMost; ++k) {
+      const Miss now = miss(unknown_);
+      const double far = std::max({std::abs(now[0]), std::abs(now[1]), std::abs(now[2])});
+      if (far <= kMet || (far <= kSettledPair && !(far < before))) return grows_one_way();
+      before = far;
+      if (!step(now)) return false;
+    }
+    return false;
+  }
+
+  void add_to(std::vector<ClothoidPiece>& out) const {
+    const double length = unknown_[2], first = unknown_[0] * length;
+    if (straight_) {
+      out.push_back({from_.point, to_.point, from_.theta, from_.kappa, to_.kappa, length});
+      return;
+    }
+    const double kappa = middle_curvature(unknown_);
+    const Element middle = clothoid_at(from_, (kappa - from_.kappa) / first, first);
+    out.push_back({from_.point, middle.point, from_.theta, from_.kappa, kappa, first});
+    out.push_back({middle.point, to_.point, middle.theta, kappa, to_.kappa, length - first});
+  }
+
+ private:
+  /// Share of the length where the two meet, how far the curvature there is below the chord of
+  /// curvatures (1/unit), and the length.
+  using Unknown = std::array<double, 3>;
+  using Miss = std::array<double, 3>;  ///< way along and beside, of the length, and turning
+
+  /// Of the change of the curvature: a law that leaves its chord by less is straight.
+  static constexpr double kStraightLaw = 1e-12;
+  /// Rad: likewise, what turns by so much less than along the chord; where two straight parts of it
+  /// would meet is lost in the rounding of places.
+  static constexpr double kStraightTurn = 1e-12;
+  /// Where steps lead no nearer, this is near enough: of the length, and rad.
+  static constexpr double kSettledPair = 1e-13;
+
+  [[nodiscard]] double middle_curvature(const Unknown& x) const {
+    return from_.kappa + x[0] * (to_.kappa - from_.kappa) - x[1];
+  }
+
+  [[nodiscard]] bool grows_one_way() const {
+    const double kappa = middle_curvature(unknown_);
+    return unknown_[0] > 0.0 && unknown_[0] < 1.0 && unknown_[2] > 0.0 &&
+           (kappa - from_.kappa) * (to_.kappa - kappa) >= 0.0;
+  }
+
+  [[nodiscard]] Miss miss(const Unknown& x) const {
+    const double kappa = middle_curvature(x), first = x[0] * x[2], second = x[2] - first;
+    const double theta = from_.theta + 0.5 * (from_.kappa + kappa) * first;
+    const Vec2 way = clothoid_step(from_.theta, from_.kappa, kappa, first) +
+                     clothoid_step(theta, kappa, to_.kappa, second);
+    const Vec2 off = complex_product(way - (to_.point - from_.point), unit_at(-from_.theta));
+    return {off.x / x[2], off.y / x[2], theta + 0.5 * (kappa + to_.kappa) * second - to_.theta};
+  }
+
+  /// A step of Newton's method, with secants so long that their rounding is none: to first order
+  /// all three are linear.
+  bool step(const Miss& now) {
+    const Unknown by = {0.05, 0.05 * below_, 1e-3 * unknown_[2]};
+    std::array<Miss, 3> column;
+    for (std::size_t j = 0; j < 3; ++j) {
+      Unknown moved = unknown_;
+      moved[j] += by[j];
+      column[j] = miss(moved);
+      for (std::size_t i = 0; i < 3; ++i) column[j][i] -= now[i];
+    }
+    const auto determinant = [](const Miss& a, const Miss& b, const Miss& c) {
+      return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+             a[2] * (b[0] * c[1] - b[1] * c[0]);
+    };
+    const double all = determinant(column[0], column[1], column[2]);
+    if (all == 0.0 || !std::isfinite(all)) return false;
+    const Miss share = {determinant(now, column[1], column[2]) / all,
+                        determinant(column[0], now, column[2]) / all,
+                        determinant(column[0], column[1], now) / all};
+    for (std::size_t j = 0; j < 3; ++j) unknown_[j] -= share[j] * by[j];
+    return std::isfinite(unknown_[0] + unknown_[1] + unknown_[2]);
+  }
+
+  Element from_, to_;
+  double below_ = 0.0;
+  bool straight_ = false;
+  Unknown unknown_{};
+};
+
+/// How far pieces are beside a transition, units; looked at between their ends.
+double farthest_beside(const std::vector<ClothoidPiece>& pieces, const TransitionLaw& law,
+                       const Element& start, double kappa1, double length) {
+  double largest = 0.0, from = 0.0;
+  for (const ClothoidPiece& piece : pieces) {
+    for (int look = 1; look < kLooks; ++look) {
+      const double part = static_cast<double>(look) / kLooks;
+      const Element there = transition_at(law, start, kappa1, length, from + part * piece.length);
+      const Vec2 away = evaluate(piece, part).point - there.point;
+      largest = std::max(largest, std::abs(cross(unit_at(there.theta), away)));
+    }
+    from += piece.length;
+  }
+  return largest;
+}
+
+}  // namespace
+
+Result<std::vector<ClothoidPiece>> clothoids_along(Transition kind, const Element& start,
+                                                   double kappa1, double length, double tolerance) {
+  const TransitionLaw law(kind, start.kappa, kappa1, length);
+  const double middle = law.bends_back();
   for (int count = 1;; count *= 2) {
     std::vector<ClothoidPiece> out;
-    double largest = 0.0;
     Element from = start;
-    for (int k = 0; k < count; ++k) {
-      const double s1 = length * (k + 1) / count;
-      const Element to = transition_at(kind, start, kappa1, length, s1);
-      const auto piece = clothoid_between(from.point, from.theta, to.point, to.theta);
-      if (!piece) break;
-      for (int look = 1; look < kLooks; ++look) {
-        const double part = static_cast<double>(look) / kLooks;
-        const Element there =
-            transition_at(kind, start, kappa1, length, length * (k + part) / count);
-        const Vec2 away = evaluate(*piece, part).point - there.point;
-        largest = std::max(largest, std::abs(cross(unit_at(there.theta), away)));
-      }
-      out.push_back(*piece);
+    double share = 0.0;
+    bool found = true;
+    for (int k = 0; k < 2 * count && found; ++k) {
+      const double part = static_cast<double>(k % count + 1) / count;
+      const double next = k < count ? part * middle : middle + part * (1.0 - middle);
+      if (!(next > share)) continue;
+      Element to = transition_at(law, start, kappa1, length, next * length);
+      if (next == 1.0) to.kappa = kappa1;
+      ClothoidPair pair(from, to, (next - share) * length);
+      found = pair.solve();
+      if (found) pair.add_to(out);
       from = to;
+      share = next;
     }
-    if (static_cast<int>(out.size()) == count &&
-        (largest <= tolerance || count >= kMostClothoids)) {
+    const bool last = 2 * count >= kMostClothoids;
+    if (found && (last || farthest_beside(out, law, start, kappa1, length) <= tolerance)) {
       return out;
     }
-    if (count >= kMostClothoids) return out;
+    if (last) {
+      const double turn = 0.5 * std::abs(start.kappa + kappa1) * length / kOneDegree;
+      return error(ErrorCode::kUnsupported,
+                   fmt::format("no clothoids are found along a transition of kind {} that turns by "
+                               "{:.3g} deg",
+                               name_of(kind), turn));
+    }
   }
 }
 

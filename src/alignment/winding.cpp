@@ -36,14 +36,13 @@ HeadingRange headings_on(const Chain& chain, std::size_t k, double theta, double
 }
 
 /// Headings from one foot to another one behind it.
-HeadingRange headings_between(const Chain& chain, const std::vector<Element>& joints, Foot from,
+HeadingRange headings_between(const Chain& chain, const std::vector<double>& joints, Foot from,
                               Foot to) {
   if (std::pair(to.element, to.s) < std::pair(from.element, from.s)) std::swap(from, to);
   HeadingRange out;
   for (std::size_t k = from.element; k <= to.element; ++k) {
-    const HeadingRange own =
-        headings_on(chain, k, joints[k].theta, k == from.element ? from.s : 0.0,
-                    k == to.element ? to.s : chain.length[k]);
+    const HeadingRange own = headings_on(chain, k, joints[k], k == from.element ? from.s : 0.0,
+                                         k == to.element ? to.s : chain.length[k]);
     out = k == from.element ? own : both(out, own);
   }
   return out;
@@ -110,10 +109,20 @@ HeadingRange headings_along(double theta, double kappa0, double kappa1, double l
   return out;
 }
 
+namespace {
+
+bool may_run(const PointRow& row, std::size_t i, HeadingRange headings, double rounded) {
+  // what every passage allows: its neighbours need not be looked at
+  if (allows({heading(chord_of(row, i)), kSwing, false}, headings)) return true;
+  return allows(passage_of(row, i), headings, rounded);
+}
+
+}  // namespace
+
 std::size_t windings(const Chain& chain, const PointRow& row, const std::vector<Foot>& feet,
                      std::size_t first, std::size_t last, double rounded) {
   if (chain.plane != Plane::kMap) return 0;
-  const std::vector<Element> joints = chain.joints();
+  const std::vector<double> joints = chain.headings();
   std::size_t out = 0;
   for (std::size_t i = first; i < last; ++i) {
     HeadingRange headings;
@@ -122,13 +131,13 @@ std::size_t windings(const Chain& chain, const PointRow& row, const std::vector<
     } else {
       const std::size_t end = chain.size() - 1;
       headings = headings_between(chain, joints, feet[i], {end, chain.length[end]});
-      const double lap = joints.back().theta - joints.front().theta;
+      const double lap = joints.back() - joints.front();
       const HeadingRange begun = headings_between(chain, joints, {}, feet.front());
       headings = both(headings, {begun.low + lap, begun.high + lap});
     }
-    // which every passage allows: its neighbours need not be looked at
-    if (allows({heading(chord_of(row, i)), kSwing, false}, headings)) continue;
-    if (!allows(passage_of(row, i), headings, rounded)) ++out;
+    const bool allowed = row.passages != nullptr ? allows((*row.passages)[i], headings, rounded)
+                                                 : may_run(row, i, headings, rounded);
+    out += allowed ? 0 : 1;
   }
   return out;
 }

@@ -14,21 +14,22 @@ struct HeadingRange {
   double low = 0.0, high = 0.0;  ///< rad, unwrapped
 };
 
+/// The chord of an interval of points, and what a curve may do between them.
+struct Passage {
+  double heading = 0.0;  ///< of the chord, rad
+  double most = 0.0;     ///< that a curve's heading may be away from it, rad
+  bool any = false;      ///< the points are so near each other that any heading may be
+};
+
 /// Points in order, each known within its tolerance.
 struct PointRow {
   const std::vector<Vec2>& points;
   const std::vector<double>& tolerance;
   bool closed = false;  ///< behind the last point comes the first one, `lap` on
   Vec2 lap{};
+  const std::vector<Passage>* passages = nullptr;  ///< of its intervals, where they are known
 
   [[nodiscard]] std::size_t intervals() const { return points.size() - (closed ? 0 : 1); }
-};
-
-/// The chord of an interval of points, and what a curve may do between them.
-struct Passage {
-  double heading = 0.0;  ///< of the chord, rad
-  double most = 0.0;     ///< that a curve's heading may be away from it, rad
-  bool any = false;      ///< the points are so near each other that any heading may be
 };
 
 /// That between points i and i + 1. A curve goes nowhere back along the chord, and leaves it by no

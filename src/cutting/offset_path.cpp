@@ -120,6 +120,7 @@ class ParallelOf {
     for (Link& link : links_) out.path.pieces.push_back(std::move(link.piece));
     join(out.path);
     out.corners = std::move(corners_);
+    measure_corners(out);
     return out;
   }
 
@@ -152,8 +153,13 @@ class ParallelOf {
     if (turn * by_ > 0.0) {  // towards the tool
       links_.back().gap_behind = true;
       const double half = 0.5 * (std::numbers::pi - std::abs(turn)), radius = std::abs(by_);
-      corners_.push_back(
-          {end_point(before), radius / std::tan(half), radius * (1.0 / std::sin(half) - 1.0)});
+      const double reach = radius / std::tan(half);
+      corners_.push_back({end_point(before), reach, radius * (1.0 / std::sin(half) - 1.0)});
+      // that is so between lines as long as the tool reaches
+      const auto bears = [&](const Piece& piece) {
+        return std::holds_alternative<LinePiece>(piece) && length_of(piece) >= reach;
+      };
+      measured_.push_back(!bears(before) || !bears(behind));
       return;
     }
     const Vec2 corner = end_point(before);
@@ -161,6 +167,18 @@ class ParallelOf {
                           corner + by_ * left_normal(unit_at(theta + turn)), theta, -1.0 / by_,
                           std::abs(turn * by_)),
                       false, corner});
+  }
+
+  /// Where neighbours of a corner are short or bent, what the tool leaves is how far its way is.
+  void measure_corners(Parallel& parallel) const {
+    for (std::size_t k = 0; k < parallel.corners.size(); ++k) {
+      if (!measured_[k]) continue;
+      double nearest = HUGE_VAL;
+      for (const Piece& piece : parallel.path.pieces) {
+        nearest = std::min(nearest, distance_from(piece, parallel.corners[k].at));
+      }
+      parallel.corners[k].left = std::max(0.0, nearest - std::abs(by_));
+    }
   }
 
   /// Cuts both sides of every gap off where they meet.
@@ -232,6 +250,7 @@ class ParallelOf {
   double by_;
   std::vector<Link> links_;
   std::vector<Parallel::InnerCorner> corners_;
+  std::vector<bool> measured_;  ///< of these: what is left has to be measured
 };
 
 }  // namespace

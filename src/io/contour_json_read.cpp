@@ -9,6 +9,7 @@
 
 #include "contour_json_names.h"
 #include "contour_json_values.h"
+#include "obvid/alignment/internal/profile_figures.h"
 #include "obvid/certify/internal/limits.h"
 #include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/io/contour_json.h"
@@ -370,14 +371,10 @@ PlacedTransition ContourReader::transition(const Node& node, std::size_t from) {
 /// Whether an element ends at the station and height where the next one begins.
 bool goes_on(const ProfileElement& e, const ProfileElement& next, ProfileCurves curves) {
   constexpr double kSamePlace = 1e-6;  // of a length, and of the numbers themselves
-  // chord of an arc: half way between its ends' slopes; of a parabola: between its grades
-  const double grade = curves == ProfileCurves::kArcs
-                           ? std::tan(0.5 * (std::atan(e.grade0) + std::atan(e.grade1)))
-                           : 0.5 * (e.grade0 + e.grade1);
   const double slack =
       kSamePlace * (e.length + std::abs(next.station) + std::abs(next.height) + std::abs(e.height));
   return std::abs(e.station + e.length - next.station) <= slack &&
-         std::abs(e.height + grade * e.length - next.height) <= slack;
+         std::abs(end_height(e, curves) - next.height) <= slack;
 }
 
 VerticalProfile ContourReader::profile(const Node& node) {

@@ -18,6 +18,7 @@
 
 #include "obvid/alignment/alignment.h"
 #include "obvid/alignment/internal/transition_law.h"
+#include "obvid/curve/internal/clothoid.h"
 
 namespace obvid {
 namespace {
@@ -200,26 +201,64 @@ TEST(Transition, NoCubicOneLeadsToMoreThanItsGreatestCurvature) {
   }
 }
 
+/// The closed forms are monotone, and so is the curvature of clothoids in their place: from the one
+/// end's to the other's, without a step where two meet.
+void expect_monotone(const std::vector<ClothoidPiece>& pieces, double kappa0, double kappa1) {
+  const double side = kappa1 > kappa0 ? 1.0 : -1.0;
+  EXPECT_EQ(pieces.front().kappa0, kappa0);
+  EXPECT_EQ(pieces.back().kappa1, kappa1);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    EXPECT_GE(side * (pieces[k].kappa1 - pieces[k].kappa0), 0.0) << k;
+    if (k == 0) continue;
+    EXPECT_EQ(pieces[k].kappa0, pieces[k - 1].kappa1) << k;
+    EXPECT_EQ(pieces[k].start, pieces[k - 1].end) << k;
+    const ClothoidPiece& before = pieces[k - 1];
+    const double turned = before.theta0 + 0.5 * (before.kappa0 + before.kappa1) * before.length;
+    EXPECT_NEAR(pieces[k].theta0, turned, 1e-12) << k;  // rounding of places
+    const Vec2 step = clothoid_step(before.theta0, before.kappa0, before.kappa1, before.length);
+    EXPECT_NEAR(norm(before.start + step - before.end), 0.0, 1e-11) << k;
+  }
+}
+
 TEST(Transition, ClothoidsAlongItStayWithinTheTolerance) {
-  for (const Law& law : kLaws) {
-    const Element start{{5.0, 7.0}, 0.4, 0.0};
-    const double kappa1 = 1 / 300.0, length = 100.0;
-    const auto pieces = clothoids_along(law.kind, start, kappa1, length, 1e-6);
-    EXPECT_LE(pieces.size(), 64U);
-    double s = 0.0;
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-      for (const double t : {0.1, 0.35, 0.6, 0.85}) {
-        const Vec2 p = evaluate(pieces[k], t).point;
-        const Element near =
-            transition_at(law.kind, start, kappa1, length, s + t * pieces[k].length);
-        EXPECT_NEAR(cross(unit_at(near.theta), p - near.point), 0.0, 1.2e-6);
-      }
-      s += pieces[k].length;
-      if (k > 0) {
-        EXPECT_EQ(pieces[k].start, pieces[k - 1].end);
+  std::vector<Law> laws = kLaws;
+  laws.push_back({Transition::kCubic, AlignmentKind::kCubic, {}});
+  struct Ends {
+    double kappa0, kappa1, length;
+  };
+  // from straight, between arcs of one side, back, through an inflection, and half a turn; of a
+  // parabola that ends where it bends most
+  const std::vector<Ends> all = {{0.0, 1 / 300.0, 100.0},   {1 / 900.0, 1 / 200.0, 80.0},
+                                 {-1 / 250.0, 0.0, 60.0},   {-1 / 400.0, 1 / 300.0, 120.0},
+                                 {0.0, 0.0625, 100.0},      {0.0, 1e-7, 30.0},
+                                 {0.0, 1.0174 / 100, 68.15}};
+  for (const Law& law : laws) {
+    for (const Ends& ends : all) {
+      const Element start{{5.0, 7.0}, 0.4, ends.kappa0};
+      const TransitionLaw own(law.kind, ends.kappa0, ends.kappa1, ends.length);
+      if (!own.exists()) continue;
+      const std::string what =
+          std::string(name_of(law.kind)) + " to " + std::to_string(ends.kappa1);
+      SCOPED_TRACE(what);
+      for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+        const auto made = clothoids_along(law.kind, start, ends.kappa1, ends.length, tolerance);
+        ASSERT_TRUE(made.has_value());
+        const std::vector<ClothoidPiece>& pieces = *made;
+        EXPECT_LE(pieces.size(), tolerance == 1e-9 ? 1024U : 256U);
+        expect_monotone(pieces, ends.kappa0, ends.kappa1);
+        double s = 0.0;
+        for (const ClothoidPiece& piece : pieces) {
+          for (const double t : {0.1, 0.35, 0.6, 0.85}) {
+            const Element near =
+                transition_at(law.kind, start, ends.kappa1, ends.length, s + t * piece.length);
+            EXPECT_NEAR(cross(unit_at(near.theta), evaluate(piece, t).point - near.point), 0.0,
+                        1.2 * tolerance);
+          }
+          s += piece.length;
+        }
+        EXPECT_NEAR(s, ends.length, tolerance);
       }
     }
-    EXPECT_NEAR(s, length, 1e-6);
   }
 }
 

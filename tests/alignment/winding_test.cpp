@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "mended.h"
+#include "obvid/alignment/alignment.h"
 #include "rounded_corners.h"
 
 namespace obvid::alignment {
@@ -83,6 +85,57 @@ TEST(RoundedCorners, PassTheirPointsWithinTheTolerance) {
     EXPECT_LE(radius * (1.0 / std::cos(0.5 * turn) - 1.0), 0.25);
     EXPECT_LT(out.place, nodes[2 * i + 1].place);
   }
+}
+
+/// A line of length 100 past points each 10, one of which lies 3 beside it.
+TEST(Mended, ChordsPassTheStretchAndTheRestStays) {
+  Chain line;
+  line.length = {100.0};
+  line.ends = {{Chain::kStraight, Chain::kStraight}};
+  line.law = {Transition::kClothoid};
+  std::vector<Vec2> points;
+  std::vector<Foot> feet;
+  for (int i = 0; i <= 10; ++i) {
+    points.push_back({10.0 * i, i == 5 ? 3.0 : 0.0});
+    feet.push_back({0, 10.0 * i});
+  }
+  const std::vector<double> tolerance(points.size(), 0.5);
+  auto mended = with_rounded_chords(line, feet, {points, tolerance}, {4, 6});
+  ASSERT_TRUE(mended);
+  const std::vector<Element> joints = mended->chain.joints();
+  // cut half way between points 3 and 4, and 6 and 7
+  EXPECT_NEAR(norm(joints[1].point - Vec2{35.0, 0.0}), 0.0, 1e-9);
+  EXPECT_NEAR(mended->chain.length.back(), 35.0, 1e-9);
+  EXPECT_NEAR(norm(joints.back().point - Vec2{100.0, 0.0}), 0.0, 1e-9);
+  EXPECT_NEAR(joints.back().theta, 0.0, 1e-9);
+  find_feet(mended->chain, points, mended->feet);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_LE(std::abs(mended->feet[i].offset), 0.5) << i;
+    const bool beside = i < 4 || i > 6;
+    if (beside) {
+      EXPECT_NEAR(mended->feet[i].offset, 0.0, 1e-9) << i;
+    }
+  }
+  EXPECT_EQ(windings(mended->chain, {points, tolerance}, mended->feet, 0, 10), 0U);
+}
+
+/// A mountain path: legs of eight chords of 15 that lead up and back, 409 points. The fit of the
+/// search winds at some of its turns.
+TEST(Mended, ManyPointsThatAFitWindsThroughHaveElements) {
+  std::vector<Vec2> points = {{0.0, 0.0}};
+  double chords = 0.0;
+  for (int leg = 0; leg < 51; ++leg) {
+    for (int k = 0; k < 8; ++k) {
+      const double way = leg % 2 == 0 ? 0.0 : kStraightAngle - 0.12;
+      points.push_back(points.back() + 15.0 * unit_at(way + 0.35 * std::sin(1.7 * (8 * leg + k))));
+      chords += 15.0;
+    }
+  }
+  const auto found = fit_alignment(points, std::vector<double>(points.size(), 3.0));
+  ASSERT_TRUE(found.has_value()) << found.error().what;
+  EXPECT_LE(found->largest_share, 1.0);
+  EXPECT_LT(found->length, 1.1 * chords);
+  EXPECT_LT(found->elements.size(), 300U);
 }
 
 }  // namespace

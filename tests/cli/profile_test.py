@@ -118,6 +118,18 @@ class Profile(unittest.TestCase):
         self.judged("check_opendrive.py", "r.xodr")
         for s in range(0, 500, 7):
             self.assertAlmostEqual(self.elevation("r.xodr", s), height(s), delta=0.02)
+        # read again: the same arcs, of which the cubics of the file are within a millionth
+        subprocess.run([PROGRAM, "convert", "r.xodr", "-o", "again.json", "-q"], cwd=self.folder.name, check=True,
+                       capture_output=True)
+        profile = json.loads(self.at("again.json").read_text())["alignment"]["profile"]
+        self.assertEqual(profile["curves"], "arcs")
+        for e in profile["elements"]:
+            self.assertAlmostEqual(e["height"], self.elevation("r.xodr", e["station"]), delta=2e-6)
+            if e["kind"] == "grade":
+                continue
+            # sin a1 - sin a0 = length / radius
+            sines = [math.sin(math.atan(e[g])) for g in ("grade_start", "grade_end")]
+            self.assertAlmostEqual(e["radius"] * (sines[1] - sines[0]) / e["length"], 1.0, delta=1e-9)
 
     def test_noise_that_is_estimated_is_told(self):
         done = self.run_alignment("survey.csv", "--units", "m", "--noise", 0.001, "--profile-noise", "auto")

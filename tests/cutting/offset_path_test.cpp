@@ -48,6 +48,21 @@ TEST(ParallelOfASquare, InsideIsASmallerSquareThatKeepsItsCorners) {
   }
 }
 
+/// A line down, a tiny one across, a line to the right: the tool touches the long ones alone, and
+/// is hypot(r, r - e) - r from the ends of the tiny one.
+TEST(ParallelOfACorner, WhatIsLeftAtATinyLineIsMeasured) {
+  constexpr double kBy = 3.0, kTiny = 1e-3;
+  const Vec2 at[] = {{0, kSide}, {0, kTiny}, {kTiny, 0}, {kSide, 0}};
+  ArcPath corner;
+  for (std::size_t i = 0; i < 3; ++i) corner.pieces.emplace_back(LinePiece{at[i], at[i + 1]});
+  const auto made = parallel_of(corner, kBy);
+  ASSERT_TRUE(made) << to_line(made.error());
+  ASSERT_EQ(made->corners.size(), 2U);
+  for (const Parallel::InnerCorner& one : made->corners) {
+    EXPECT_NEAR(one.left, std::hypot(kBy, kBy - kTiny) - kBy, kCloseBy * kSide);
+  }
+}
+
 TEST(ParallelOfASquare, OutsideIsRoundedByQuarterCircles) {
   constexpr double kBy = 3.0;
   const auto made = parallel_of(square(), -kBy);

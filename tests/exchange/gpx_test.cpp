@@ -3,6 +3,7 @@
 #include "../common/shared_data.h"
 #include "drawing_checks.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -45,6 +46,29 @@ TEST(Gpx, SegmentsRoutesAndWaypointsAreSeriesInMetres) {
   EXPECT_TRUE(warns(*d, "10.005000, 45.005000"));
   const Vec2 step = d->series[1].points[1] - d->series[1].points[0];
   EXPECT_NEAR(norm(step), geodesic_distance({10.0, 45.0}, {10.0, 45.001}), 1e-4);
+}
+
+TEST(Gpx, APlaceThatRepeatsAtAnotherHeightIsTold) {
+  const auto place = [](double latitude, const char* height) {
+    return fmt::format("<trkpt lat='{}' lon='10'><ele>{}</ele></trkpt>", latitude, height);
+  };
+  const auto d = parse_gpx("<gpx><trk><trkseg>" + place(45.0, "300") + place(45.0, "302.5") +
+                               place(45.0, "300") + place(45.001, "304") + place(45.001, "303") +
+                               "</trkseg></trk></gpx>",
+                           "t.gpx");
+  ASSERT_TRUE(d.has_value());
+  const PointSeries& track = d->series[0];
+  ASSERT_EQ(track.points.size(), 2U);
+  ASSERT_EQ(track.fixed.size(), 2U);
+  EXPECT_EQ(track.fixed[0].height, 300.0);
+  EXPECT_EQ(track.fixed[1].height, 304.0);
+  ASSERT_EQ(track.warnings.size(), 2U);
+  EXPECT_EQ(track.warnings[0].rfind("3 points that repeat", 0), 0U);
+  EXPECT_EQ(track.warnings[1].rfind("2 points that repeat the point before have another height, up "
+                                    "to 2.5",
+                                    0),
+            0U)
+      << track.warnings[1];
 }
 
 TEST(Gpx, TheRoundingIsHalfTheLastDigitInMetres) {

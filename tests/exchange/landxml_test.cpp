@@ -280,8 +280,9 @@ TEST(LandXmlWrite, ACubicParabolaThroughItsInflectionIsTwo) {
   Contour contour;
   contour.units = "m";
   contour.carrier = Carrier::kImported;
-  for (const ClothoidPiece& piece :
-       clothoids_along(Transition::kCubic, start, kappa1, length, 1e-6)) {
+  const auto pieces = clothoids_along(Transition::kCubic, start, kappa1, length, 1e-6);
+  ASSERT_TRUE(pieces);
+  for (const ClothoidPiece& piece : *pieces) {
     contour.joints.push_back({{piece.start, piece.theta0, piece.kappa0}, {}, {}});
     contour.pieces.emplace_back(piece);
   }
@@ -546,7 +547,7 @@ TEST(LandXmlWrite, SpiralsThroughAnInflectionAndLargeTurnsAreCut) {
   EXPECT_NEAR(one.kappa1, -0.02, 1e-15);
   const Contour round = Road({{0.0, 0.0}, 0.0, 0.0}).add(0.1, 0.1, 60.0).take();
   const auto again = read_landxml_text(without_names(*landxml_text(round)));  // outlives the loop
-  EXPECT_EQ(again.curves[0].pieces.size(), 2U);  // six radians
+  EXPECT_EQ(again.curves[0].pieces.size(), 2U);                               // six radians
   for (const Piece& piece : again.curves[0].pieces) {
     const auto& arc = std::get<ArcPiece>(piece);
     EXPECT_NEAR(arc.kappa * arc.length, 3.0, 1e-12);

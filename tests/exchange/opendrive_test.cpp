@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -134,6 +135,71 @@ TEST(OpenDriveRead, ElevationsEndWithTheRoadAndDoNotJump) {
   EXPECT_TRUE(warns(parts, "the elevation profile of a road in several parts is not used"));
 }
 
+/// A grade of 30 %, a crest of radius 150 about (180, 20), the way down behind it.
+struct Crest {
+  static constexpr double kRadius = 150.0;
+  Vec2 centre{180.0, 20.0};
+
+  [[nodiscard]] Vec2 at(double grade) const {
+    const double c = std::hypot(1.0, grade);
+    return centre + Vec2{-kRadius * grade / c, kRadius / c};
+  }
+  [[nodiscard]] double height(double s) const {
+    const Vec2 first = at(0.3), last = at(-0.2);
+    if (s < first.x) return first.y + 0.3 * (s - first.x);
+    if (s > last.x) return last.y - 0.2 * (s - last.x);
+    return centre.y + std::sqrt(kRadius * kRadius - (s - centre.x) * (s - centre.x));
+  }
+};
+
+TEST(OpenDriveRead, ArcsThatWereWrittenAsCubicsAreArcsAgain) {
+  const Crest crest;
+  const Vec2 first = crest.at(0.3), last = crest.at(-0.2);
+  VerticalProfile made;
+  made.curves = ProfileCurves::kArcs;
+  made.elements = {
+      {ProfileKind::kGrade, 0.0, first.x, crest.height(0.0), 0.3, 0.3, 0.0},
+      {ProfileKind::kCrest, first.x, last.x - first.x, first.y, 0.3, -0.2, -Crest::kRadius},
+      {ProfileKind::kGrade, last.x, 300.0 - last.x, last.y, -0.2, -0.2, 0.0}};
+  made.end_station = 300.0;
+  made.end_height = crest.height(300.0);
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+    OpenDriveOptions options;
+    options.profile = made;
+    options.tolerance = tolerance;
+    const auto text = opendrive_text(Road({{}, 0.0, 0.0}).add(0.0, 0.0, 300.0).take(), options);
+    ASSERT_TRUE(text.has_value());
+    const Drawing d = read_opendrive_text(*text);
+    EXPECT_TRUE(warns(d, "cubics of an elevation profile are taken as the arcs of circles"));
+    ASSERT_TRUE(d.curves[0].profile);
+    const VerticalProfile& profile = *d.curves[0].profile;
+    EXPECT_EQ(profile.curves, ProfileCurves::kArcs);
+    ASSERT_EQ(profile.elements.size(), 3U);
+    EXPECT_NEAR(profile.elements[1].radius, -Crest::kRadius, 1e-7);
+    for (double s = 0.0; s <= 300.0; s += 1.0) {
+      EXPECT_NEAR(profile_at(profile, s).height, crest.height(s), 1e-9) << s;
+    }
+  }
+}
+
+TEST(OpenDriveRead, ACubicThatIsNoArcIsRefusedWithItsPlace) {
+  const std::string first = "<elevation s='0' a='10' b='0.1' c='0' d='0'/>";
+  // 15 + x / 10 - x^2 / 1000 is a parabola, however small d is printed; with d its curvature
+  // changes by half
+  const std::string parabola = "<elevation s='50' a='15' b='0.1' c='-0.001' d='1e-22'/>",
+                    cubic = "<elevation s='50' a='15' b='0.1' c='-0.001' d='3e-6'/>";
+  const Drawing plain = road_with(first + parabola);
+  EXPECT_TRUE(plain.warnings.empty());
+  ASSERT_TRUE(plain.curves[0].profile);
+  EXPECT_EQ(plain.curves[0].profile->curves, ProfileCurves::kParabolas);
+  EXPECT_EQ(plain.curves[0].profile->elements[1].radius, -500.0);
+  const Drawing bent = road_with(first + cubic);
+  EXPECT_FALSE(bent.curves[0].profile);
+  EXPECT_TRUE(warns(bent,
+                    "an elevation profile is not used: its cubic at s = 50 m is neither a "
+                    "parabola nor along an arc of a circle"));
+}
+
 TEST(OpenDriveRead, BrokenFilesAreRefused) {
   EXPECT_EQ(parse_opendrive("<OpenDRIVE><road>", "x").error().code, ErrorCode::kBadJson);
   EXPECT_EQ(parse_opendrive("<OpenDRIVE/>", "x").error().code, ErrorCode::kNothingThere);
@@ -181,7 +247,8 @@ TEST(OpenDrivePublicFiles, EachHasItsElementsAndLength) {
     EXPECT_EQ(d->curves.size(), expected.roads) << expected.file;
     for (const std::string& warning : d->warnings) {
       EXPECT_TRUE(warning.starts_with("superelevation is not used") ||
-                  warning.starts_with("an elevation profile with cubics is not used") ||
+                  warning.starts_with("an elevation profile is not used: its cubic at s = ") ||
+                  warning.starts_with("cubics of an elevation profile are taken as the arcs") ||
                   warning.starts_with("an elevation profile whose height jumps is not used"))
           << expected.file << warning;
     }

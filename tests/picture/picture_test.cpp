@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -29,6 +30,22 @@ RationalBezier parabola(double width, Vec2 origin) {
   piece.offset[2] = {width, width * width};
   piece.weight[0] = piece.weight[1] = piece.weight[2] = 1.0;
   return piece;
+}
+
+/// Bold letters of the fonts that pictures name are 0.6 of their size wide on average, or less.
+TEST(PictureCanvas, AWideVerdictIsAsLargeAsItFits) {
+  constexpr double kRoom = 920.0, kWidth = 0.6, kUsual = 14.0;
+  for (const std::size_t letters : {40U, 105U, 120U, 300U}) {
+    PictureCanvas canvas;
+    canvas.verdict({40.0, 64.0}, "good", std::string(letters, 'n'), kRoom);
+    const std::string text = canvas.take();
+    EXPECT_NE(text.find("class=\"verdict good\""), std::string::npos);
+    const std::size_t at = text.find("font-size:");
+    const double size = at == std::string::npos ? kUsual : std::stod(text.substr(at + 10));
+    EXPECT_LE(size, kUsual);
+    EXPECT_LE(kWidth * size * static_cast<double>(letters), kRoom) << letters;
+    EXPECT_GE(size, std::min(kUsual, 0.9 * kRoom / (kWidth * static_cast<double>(letters))));
+  }
 }
 
 TEST(Picture, DrawsACircleWithinOneTwentiethOfAPixel) {

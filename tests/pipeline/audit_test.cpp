@@ -9,6 +9,7 @@
 #include "../common/angles.h"
 #include "../common/arcs.h"
 #include "obvid/contour/bsplines.h"
+#include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/audit.h"
 
 namespace obvid {
@@ -169,6 +170,79 @@ TEST(Audit, WhatRoundingLeavesOfALineBesideATransitionIsStraight) {
   EXPECT_EQ(a.straightened, 3U);
   EXPECT_EQ(a.inflections, 0);
   EXPECT_EQ(a.vertices, 0);
+}
+
+/// A curve made of elements; those of other transitions are clothoids along them.
+class Elements {
+ public:
+  Elements& add(double kappa0, double kappa1, double length,
+                Transition kind = Transition::kClothoid) {
+    at_.kappa = kappa0;
+    const Element end = transition_at(kind, at_, kappa1, length, length);
+    if (kind != Transition::kClothoid) {
+      const auto pieces = clothoids_along(kind, at_, kappa1, length, 1e-6 * length);
+      EXPECT_TRUE(pieces.has_value());
+      curve_.transitions.push_back(
+          {curve_.pieces.size(), pieces->size(), kind, kappa0, kappa1, length});
+      curve_.pieces.insert(curve_.pieces.end(), pieces->begin(), pieces->end());
+    } else if (kappa0 == 0.0 && kappa1 == 0.0) {
+      curve_.pieces.emplace_back(LinePiece{at_.point, end.point});
+    } else if (kappa0 == kappa1) {
+      curve_.pieces.emplace_back(ArcPiece{at_.point, end.point, at_.theta, kappa0, length});
+    } else {
+      curve_.pieces.emplace_back(
+          ClothoidPiece{at_.point, end.point, at_.theta, kappa0, kappa1, length});
+    }
+    at_ = end;
+    return *this;
+  }
+  [[nodiscard]] CurveAudit audited() const { return audit(curve_, "m"); }
+
+ private:
+  DrawnCurve curve_{"road", {}, false};
+  Element at_;
+};
+
+/// The curvatures of all these transitions are monotone by their closed forms.
+TEST(Audit, TransitionsCountAsTheyAreNotAsTheClothoidsInTheirPlace) {
+  for (const Transition kind : {Transition::kBloss, Transition::kSine, Transition::kCosine,
+                                Transition::kHelmert, Transition::kCubic}) {
+    SCOPED_TRACE(name_of(kind));
+    const double kappa = 1.0 / 250.0;
+    const CurveAudit road = Elements()
+                                .add(0.0, 0.0, 80.0)
+                                .add(0.0, kappa, 70.0, kind)
+                                .add(kappa, kappa, 90.0)
+                                .add(kappa, 0.0, 60.0, kind)
+                                .add(0.0, 0.0, 50.0)
+                                .audited();
+    EXPECT_EQ(road.vertices, 1);
+    EXPECT_EQ(road.visible_vertices, 1);
+    EXPECT_EQ(road.inflections, 0);
+    ASSERT_EQ(road.places.size(), 1U);
+    EXPECT_NEAR(road.places[0].s, 195.0, 1e-3);
+    EXPECT_NEAR(road.largest_kappa, kappa, 1e-15);
+    EXPECT_EQ(road.least_kappa, 0.0);
+    EXPECT_EQ(road.contour.runs.size(), 5U);  // line, rising, arc, falling, line
+    // the slope of a cubic parabola's curvature is greatest at its inflection, that of all others
+    // vanishes at both ends
+    EXPECT_EQ(road.continuity, kind == Transition::kCubic ? 2 : 3);
+    const DrawnFigures figures = figures_of(road);
+    EXPECT_EQ(figures.pieces, 5U);
+    EXPECT_EQ(figures.points, 6U);
+    const CurveAudit turned = Elements().add(-kappa, 0.8 * kappa, 90.0, kind).audited();
+    EXPECT_EQ(turned.vertices, 0);
+    EXPECT_EQ(turned.inflections, 1);
+    ASSERT_EQ(turned.places.size(), 1U);
+    EXPECT_EQ(turned.places[0].kind, AuditPlace::Kind::kInflection);
+    // the curvature steps where the file says so
+    const CurveAudit step =
+        Elements().add(0.0, kappa, 70.0, kind).add(1.2 * kappa, 1.2 * kappa, 90.0).audited();
+    EXPECT_EQ(step.continuity, 1);
+    ASSERT_EQ(step.places.size(), 1U);
+    EXPECT_EQ(step.places[0].kind, AuditPlace::Kind::kCurvatureJump);
+    EXPECT_EQ(step.places[0].kappa_before, kappa);
+  }
 }
 
 TEST(Audit, NothingIsNothing) {

@@ -234,6 +234,32 @@ std::vector<std::string> few_of_each_kind(const std::vector<std::string>& paths)
   return out;
 }
 
+/// Changes each of `paths` and expects that it is refused, or listed as not checked: how many were
+/// refused.
+std::size_t noticed_changes(const char* name, const json& document,
+                            const std::vector<std::string>& paths) {
+  std::size_t noticed = 0, told = 0;
+  for (const std::string& path : paths) {
+    const json::json_pointer place(path);
+    for (const json& other : changes_of(document[place], path, 1.0)) {
+      if (other == document[place]) continue;
+      json bad = document;
+      bad[place] = other;
+      const Judged found = judged(bad.dump());
+      if (!found.refusal.empty()) {
+        ++noticed;
+      } else if (listed(found.not_checked, path)) {
+        ++told;
+      } else {
+        ADD_FAILURE() << name << ": " << path << " = " << other << " instead of "
+                      << document[place];
+      }
+    }
+  }
+  std::printf("%s: %zu leaves, %zu changes noticed, %zu told\n", name, paths.size(), noticed, told);
+  return noticed;
+}
+
 TEST(EveryLeaf, OfAContourFileIsNoticedWhenItChangesOrListedAsNotChecked) {
   for (const LeafCase& c : leaf_cases()) {
     const json document = json::parse(file_of(c));
@@ -242,27 +268,80 @@ TEST(EveryLeaf, OfAContourFileIsNoticedWhenItChangesOrListedAsNotChecked) {
     std::vector<std::string> paths;
     leaves(document, "", paths);
     paths = few_of_each_kind(paths);
-    std::size_t noticed = 0, told = 0;
-    for (const std::string& path : paths) {
-      const json::json_pointer place(path);
-      for (const json& other : changes_of(document[place], path, 1.0)) {
-        if (other == document[place]) continue;
-        json bad = document;
-        bad[place] = other;
-        const Judged found = judged(bad.dump());
-        if (!found.refusal.empty()) {
-          ++noticed;
-        } else if (listed(found.not_checked, path)) {
-          ++told;
-        } else {
-          ADD_FAILURE() << c.name << ": " << path << " = " << other << " instead of "
-                        << document[place];
-        }
-      }
+    EXPECT_GT(noticed_changes(c.name, document, paths), paths.size());
+  }
+}
+
+/// Grades of 2, -1.5 and 1 % at stations and heights from 100 and 50 on, with curves of 60 and
+/// 40 between them, by the formulas of textbooks.
+json a_profile(bool arcs) {
+  json elements = json::array();
+  double station = 100.0, height = 50.0;
+  const auto grade = [&](double g, double length) {
+    elements.push_back({{"kind", "grade"},
+                        {"station", station},
+                        {"length", length},
+                        {"height", height},
+                        {"grade_start", g},
+                        {"grade_end", g},
+                        {"radius", 0}});
+    station += length;
+    height += g * length;
+  };
+  const auto curve = [&](double g0, double g1, double length) {
+    const double a0 = std::atan(g0), a1 = std::atan(g1);
+    const double radius = arcs ? length / (std::sin(a1) - std::sin(a0)) : length / (g1 - g0);
+    elements.push_back({{"kind", g1 > g0 ? "sag" : "crest"},
+                        {"station", station},
+                        {"length", length},
+                        {"height", height},
+                        {"grade_start", g0},
+                        {"grade_end", g1},
+                        {"radius", radius}});
+    station += length;
+    height += arcs ? radius * (std::cos(a0) - std::cos(a1)) : 0.5 * (g0 + g1) * length;
+  };
+  grade(0.02, 80.0);
+  curve(0.02, -0.015, 60.0);
+  grade(-0.015, 0.5);
+  curve(-0.015, 0.01, 40.0);
+  grade(0.01, 120.0);
+  return {{"curves", arcs ? "arcs" : "parabolas"},
+          {"end_station", station},
+          {"end_height", height},
+          {"elements", elements}};
+}
+
+TEST(EveryLeaf, OfAProfileIsNoticedWhenItChanges) {
+  for (const bool arcs : {false, true}) {
+    json document = json::parse(file_of(leaf_cases().front()));
+    document["alignment"] = {{"first_station", 100.0}, {"profile", a_profile(arcs)}};
+    const Judged good = judged(document.dump());
+    ASSERT_EQ(good.refusal, "");
+    for (const std::string& one : good.not_checked) {
+      EXPECT_EQ(one.find("/alignment/profile"), std::string::npos) << one;
     }
-    std::printf("%s: %zu leaves, %zu changes noticed, %zu told\n", c.name, paths.size(), noticed,
-                told);
-    EXPECT_GT(noticed, paths.size());
+    std::vector<std::string> paths;
+    leaves(document["alignment"]["profile"], "/alignment/profile", paths);
+    EXPECT_EQ(paths.size(), 3U + 5U * 7U);
+    EXPECT_GE(noticed_changes("profile", document, paths), paths.size());
+    // the other word for what rounds the corners is another curve
+    document["alignment"]["profile"]["curves"] = arcs ? "parabolas" : "arcs";
+    EXPECT_NE(judged(document.dump()).refusal, "");
+  }
+}
+
+/// A file whose stations are rounded to a thousandth says within what they meet.
+TEST(EveryLeaf, OfAProfileWhoseElementsMeetRoundedIsListed) {
+  json document = json::parse(file_of(leaf_cases().front()));
+  json profile = a_profile(false);
+  profile["elements"][2]["length"] = 0.5002;
+  document["alignment"] = {{"first_station", 100.0}, {"profile", profile}};
+  const Judged found = judged(document.dump());
+  EXPECT_EQ(found.refusal, "");
+  for (const char* field :
+       {"/alignment/profile/elements/*/station", "/alignment/profile/end_height"}) {
+    EXPECT_TRUE(listed(found.not_checked, field)) << field;
   }
 }
 

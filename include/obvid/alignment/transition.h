@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "obvid/core/result.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/element.h"
 
@@ -31,6 +32,10 @@ struct PlacedTransition {
   double length = 0.0;                ///< units
 };
 
+/// Elements of so many pieces: clothoids that stand for a transition are one.
+[[nodiscard]] std::size_t elements_in(std::size_t pieces,
+                                      const std::vector<PlacedTransition>& transitions);
+
 inline constexpr std::array<std::string_view, 6> kTransitionNames = {
     "clothoid", "bloss", "sine", "cosine", "helmert", "cubic"};
 
@@ -46,10 +51,16 @@ inline constexpr std::array<std::string_view, 6> kTransitionNames = {
 [[nodiscard]] Element transition_at(Transition kind, const Element& start, double kappa1,
                                     double length, double s);
 
-/// Clothoids with common tangents through places of a transition, within `tolerance` of it (units):
-/// for what has no other curves. As few of equal length as do, a power of two; the ends are exact.
-[[nodiscard]] std::vector<ClothoidPiece> clothoids_along(Transition kind, const Element& start,
-                                                         double kappa1, double length,
-                                                         double tolerance);
+/// Clothoids within `tolerance` of a transition (units): for what has no other curves. Their
+/// curvature goes on from piece to piece without a step and from that of `start` to `kappa1`
+/// without turning back, as the transition's does, so that both have the same extrema and
+/// inflections. Every second joint at least is a place of the transition with its heading; the ends
+/// are exact. As few as do of those with stretches of equal length to both sides of where its
+/// curvature bends back. Error: E310 where it turns so far between as many places as are tried that
+/// none are found.
+[[nodiscard]] Result<std::vector<ClothoidPiece>> clothoids_along(Transition kind,
+                                                                 const Element& start,
+                                                                 double kappa1, double length,
+                                                                 double tolerance);
 
 }  // namespace obvid

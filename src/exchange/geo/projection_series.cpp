@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "obvid/core/internal/figures.h"
+
 namespace obvid::exchange {
 namespace {
 
@@ -32,6 +34,28 @@ GeoPoint middle_of_places(const std::vector<GeoSeries>& all) {
   return {longitude_from(0.0, reference + 0.5 * (west + east)), 0.5 * (south + north)};
 }
 
+/// Heights of the points that are kept; a place that repeats may have another one.
+void take_heights(const GeoSeries& series, const std::vector<Vec2>& points, PointSeries& out) {
+  std::size_t others = 0;
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < series.heights.size(); ++i) {
+    if (i == 0 || points[i] != points[i - 1]) {
+      out.fixed.push_back({});
+      out.fixed.back().height = series.heights[i];
+      continue;
+    }
+    const double off = std::abs(series.heights[i] - *out.fixed.back().height);
+    others += off > 0.0 ? 1 : 0;
+    farthest = std::max(farthest, off);
+  }
+  if (others == 0) return;
+  out.warnings.push_back(fmt::format(
+      "{} that repeat{} the point before ha{} another height, up to {} m off: that of the point "
+      "before is kept",
+      counted(others, "point", "points"), others == 1 ? "s" : "", others == 1 ? "s" : "ve",
+      significant_above(farthest, 3)));
+}
+
 PointSeries projected(GeoSeries series, const LocalProjection& projection) {
   LastDigit longitude, latitude;
   std::vector<Vec2> points;
@@ -42,11 +66,7 @@ PointSeries projected(GeoSeries series, const LocalProjection& projection) {
     latitude.add(place.latitude);
   }
   PointSeries out = plane_series(std::move(series.name), "m", points);
-  for (std::size_t i = 0; i < series.heights.size(); ++i) {
-    if (i > 0 && points[i] == points[i - 1]) continue;  // merged
-    out.fixed.push_back({});
-    out.fixed.back().height = series.heights[i];
-  }
+  take_heights(series, points, out);
   const double narrow =
       std::cos(projection.centre().latitude * std::numbers::pi / 180.0) * kMetresPerDegree;
   out.rounding = {narrow * longitude.half_unit(), kMetresPerDegree * latitude.half_unit()};

@@ -157,13 +157,14 @@ class LandXmlReader {
   }
 
   /// A transition of another law: clothoids in its place, and what they stand for.
-  void add(const ClothoidPiece& ends, Transition law) {
+  void add(const ClothoidPiece& ends, Transition law, pugi::xml_node node) {
     auto pieces = clothoids_along(law, {ends.start, ends.theta0, ends.kappa0}, ends.kappa1,
                                   ends.length, kNearTransition * ends.length);
-    pieces.back().end = ends.end;
+    if (!pieces) return leave_out("a Spiral: " + pieces.error().what, node);
+    pieces->back().end = ends.end;
     curve_.transitions.push_back(
-        {curve_.pieces.size(), pieces.size(), law, ends.kappa0, ends.kappa1, ends.length});
-    curve_.pieces.insert(curve_.pieces.end(), pieces.begin(), pieces.end());
+        {curve_.pieces.size(), pieces->size(), law, ends.kappa0, ends.kappa1, ends.length});
+    curve_.pieces.insert(curve_.pieces.end(), pieces->begin(), pieces->end());
     if (station_) *station_ += ends.length;
     last_name_.clear();
   }
@@ -209,7 +210,7 @@ class LandXmlReader {
     if (!placed->doubt.empty()) warnings_.add(placed->doubt, node);
     if (placed->off_end > kMisplacedEnd * length) off_end_ = std::max(off_end_, placed->off_end);
     const auto* clothoid = std::get_if<ClothoidPiece>(&placed->piece);
-    if (law != Transition::kClothoid && clothoid != nullptr) return add(*clothoid, law);
+    if (law != Transition::kClothoid && clothoid != nullptr) return add(*clothoid, law, node);
     add(placed->piece, node.attribute("name").value());
   }
 

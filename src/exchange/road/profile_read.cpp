@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "road/profile_read.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "obvid/core/internal/figures.h"
 
 namespace obvid::exchange {
 namespace {
@@ -140,9 +144,25 @@ std::optional<Corner> corner_of(pugi::xml_node node) {
   return out;
 }
 
-/// Coefficients of a height over the station from `s` on.
+/// A height by a cubic from the station `s` on, over a length.
 struct ElevationCubic {
   double s = 0.0, a = 0.0, b = 0.0, c = 0.0, d = 0.0;
+  double length = 0.0;
+
+  [[nodiscard]] double height(double x) const { return a + x * (b + x * (c + x * d)); }
+  [[nodiscard]] double grade(double x) const { return b + x * (2.0 * c + 3.0 * x * d); }
+  /// Second derivative.
+  [[nodiscard]] double bend(double x) const { return 2.0 * c + 6.0 * x * d; }
+  [[nodiscard]] double end_height() const { return height(length); }
+  [[nodiscard]] double end_grade() const { return grade(length); }
+  [[nodiscard]] double end() const { return s + length; }
+  /// Whether what makes it no parabola is below the rounding of its heights.
+  [[nodiscard]] bool is_parabola() const {
+    constexpr double kRounding = 16.0 * 0x1p-53;  // of the heights
+    const double cubed = std::abs(d) * length * length * length;
+    return cubed <= kRounding * (std::abs(a) + std::abs(end_height()) + std::abs(b) * length);
+  }
+  [[nodiscard]] bool is_grade() const { return c == 0.0 && is_parabola(); }
 };
 
 std::optional<ElevationCubic> cubic_of(pugi::xml_node node) {
@@ -153,6 +173,129 @@ std::optional<ElevationCubic> cubic_of(pugi::xml_node node) {
     const auto number = number_of(node.attribute(name).value());
     if (!number) return std::nullopt;
     *value = *number;
+  }
+  return out;
+}
+
+ProfileKind kind_of_bend(double bend) {
+  return bend > 0.0 ? ProfileKind::kSag : ProfileKind::kCrest;
+}
+
+/// The parabola or grade that a cubic is.
+ProfileElement plain_element(const ElevationCubic& one) {
+  const Vec2 from{one.s, one.a};
+  if (one.is_grade()) {
+    return element_between(ProfileKind::kGrade, from, one.length, one.b, one.b, 0.0);
+  }
+  return element_between(kind_of_bend(one.c), from, one.length, one.b,
+                         one.b + 2.0 * one.c * one.length, 0.5 / one.c);
+}
+
+/// An arc of a circle over the station with the grades of cubics at both ends, and how far they are
+/// from it.
+class ArcOfCubics {
+ public:
+  ArcOfCubics(const ElevationCubic* first, const ElevationCubic* last)
+      : first_(first), last_(last), length_(last->end() - first->s) {
+    sine0_ = sine_of(first->b);
+    curvature_ = (sine_of(last->end_grade()) - sine0_) / length_;
+  }
+
+  /// Nothing where the cubics are no such arc.
+  [[nodiscard]] std::optional<double> distance() const {
+    constexpr double kNoArc = 1e-4;  // of the arc's height over its chord: that its end is off
+    constexpr double kFar = 0.01;    // of the same, anywhere
+    if (curvature_ == 0.0 || !std::isfinite(curvature_)) return std::nullopt;
+    const double height = std::abs(curvature_) * length_ * length_ / 8.0;
+    const double end = height_at(length_);
+    const double most = std::min(kNoArc * height, kSameHeight * length_);
+    if (!(std::abs(end - last_->end_height()) <= most)) return std::nullopt;
+    double largest = 0.0;
+    for (const ElevationCubic* one = first_; one <= last_; ++one) {
+      largest = std::max(largest, distance_of(*one));
+    }
+    if (!(largest <= kFar * height)) return std::nullopt;
+    return largest;
+  }
+
+  [[nodiscard]] ProfileElement element() const {
+    return element_between(kind_of_bend(curvature_), {first_->s, first_->a}, length_, first_->b,
+                           last_->end_grade(), 1.0 / curvature_);
+  }
+
+ private:
+  static double sine_of(double grade) { return grade / std::hypot(1.0, grade); }
+
+  [[nodiscard]] double sine_at(double along) const { return sine0_ + curvature_ * along; }
+
+  [[nodiscard]] double height_at(double along) const {
+    const double middle = 0.5 * (std::asin(sine0_) + std::asin(sine_at(along)));
+    return first_->a + along * std::tan(middle);
+  }
+
+  /// Second derivative of the height.
+  [[nodiscard]] double bend_at(double along) const {
+    const double square = 1.0 - sine_at(along) * sine_at(along);
+    return curvature_ / (square * std::sqrt(square));
+  }
+
+  /// A bound: the largest of places along it, and what the difference of second derivatives adds
+  /// between two of them.
+  [[nodiscard]] double distance_of(const ElevationCubic& one) const {
+    constexpr int kPlaces = 64;
+    const double from = one.s - first_->s, step = one.length / kPlaces;
+    double largest = 0.0, bends = 0.0;
+    for (int k = 0; k <= kPlaces; ++k) {
+      const double x = k * step;
+      largest = std::max(largest, std::abs(one.height(x) - height_at(from + x)));
+      bends = std::max(bends, std::abs(one.bend(x) - bend_at(from + x)));
+      if (k == 0) continue;
+      const double before = x - step;  // both are monotone in between, but for the arc's least
+      bends = std::max({bends, std::abs(one.bend(before) - bend_at(from + x)),
+                        std::abs(one.bend(x) - bend_at(from + before))});
+      if (sine_at(from + before) * sine_at(from + x) >= 0.0) continue;
+      bends = std::max(
+          {bends, std::abs(one.bend(before) - curvature_), std::abs(one.bend(x) - curvature_)});
+    }
+    return largest + step * step / 8.0 * bends;
+  }
+
+  const ElevationCubic *first_, *last_;
+  double length_ = 0.0, sine0_ = 0.0, curvature_ = 0.0;
+};
+
+/// Whether the next cubic goes on where one ends, with its grade.
+bool goes_on(const ElevationCubic& one, const ElevationCubic& next) {
+  constexpr double kSmoothGrade = 1e-4;  // of what the grade changes by along both
+  const double change = std::abs(next.end_grade() - one.b);
+  return std::abs(next.b - one.end_grade()) <= kSmoothGrade * change;
+}
+
+/// Cubics as grades and arcs, as few arcs as they are; `off` grows to how far the farthest is.
+/// Nothing where one is neither: `refused` is the first that is not.
+std::optional<std::vector<ProfileElement>> as_arcs(const std::vector<ElevationCubic>& parts,
+                                                   double& off, const ElevationCubic*& refused) {
+  std::vector<ProfileElement> out;
+  for (std::size_t k = 0; k < parts.size();) {
+    if (parts[k].is_grade()) {
+      out.push_back(plain_element(parts[k++]));
+      continue;
+    }
+    const std::size_t first = k;
+    std::optional<ArcOfCubics> longest;
+    double far = 0.0;
+    for (; k < parts.size() && !parts[k].is_grade(); ++k) {
+      if (k > first && !goes_on(parts[k - 1], parts[k])) break;
+      const ArcOfCubics arc(&parts[first], &parts[k]);
+      const auto distance = arc.distance();
+      if (!distance) break;
+      longest = arc;
+      far = *distance;
+    }
+    refused = &parts[first];
+    if (!longest) return std::nullopt;
+    off = std::max(off, far);
+    out.push_back(longest->element());
   }
   return out;
 }
@@ -199,42 +342,54 @@ std::optional<VerticalProfile> opendrive_profile(pugi::xml_node road, XmlWarning
       warnings.add("an elevation profile that cannot be read is not used", child);
       return std::nullopt;
     }
-    if (one->d != 0.0) {
-      warnings.add("an elevation profile with cubics is not used", child);
-      return std::nullopt;
-    }
     parts.push_back(*one);
   }
   const bool flat = std::all_of(parts.begin(), parts.end(), [](const ElevationCubic& one) {
-    return one.a == 0.0 && one.b == 0.0 && one.c == 0.0;
+    return one.a == 0.0 && one.b == 0.0 && one.c == 0.0 && one.d == 0.0;
   });
   if (flat || !length || !(*length > 0.0)) return std::nullopt;
   if (parts.back().s > *length * (1.0 + kOverlap)) {
     warnings.add("elevations beyond the end of a road are not used", all);
   }
-  VerticalProfile out;
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    const ElevationCubic& one = parts[k];
-    const double end = k + 1 < parts.size() ? std::min(parts[k + 1].s, *length) : *length;
-    const double along = end - one.s;
-    if (!(along > kTouching * *length)) continue;
-    const double jump = std::abs(one.a - out.end_height);
-    if (!out.elements.empty() && jump > kSameHeight * (*length + std::abs(one.a))) {
-      warnings.add("an elevation profile whose height jumps is not used", all);
-      return std::nullopt;
-    }
-    const double grade1 = one.b + 2.0 * one.c * along;
-    out.end_height = one.a + along * (one.b + along * one.c);
-    if (one.c == 0.0) {
-      out.elements.push_back(
-          element_between(ProfileKind::kGrade, {one.s, one.a}, along, one.b, one.b, 0.0));
-    } else {
-      out.elements.push_back(element_between(one.c > 0.0 ? ProfileKind::kSag : ProfileKind::kCrest,
-                                             {one.s, one.a}, along, one.b, grade1, 0.5 / one.c));
-    }
+    parts[k].length =
+        (k + 1 < parts.size() ? std::min(parts[k + 1].s, *length) : *length) - parts[k].s;
   }
-  if (out.elements.empty()) return std::nullopt;
+  parts.erase(std::remove_if(
+                  parts.begin(), parts.end(),
+                  [&](const ElevationCubic& one) { return !(one.length > kTouching * *length); }),
+              parts.end());
+  if (parts.empty()) return std::nullopt;
+  for (std::size_t k = 1; k < parts.size(); ++k) {
+    const double jump = std::abs(parts[k].a - parts[k - 1].end_height());
+    if (jump <= kSameHeight * (*length + std::abs(parts[k].a))) continue;
+    warnings.add("an elevation profile whose height jumps is not used", all);
+    return std::nullopt;
+  }
+  VerticalProfile out;
   out.end_station = *length;
+  out.end_height = parts.back().end_height();
+  if (std::all_of(parts.begin(), parts.end(),
+                  [](const ElevationCubic& one) { return one.is_parabola(); })) {
+    for (const ElevationCubic& one : parts) out.elements.push_back(plain_element(one));
+    return out;
+  }
+  double off = 0.0;
+  const ElevationCubic* refused = nullptr;
+  auto arcs = as_arcs(parts, off, refused);
+  if (!arcs) {
+    warnings.add(fmt::format("an elevation profile is not used: its cubic at s = {:.6g} m is "
+                             "neither a parabola nor along an arc of a circle{}",
+                             refused->s, refused->is_parabola() ? " as others of its are" : ""),
+                 all);
+    return std::nullopt;
+  }
+  out.curves = ProfileCurves::kArcs;
+  out.elements = std::move(*arcs);
+  warnings.add(fmt::format("cubics of an elevation profile are taken as the arcs of circles that "
+                           "they follow within {} m",
+                           significant_above(off, 2)),
+               all);
   return out;
 }
 

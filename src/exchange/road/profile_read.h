@@ -15,9 +15,10 @@ namespace obvid::exchange {
 [[nodiscard]] std::optional<VerticalProfile> landxml_profile(pugi::xml_node alignment,
                                                              XmlWarnings& warnings);
 
-/// The elevations of a road of OpenDRIVE: grades and parabolas. Corners stay. Nothing where all
-/// are 0, and, with a warning, where there are cubics or the height jumps. What lies beyond the end
-/// of the road is left out, with a warning.
+/// The elevations of a road of OpenDRIVE: grades and parabolas; with cubics among them grades and
+/// arcs of circles, where all follow such arcs, and a warning says within what. Corners stay.
+/// Nothing where all are 0, and, with a warning, where a cubic is neither or the height jumps. What
+/// lies beyond the end of the road is left out, with a warning.
 [[nodiscard]] std::optional<VerticalProfile> opendrive_profile(pugi::xml_node road,
                                                                XmlWarnings& warnings);
 

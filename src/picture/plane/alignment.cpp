@@ -226,7 +226,8 @@ std::string alignment_svg(const StoredContour& stored, const PictureTitles& titl
   const std::string units = stored.contour.units.text();
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", titles.name);
-  body.label({kPictureMargin, 64.0}, "start", "verdict open", titles.verdict);
+  body.verdict({kPictureMargin, 64.0}, "open", titles.verdict,
+               kPictureWidth - 2.0 * kPictureMargin);
   const std::array<const PictureTrack*, 1> alone{&track};
   const PictureScale scale = curvature_scale(alone, {});
   const double below = shape_panel(body, track, stored, scale, nullptr, false, 78.0);

@@ -42,6 +42,15 @@ void PictureCanvas::label(Vec2 at, std::string_view anchor, std::string_view css
   add(">{}</text>\n", escaped_xml(text));
 }
 
+void PictureCanvas::verdict(Vec2 at, std::string_view css, std::string_view text, double room) {
+  constexpr double kSize = 14.0;        // px, as the style of the sheet says
+  constexpr double kBoldLetter = 0.62;  // of it: no sentence in bold letters is wider a letter
+  const double width = kBoldLetter * kSize * static_cast<double>(text.size());
+  if (width <= room) return label(at, "start", fmt::format("verdict {}", css), text);
+  add("<text x=\"{}\" y=\"{}\" class=\"verdict {}\" style=\"font-size:{}px\">{}</text>\n", px(at.x),
+      px(at.y), css, px(kSize * room / width), escaped_xml(text));
+}
+
 void PictureCanvas::line(Vec2 a, Vec2 b, std::string_view css) {
   add("<path class=\"{}\" d=\"M{} {}L{} {}\"/>\n", css, px(a.x), px(a.y), px(b.x), px(b.y));
 }

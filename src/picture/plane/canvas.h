@@ -22,6 +22,8 @@ class PictureCanvas {
   }
   /// Text element; `anchor` is start, middle or end.
   void label(Vec2 at, std::string_view anchor, std::string_view css, std::string_view text);
+  /// The line with the verdict of a picture: as large as it fits into `room` px.
+  void verdict(Vec2 at, std::string_view css, std::string_view text, double room);
   void line(Vec2 a, Vec2 b, std::string_view css);
   [[nodiscard]] std::string take() { return std::move(text_); }
 

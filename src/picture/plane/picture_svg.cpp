@@ -143,7 +143,8 @@ std::string picture_svg(const StoredContour& stored, const PictureTitles& titles
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", title);
   body.label({kPictureWidth - kPictureMargin, 40.0}, "end", "fact", facts_of(stored));
-  body.label({kPictureMargin, 64.0}, "start", std::string("verdict ") + verdict.css, verdict.text);
+  body.verdict({kPictureMargin, 64.0}, verdict.css, verdict.text,
+               kPictureWidth - 2.0 * kPictureMargin);
   std::string more = measured_facts(stored);
   if (!titles.name.empty()) more = kind + (more.empty() ? "" : " · " + more);
   if (!more.empty()) body.label({kPictureMargin, 85.0}, "start", "fact", more);

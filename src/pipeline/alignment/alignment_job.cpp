@@ -86,17 +86,19 @@ constexpr int kDrawnSteps = 32;  ///< of a curvature that is not linear
 constexpr double kNearTransition = 1e-3;
 
 /// An element that is no piece, as clothoids.
-void add_transition(const AlignmentElement& e, Vec2 end, double tolerance, DrawnCurve& curve,
-                    std::vector<PlacedTransition>& placed) {
+Result<void> add_transition(const AlignmentElement& e, Vec2 end, double tolerance,
+                            DrawnCurve& curve) {
   const Transition kind = transition_of(e.kind);
   auto pieces = clothoids_along(kind, e.start, e.kappa1, e.length, tolerance);
-  pieces.back().end = end;
-  placed.push_back({curve.pieces.size(), pieces.size(), kind, e.start.kappa, e.kappa1, e.length});
-  curve.pieces.insert(curve.pieces.end(), pieces.begin(), pieces.end());
+  OBVID_TRY(pieces);
+  pieces->back().end = end;
+  curve.transitions.push_back(
+      {curve.pieces.size(), pieces->size(), kind, e.start.kappa, e.kappa1, e.length});
+  curve.pieces.insert(curve.pieces.end(), pieces->begin(), pieces->end());
+  return {};
 }
 
-DrawnCurve curve_of(const Alignment& alignment, const std::string& name, double tolerance,
-                    std::vector<PlacedTransition>& placed) {
+Result<DrawnCurve> curve_of(const Alignment& alignment, const std::string& name, double tolerance) {
   DrawnCurve out;
   out.label = name;
   out.closed = alignment.closed;
@@ -109,7 +111,7 @@ DrawnCurve curve_of(const Alignment& alignment, const std::string& name, double 
     } else if (transition_of(e.kind) == Transition::kClothoid) {
       out.pieces.push_back(piece_of(e, end));
     } else {
-      add_transition(e, end, tolerance, out, placed);
+      OBVID_TRY(add_transition(e, end, tolerance, out));
     }
   }
   return out;
@@ -210,9 +212,11 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
   out.units = series.units;
   out.tolerance = *std::max_element(tolerance->begin(), tolerance->end());
   const double near = kNearTransition * *std::min_element(tolerance->begin(), tolerance->end());
-  auto audited = audit(curve_of(*alignment, series.name, near, out.transitions), series.units,
-                       {Progress{}, run.cancelled});
+  const auto drawn = curve_of(*alignment, series.name, near);
+  OBVID_TRY(drawn);
+  auto audited = audit(*drawn, series.units, {Progress{}, run.cancelled});
   OBVID_TRY(audited);
+  out.transitions = std::move(audited->transitions);
   tell_transitions(*alignment, job.transitions, near, series.units, out.remarks);
   out.stored = {std::move(audited->contour), std::nullopt, std::move(audited->certificate)};
   out.alignment = std::move(*alignment);

@@ -222,8 +222,9 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
         rounding == 0.0 && !job.profile_noise && !job.profile_noise_from_scatter;
     if (no_tolerance) {
       remarks.emplace_back(
-          "the points have heights, but nothing says how exact they are: no profile "
-          "(--profile-noise with a length or auto makes one)");
+          "the points have heights, but nothing says how exact they are (the digits of receivers "
+          "and "
+          "maps do not): no profile (--profile-noise with a length or auto makes one)");
       return std::optional<ProfileReport>();
     }
     // drawings fill a column that nobody measured

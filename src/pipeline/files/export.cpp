@@ -360,8 +360,9 @@ ExportOptions with_stored(const ExportOptions& asked, const StoredContour& store
 /// Elements that LandXML has in parts.
 void tell_of_parts(const ContourExport& e, std::string_view text,
                    std::vector<std::string>& remarks) {
-  std::size_t elements = exchange::whole_arcs(e.contour.pieces).size(), written = 0;
-  for (const PlacedTransition& one : e.options.transitions) elements -= one.pieces - 1;
+  const std::size_t elements =
+      elements_in(exchange::whole_arcs(e.contour.pieces).size(), e.options.transitions);
+  std::size_t written = 0;
   for (const std::string_view tag : {"<Line ", "<Curve ", "<Spiral "}) {
     for (auto at = text.find(tag); at != text.npos; at = text.find(tag, at + 1)) ++written;
   }

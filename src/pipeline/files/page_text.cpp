@@ -25,13 +25,14 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: 600; font-size: 1.15em; padding: 1em 0 .3em; }
 th, td { text-align: left; padding: .2em 1.5em .2em 0; border-bottom: 1px solid var(--line); vertical-align: top; font-weight: normal; }
 th { color: var(--faint); }
-.numbers th, .numbers td { text-align: right; }
+.numbers { display: block; max-width: 100%; overflow-x: auto; }
+.numbers th, .numbers td { text-align: right; padding-right: .8em; font-size: .93em; }
 #warnings { color: var(--bad); }
 #verdict { font-weight: 600; }
 #verdict.kept { color: var(--good); }
 #verdict.broken { color: var(--bad); }
 footer { color: var(--faint); margin-top: 2em; }
-@media print { body { margin: 0; } thead { display: table-header-group; } tr, svg { break-inside: avoid; } }
+@media print { body { margin: 0; } .numbers { display: table; } thead { display: table-header-group; } tr, svg { break-inside: avoid; } }
 </style>)";
 
 std::string figure_row(const std::string& label, const std::string& value) {

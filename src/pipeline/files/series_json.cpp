@@ -185,7 +185,7 @@ std::string audit_json(const Drawing& drawing, const std::vector<CurveAudit>& au
   for (const CurveAudit& a : audits) {
     const DrawnFigures figures = figures_of(a);
     json.begin_object().pair("label", a.label).pair("layer", a.layer).pair("kind", figures.kind);
-    json.pair("pieces", a.contour.pieces.size()).pair("points", figures.points);
+    json.pair("pieces", figures.pieces).pair("points", figures.points);
     add_box(json, figures);
     json.pair("length", a.length).pair("continuity", a.continuity);
     json.pair("closed", a.contour.closed);

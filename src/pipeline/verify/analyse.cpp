@@ -132,7 +132,8 @@ DrawnFigures figures_of(const CurveAudit& audit) {
   const Contour& contour = audit.contour;
   DrawnFigures out;
   out.kind = kind_of(contour.pieces, contour.closed, audit.transitions);
-  out.points = contour.pieces.size() + (contour.closed ? 0 : 1);
+  out.pieces = elements_in(contour.pieces.size(), audit.transitions);
+  out.points = out.pieces + (contour.closed ? 0 : 1);
   out.length = audit.length;
   out.closed = contour.closed;
   if (contour.pieces.empty()) return out;

@@ -248,17 +248,32 @@ class Auditor {
     }
   }
 
-  /// Curvatures before and behind a joint; of clothoids in the place of another transition those
-  /// that it has.
-  [[nodiscard]] std::pair<double, double> curvatures_at(std::size_t j, double before,
-                                                        double after) const {
-    for (const PlacedTransition& one : out_.transitions) {
-      const std::size_t end = one.first_piece + one.pieces;
-      if (j > one.first_piece && j < end) return {before, before};
-      if (j == one.first_piece) after = one.kappa0;
-      if (j == end % out_.contour.pieces.size() || j == end) before = one.kappa1;
-    }
-    return {before, after};
+  /// Whether a joint lies between clothoids that stand for one transition.
+  [[nodiscard]] bool in_transition(std::size_t j) const {
+    return std::any_of(out_.transitions.begin(), out_.transitions.end(), [j](const auto& one) {
+      return one.first_piece < j && j < one.first_piece + one.pieces;
+    });
+  }
+
+  /// Whether the slope of curvature of the element that a piece is of vanishes at its end or start:
+  /// that of all transitions does, but for clothoids and cubic parabolas.
+  [[nodiscard]] bool slope_vanishes(std::size_t piece, bool at_end) const {
+    const Piece& one = out_.contour.pieces[piece];
+    if (std::holds_alternative<LinePiece>(one) || std::holds_alternative<ArcPiece>(one))
+      return true;
+    return std::any_of(out_.transitions.begin(), out_.transitions.end(), [&](const auto& t) {
+      return t.kind != Transition::kClothoid && t.kind != Transition::kCubic &&
+             piece == (at_end ? t.first_piece + t.pieces - 1 : t.first_piece);
+    });
+  }
+
+  /// Whether the slope of curvature goes on at a joint.
+  [[nodiscard]] bool slope_goes_on(std::size_t j) const {
+    const std::size_t n = out_.contour.pieces.size();
+    if (in_transition(j)) return true;
+    if (slope_vanishes((j + n - 1) % n, true) && slope_vanishes(j % n, false)) return true;
+    return pipeline_detail::slope_step_before(out_.contour.pieces, j) <=
+           pipeline_detail::kClearlyContinuous;
   }
 
   /// Notes what is not continuous at a joint; true at a corner and where the curvature jumps, or is
@@ -267,10 +282,10 @@ class Auditor {
     const double gap = norm(after.point - before.point);
     const double turn =
         std::abs(std::remainder(after.theta - before.theta, 2.0 * std::numbers::pi));
-    const auto [from, to] = curvatures_at(j, before.kappa, after.kappa);
-    const double jump = std::abs(to - from);
-    const double larger = std::max(std::abs(to), std::abs(from));
-    AuditPlace place{AuditPlace::Kind::kGap, path_->joint(j), before.point, from, to, gap};
+    const double jump = std::abs(after.kappa - before.kappa);
+    const double larger = std::max(std::abs(after.kappa), std::abs(before.kappa));
+    AuditPlace place{AuditPlace::Kind::kGap, path_->joint(j), before.point,
+                     before.kappa,           after.kappa,     gap};
     if (gap > kLargestGap * size_) add(place, -1);
     place.kind = AuditPlace::Kind::kCorner;
     place.size = turn;
@@ -280,10 +295,7 @@ class Auditor {
     place.size = 0.0;
     const bool jumps = !corner && jump > std::max(kMostCurvatureStep * larger, rounding_);
     if (jumps) add(place, 1);
-    const double step = pipeline_detail::slope_step_before(out_.contour.pieces, j);
-    if (!(step <= pipeline_detail::kClearlyContinuous)) {
-      out_.continuity = std::min(out_.continuity, 2);
-    }
+    if (!slope_goes_on(j)) out_.continuity = std::min(out_.continuity, 2);
     return corner || jumps || !std::isfinite(jump);
   }
 

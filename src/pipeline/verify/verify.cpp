@@ -9,6 +9,7 @@
 
 #include "fit/parts.h"
 #include "fit/waviness.h"
+#include "obvid/alignment/internal/profile_figures.h"
 #include "obvid/certify/certify.h"
 #include "obvid/certify/internal/carrier_pieces.h"
 #include "obvid/certify/internal/limits.h"
@@ -27,6 +28,9 @@ namespace {
 constexpr double kSameFigure = 1e-9;
 /// Widths far below the contour's size are differences of its coordinates.
 constexpr double kNegligible = 1e-13;
+
+/// Where the profile of an alignment stands in a contour file.
+constexpr const char* kProfilePath = "/alignment/profile/";
 
 std::string shown_figure(double value) {
   return std::isnan(value) ? "null" : fmt::format("{:.9g}", value);
@@ -307,7 +311,10 @@ std::vector<std::string> not_checked(const StoredContour& stored) {
   if (!stored.name.empty()) out.emplace_back("/name");
   if (stored.alignment) {
     out.emplace_back("/alignment/first_station");
-    if (stored.alignment->profile) out.emplace_back("/alignment/profile");
+    if (const auto& profile = stored.alignment->profile) {
+      for (const std::string& one : loose_figures(*profile))
+        out.push_back(std::string(kProfilePath) + one);
+    }
     if (!stored.alignment->transitions.empty()) {
       out.emplace_back("/alignment/transitions (only that each ends where its clothoids do)");
     }
@@ -363,6 +370,13 @@ Verification verified(const StoredContour& stored, Watch& watch) {
   }
   out.false_claim = other_points(stored, out.certificate);
   if (out.false_claim) return out;
+  if (stored.alignment && stored.alignment->profile) {
+    out.false_claim = contradiction_in(*stored.alignment->profile);
+    if (out.false_claim) {
+      out.false_claim->where = std::string(kProfilePath) + out.false_claim->where;
+      return out;
+    }
+  }
   ClaimCheck comparison(bounding_diagonal(stored.contour.points));
   if (stored.report) {
     auto measured = pipeline_detail::measure(stored.contour, stored.report->tolerance, watch);

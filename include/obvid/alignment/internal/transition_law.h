@@ -23,6 +23,9 @@ class TransitionLaw {
   [[nodiscard]] bool is_linear() const { return kind_ == Transition::kClothoid; }
   /// The share of its length at which a cubic parabola passes its inflection, if it does.
   [[nodiscard]] std::optional<double> inflection() const;
+  /// The share up to which the curvature bends to one side and behind which to the other: the
+  /// middle, the inflection of a cubic parabola; 1 where it bends to one side all along.
+  [[nodiscard]] double bends_back() const;
   /// f(u), u in [0, 1]. Where the curvature stays as it is, u.
   [[nodiscard]] double share(double u) const;
   /// Its integral from 0 to u. To 1 it is 1/2 but for a cubic parabola.
