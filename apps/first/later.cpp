@@ -3,6 +3,7 @@
 // it is first needed. cmake/ObvidFirst.cmake says which sources it is made of.
 #include "commands.h"
 #include "obvid/alignment/profile.h"
+#include "obvid/alignment/transition.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/exchange/internal/dxf/read.h"
 #include "obvid/exchange/internal/gcode/path.h"
@@ -90,6 +91,7 @@ OBVID_LATER(std::string dxf_unit(const Units&))
 OBVID_LATER(Result<DxfText> dxf_text(const Contour&, const DxfOptions&, Watch*))
 OBVID_LATER(Result<GcodeText> gcode_text(const Contour&, const GcodeOptions&, Watch*))
 OBVID_LATER(std::vector<Piece> exchange::whole_arcs(const std::vector<Piece>&))
+OBVID_LATER(std::size_t elements_in(std::size_t, const std::vector<PlacedTransition>&))
 OBVID_LATER(DataTable profile_rows(const VerticalProfile&))
 OBVID_LATER(std::string_view landxml_unit(std::string_view))
 OBVID_LATER(Result<std::string> landxml_text(const Contour&, const LandXmlOptions&))
