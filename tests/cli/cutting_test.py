@@ -121,6 +121,20 @@ class Cutting(unittest.TestCase):
                 cut = sum(m.length() for m in program.moves if m.code != 0 and m.a[:2] != m.b[:2])
                 self.assertAlmostEqual(cut, self.report["report"]["cut_length"], places=1)
 
+    def test_drawings_of_curves_are_within_the_tolerance(self):
+        own, tolerance = Ellipse(50.0, 40.0, 30.0, 20.0), 0.0005
+        (self.at / "e.dxf").write_text(drawing([own]))
+        subprocess.run([PROGRAM, "cut", "e.dxf", "--tolerance", str(tolerance), "-o", "out.dxf", "-q"], cwd=self.at, check=True)
+        drawn = ezdxf.readfile(self.at / "out.dxf").modelspace().query('*[layer=="OUTLINES"]')
+        chords = 0
+        for line in drawn:
+            points = [p[:2] for p in line.get_points("xy")]
+            for a, b in zip(points, points[1:]):
+                chords += 1
+                middle = (0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]))
+                self.assertLess(abs(own.distance(middle)), tolerance)
+        self.assertGreater(chords, 100)
+
     def test_splines_slow_down_where_they_are_sharp(self):
         program = Controller(self.run_cut(drawing([Ellipse(0, 0, 40, 8)]), "--diameter", 0, "--depth", 1, "--feed", 6000,
                                           "--centripetal", 400, "--controller", "linuxcnc", "--motion", "splines"),

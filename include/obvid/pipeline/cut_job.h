@@ -27,6 +27,7 @@ struct MadeCut {
   std::vector<CutOutline> outlines;
   std::vector<std::size_t> curves;  ///< of each outline: number in its drawing, from 0
   Units units;
+  double tolerance = 0.0;            ///< of the program, units; curves are drawn within it
   std::vector<std::string> remarks;  ///< what was taken from the drawings
   std::vector<std::string> warnings;
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "obvid/core/internal/figures.h"
+#include "obvid/curve/internal/flatten.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
@@ -73,23 +74,26 @@ class Taken {
   const RunContext& run_;
 };
 
-/// A piece, or the curve at `by` to its left.
-void add_chords(SketchLayer& layer, const Piece& piece, double by) {
-  constexpr int kChords = 48;
+constexpr int kFewestChords = 8;
+constexpr int kMostChords = 4096;
+
+/// A piece within the tolerance, or at the same places the curve at `by` to its left.
+void add_chords(SketchLayer& layer, const Piece& piece, double by, double tolerance) {
+  const int chords = chord_steps(piece, tolerance, kFewestChords, kMostChords);
   std::vector<Vec2> points;
-  for (int k = 0; k <= kChords; ++k) {
-    const Jet jet = evaluate(piece, static_cast<double>(k) / kChords);
+  for (int k = 0; k <= chords; ++k) {
+    const Jet jet = evaluate(piece, static_cast<double>(k) / chords);
     points.push_back(by == 0.0 ? jet.point : jet.point + (by / norm(jet.d1)) * left_normal(jet.d1));
   }
   layer.polylines.push_back(std::move(points));
 }
 
-void add_polyline(SketchLayer& layer, const Piece& piece) {
+void add_polyline(SketchLayer& layer, const Piece& piece, double tolerance) {
   if (std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece)) {
     layer.pieces.push_back(piece);
     return;
   }
-  add_chords(layer, piece, 0.0);
+  add_chords(layer, piece, 0.0, tolerance);
 }
 
 /// Outlines of one name, such as those of a block that is placed several times, get the numbers of
@@ -131,6 +135,7 @@ Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& opt
   CutOptions plan = job.plan;
   const auto millimetre = unit_ratio(made.units.name, "mm");
   plan.tolerance = job.tolerance.value_or(kDefaultTolerance / millimetre.value_or(1.0));
+  made.tolerance = plan.tolerance;
   auto program = cut(made.outlines, plan, run);
   OBVID_TRY(program);
   made.program = std::move(*program);
@@ -161,17 +166,19 @@ Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
   SketchLayer tabs = sketch_layer("TABS", "tab: stays below the tool", "#1a7f37", 3, 2.4);
   SketchLayer starts = sketch_layer("STARTS", "begins here, in this order", "#a3209b", 6, 1.0);
   for (const CutOutline& one : made.outlines) {
-    for (const Piece& piece : one.contour.pieces) add_polyline(outlines, piece);
+    for (const Piece& piece : one.contour.pieces) add_polyline(outlines, piece, made.tolerance);
   }
   const double radius = 0.5 * job.plan.diameter;
   for (const CutMove& move : made.program.moves) {
     SketchLayer& layer = move.kind == CutMoveKind::kRapid ? rapid
                          : move.kind == CutMoveKind::kTab ? tabs
                                                           : axis;
-    add_polyline(layer, move.piece);
+    add_polyline(layer, move.piece, made.tolerance);
     if (move.kind != CutMoveKind::kCut || radius == 0.0) continue;
     for (const double side : {radius, -radius}) {
-      if (std::holds_alternative<RationalBezier>(move.piece)) add_chords(edge, move.piece, side);
+      if (std::holds_alternative<RationalBezier>(move.piece)) {
+        add_chords(edge, move.piece, side, made.tolerance);
+      }
       if (const auto parallel = parallel_piece(move.piece, side)) edge.pieces.push_back(*parallel);
     }
   }
