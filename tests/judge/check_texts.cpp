@@ -514,7 +514,7 @@ class TextCheck {
                        : label == "through all points" ? "through_points"
                        : label == "inside the region"  ? "inside_region"
                                                        : "";
-    const auto stated = flag(certificate_, name);
+    const auto stated = label == "closed" ? std::optional(file_.closed) : flag(certificate_, name);
     if (!stated) return sheet_.unjudged("text: verify", label);
     sheet_.expect(yes == *stated, "text: verify " + label, yes ? "yes" : "no",
                   *stated ? "yes" : "no", "");
