@@ -20,7 +20,7 @@ function showLegend() {
   byId("legend").hidden = !shown;
   if (!shown) return;
   const scale = model.scales[scaleName()], stops = model.palettes[scale.diverging ? "diverging" : "sequential"];
-  const [title, bar, ticks, extremes] = ["legend h2", "bar", "ticks", "extremes"].map(id => document.querySelector("#" + id));
+  const [title, bar, ticks, extremes] = ["legend h2", "bar", "ticks", "extremes"].map(id => oneOf("#" + id));
   title.textContent = scale.title + " ";
   title.append(Object.assign(document.createElement("small"), {textContent: "in " + scale.unit}));
   const constant = !(scale.high > scale.low);
@@ -40,10 +40,10 @@ function showLegend() {
 }
 
 function showState() {
-  for (const button of document.querySelectorAll("#modes button")) button.setAttribute("aria-pressed", button.dataset.mode === state.mode);
-  for (const button of document.querySelectorAll("#views button")) {
+  for (const button of allOf("#modes button")) button.setAttribute("aria-pressed", String(button.dataset.mode === state.mode));
+  for (const button of allOf("#views button")) {
     const v = views[button.dataset.view];
-    button.setAttribute("aria-pressed", v[0] === state.azimuth && v[1] === state.elevation);
+    button.setAttribute("aria-pressed", String(v[0] === state.azimuth && v[1] === state.elevation));
   }
   const striped = ["zebra", "isophotes", "reflection"].includes(state.mode);
   for (const mode of ["isolines", "curvature"]) byId(mode).hidden = mode !== state.mode;
@@ -62,7 +62,7 @@ function showState() {
 function setMode(mode) {
   state.mode = mode;
   showState();
-  say(document.querySelector(`#modes [data-mode=${mode}]`).textContent);
+  say(oneOf(`#modes [data-mode=${mode}]`).textContent);
 }
 
 /** Moves the camera, softly unless the viewer wants none of that. */
@@ -179,7 +179,7 @@ function turnBy(dx, dy) {
   state.elevation = Math.min(90, Math.max(-90, state.elevation + dy));
   showState();
 }
-function moveBy(dx, dy) {
+function panBy(dx, dy) {
   ++journey;
   state.placed = true;
   const b = basis(), step = 2 * state.span / size().height;
@@ -216,10 +216,10 @@ function listenToPointers() {
     if (fingers.size === 2) {
       const other = [...fingers].find(([id]) => id !== e.pointerId)[1];
       const gap = p => Math.max(8, Math.hypot(p[0] - other[0], p[1] - other[1]));
-      moveBy(dx / 2, dy / 2);
+      panBy(dx / 2, dy / 2);
       zoomBy(gap(last) / gap(now), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
     } else if (fingers.size === 1) {
-      if (e.shiftKey || e.buttons & 6) moveBy(dx, dy);
+      if (e.shiftKey || e.buttons & 6) panBy(dx, dy);
       else turnBy(dx * 0.4, dy * 0.4);
     }
     fingers.set(e.pointerId, now);
@@ -248,7 +248,7 @@ function onKey(e) {
   if (e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT)$/.test(e.target.tagName)) return;
   const arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[e.key];
   const act = keys[e.key.toLowerCase()];
-  if (arrow) (e.shiftKey ? moveBy : turnBy)(...arrow.map(x => x * (e.shiftKey ? 30 : 6)));
+  if (arrow) (e.shiftKey ? panBy : turnBy)(...arrow.map(x => x * (e.shiftKey ? 30 : 6)));
   else if (act) act();
   else return;
   e.preventDefault();
@@ -274,11 +274,11 @@ function readAddress() {
 function listen() {
   listenToPointers();
   document.addEventListener("keydown", onKey);
-  for (const button of document.querySelectorAll("#modes button")) button.addEventListener("click", () => setMode(button.dataset.mode));
-  for (const button of document.querySelectorAll("#views button")) button.addEventListener("click", () => setView(button.dataset.view));
-  for (const id of ["u", "v", "stripes"]) byId(id).addEventListener("input", e => { state[id] = Number(e.target.value); showState(); });
+  for (const button of allOf("#modes button")) button.addEventListener("click", () => setMode(button.dataset.mode));
+  for (const button of allOf("#views button")) button.addEventListener("click", () => setView(button.dataset.view));
+  for (const id of ["u", "v", "stripes"]) byId(id).addEventListener("input", () => { state[id] = Number(byId(id).value); showState(); });
   for (const id of ["borders", "wireframe", "perspective"]) byId(id).addEventListener("change", () => toggle(id));
-  byId("quantity").addEventListener("change", e => { state.quantity = e.target.value; showState(); });
+  byId("quantity").addEventListener("change", () => { state.quantity = byId("quantity").value; showState(); });
   byId("fit").addEventListener("click", keys.f);
   byId("save").addEventListener("click", savePicture);
   byId("all").addEventListener("click", () => setAllPatches(true));
@@ -305,10 +305,10 @@ function start() {
   Object.assign(state, {u: model.start.u, v: model.start.v, stripes: model.start.stripes, perspective: !model.start.orthographic});
   const roles = [...new Set(model.lines.map(line => line.role))];
   byId("lines").hidden = roles.length === 0;
-  document.querySelector("#modes [data-mode=deviation]").hidden = !model.scales.deviation;
+  oneOf("#modes [data-mode=deviation]").hidden = !model.scales.deviation;
   byId("parts").hidden = model.patches.length < 2;
-  listOf(byId("patches"), model.patches, (patch, i, shown) => { patch.shown = shown; forget(); redraw(); });
-  listOf(byId("roles"), roles.map(role => ({name: role})), (item, i, shown) => {
+  listOf(byId("patches"), model.patches, (patch, _number, shown) => { patch.shown = shown; forget(); redraw(); });
+  listOf(byId("roles"), roles.map(role => ({name: role})), (item, _number, shown) => {
     for (const line of model.lines) if (line.role === item.name) line.shown = shown;
     redraw();
   });

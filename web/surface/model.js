@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 "use strict";
+/** @type {(id: string) => any} */
 const byId = id => document.getElementById(id);
+/** @type {(selector: string) => any} */
+const oneOf = selector => document.querySelector(selector);
+/** @type {(selector: string) => Iterable<any>} */
+const allOf = selector => document.querySelectorAll(selector);
 const model = JSON.parse(byId("model").textContent);
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const putOnTheme = () => { document.documentElement.dataset.theme = dark.matches ? "dark" : "light"; };
