@@ -241,7 +241,7 @@ TEST(Audit, TransitionsCountAsTheyAreNotAsTheClothoidsInTheirPlace) {
     EXPECT_EQ(step.continuity, 1);
     ASSERT_EQ(step.places.size(), 1U);
     EXPECT_EQ(step.places[0].kind, AuditPlace::Kind::kCurvatureJump);
-    EXPECT_EQ(step.places[0].kappa_before, kappa);
+    EXPECT_DOUBLE_EQ(step.places[0].kappa_before, kappa);
   }
 }
 
