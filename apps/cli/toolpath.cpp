@@ -93,12 +93,12 @@ void add_rough_facts(const ToolpathReport& r, const std::string& unit, Facts& fa
 }
 
 std::string entries_text(const ToolpathEntries& e, bool rough) {
-  const std::string steepest =
-      e.helical + e.ramped > 0
-          ? fmt::format(" ({} degrees against the level at most)", significant(e.steepest_deg, 3))
-          : "";
-  return fmt::format("{} helical, {} on ramps{}, {} straight down{}", e.helical, e.ramped, steepest,
-                     e.straight, rough ? " beside the stock" : "");
+  const std::string steepest = e.helical + e.ramped > 0
+                                   ? fmt::format(" (both at most {} degrees against the level)",
+                                                 significant(e.steepest_deg, 3))
+                                   : "";
+  return fmt::format("{} helical and {} on ramps{}, {} straight down{}", e.helical, e.ramped,
+                     steepest, e.straight, rough ? " beside the stock" : "");
 }
 
 std::string rest_text(const ToolpathReport& r, const std::string& unit) {

@@ -110,7 +110,7 @@ OBVID_API int obvid_fit(const obvid_input* input, const char* options, const obv
 OBVID_API int obvid_why_not(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
 /* The nearest contour that there is and what would have to move, as a file: "svg". Without points
- * that would have to move, the error of obvid_fit. */
+ * that would have to move, the error of obvid_fit; E203 where there is a contour. */
 OBVID_API int obvid_why_not_file(const obvid_input* input, const char* options, const char* ending,
                                  const obvid_run* run, obvid_files** files, obvid_error** error);
 /* How many vertices which tolerance would need. Fails with OBVID_NO_CONTOUR or OBVID_NOT_PROVED,

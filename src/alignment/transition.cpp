@@ -20,6 +20,7 @@ constexpr double kPi = std::numbers::pi;
 /// Rad that a part of Gauss's rule turns, and parts of the length that it covers, at the most.
 constexpr double kPartTurn = 0.5;
 constexpr double kPartShare = 0.125;  // the middle, where Helmert's law has a corner, is a joint
+constexpr double kLeastShare = 1.0 / 2048.0;  // of a turn of `kMostTransitionTurn`
 constexpr int kMostClothoids = 1024;
 constexpr int kLooks = 8;  ///< places of a clothoid that are compared
 
@@ -264,7 +265,8 @@ Element transition_at(const TransitionLaw& law, const Element& start, double kap
   if (end.step)
     return {start.point + complex_product(unit_at(start.theta), *end.step), theta, kappa};
   const double turn = (std::abs(start.kappa) + std::abs(change)) * length;
-  const double share = std::min(kPartShare, std::exp2(std::floor(std::log2(kPartTurn / turn))));
+  const double share =
+      std::clamp(std::exp2(std::floor(std::log2(kPartTurn / turn))), kLeastShare, kPartShare);
   Vec2 step;
   for (double from = 0.0; from < whole; from += share) {  // powers of two: exact
     const double to = std::min(from + share, whole);
@@ -411,6 +413,16 @@ Result<std::vector<ClothoidPiece>> clothoids_along(Transition kind, const Elemen
                                                    double kappa1, double length, double tolerance) {
   const TransitionLaw law(kind, start.kappa, kappa1, length);
   const double middle = law.bends_back();
+  const double turn = 0.5 * std::abs(start.kappa + kappa1) * length;
+  const auto none_found = [&] {
+    return error(ErrorCode::kUnsupported,
+                 fmt::format("no clothoids are found along a transition of kind {} that turns by "
+                             "{:.3g} deg",
+                             name_of(kind), turn / kOneDegree));
+  };
+  if (!(0.5 * (std::abs(start.kappa) + std::abs(kappa1)) * length <= kMostTransitionTurn)) {
+    return none_found();
+  }
   for (int count = 1;; count *= 2) {
     std::vector<ClothoidPiece> out;
     Element from = start;
@@ -432,13 +444,7 @@ Result<std::vector<ClothoidPiece>> clothoids_along(Transition kind, const Elemen
     if (found && (last || farthest_beside(out, law, start, kappa1, length) <= tolerance)) {
       return out;
     }
-    if (last) {
-      const double turn = 0.5 * std::abs(start.kappa + kappa1) * length / kOneDegree;
-      return error(ErrorCode::kUnsupported,
-                   fmt::format("no clothoids are found along a transition of kind {} that turns by "
-                               "{:.3g} deg",
-                               name_of(kind), turn));
-    }
+    if (last) return none_found();
   }
 }
 

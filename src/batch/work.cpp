@@ -5,7 +5,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -127,7 +126,7 @@ Result<void> work(const Source& source, const Job& job, const Store& store, cons
     mine.push_back(shard);
     pace.items += store.manifest().size_of_shard(shard);
   }
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  if (threads == 0) threads = processors();
   Desk desk(store, std::move(mine));
   in_parallel(threads, threads,
               [&](std::size_t) { take_blocks(desk, source, job, store, pace, stopped); });

@@ -204,7 +204,7 @@ Result<FileFormat> format_of_ending(const char* ending) {
   const auto format = format_of("file." + name);
   if (format) return *format;
   return error(ErrorCode::kUnknownFormat, "no format is known for the file extension ." + name)
-      .hint("possible are " + known_endings());
+      .hint("contours have " + known_endings() + "; other jobs some of them");
 }
 
 }  // namespace obvid::capi

@@ -16,9 +16,7 @@
 #endif
 
 namespace obvid {
-namespace {
 
-/// That this process may run on at a time: the machine's, unless it is bound to some of them.
 std::size_t processors() {
 #ifdef __linux__
   cpu_set_t own;
@@ -28,6 +26,8 @@ std::size_t processors() {
 #endif
   return std::max(1U, std::thread::hardware_concurrency());
 }
+
+namespace {
 
 /// Numbers are handed out one after another: whoever is free takes the next.
 class Share {

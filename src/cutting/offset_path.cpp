@@ -155,11 +155,10 @@ class ParallelOf {
       const double half = 0.5 * (std::numbers::pi - std::abs(turn)), radius = std::abs(by_);
       const double reach = radius / std::tan(half);
       corners_.push_back({end_point(before), reach, radius * (1.0 / std::sin(half) - 1.0)});
-      // that is so between lines as long as the tool reaches
-      const auto bears = [&](const Piece& piece) {
-        return std::holds_alternative<LinePiece>(piece) && length_of(piece) >= reach;
+      const auto straight = [](const Piece& piece) {
+        return std::holds_alternative<LinePiece>(piece) ? length_of(piece) : 0.0;
       };
-      measured_.push_back(!bears(before) || !bears(behind));
+      straight_.push_back(std::min(straight(before), straight(behind)));
       return;
     }
     const Vec2 corner = end_point(before);
@@ -169,16 +168,35 @@ class ParallelOf {
                       false, corner});
   }
 
-  /// Where neighbours of a corner are short or bent, what the tool leaves is how far its way is.
+  /// What the formula of two long lines says is so where both are as long as the tool's reaches in
+  /// their two corners; else what the tool leaves is how far its way is.
   void measure_corners(Parallel& parallel) const {
+    double longest = 0.0;
+    for (const Parallel::InnerCorner& one : parallel.corners)
+      longest = std::max(longest, one.reach);
     for (std::size_t k = 0; k < parallel.corners.size(); ++k) {
-      if (!measured_[k]) continue;
-      double nearest = HUGE_VAL;
-      for (const Piece& piece : parallel.path.pieces) {
-        nearest = std::min(nearest, distance_from(piece, parallel.corners[k].at));
-      }
-      parallel.corners[k].left = std::max(0.0, nearest - std::abs(by_));
+      Parallel::InnerCorner& corner = parallel.corners[k];
+      if (straight_[k] < corner.reach + longest) measure_corner(parallel.path, corner);
     }
+  }
+
+  /// The tool touches both sides of the corner from the joint of its way that is nearest to it.
+  void measure_corner(const ArcPath& path, Parallel::InnerCorner& corner) const {
+    const std::size_t n = path.pieces.size();
+    double nearest = HUGE_VAL, joint = HUGE_VAL;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Piece& piece = path.pieces[i];
+      nearest = std::min(nearest, distance_from(piece, corner.at));
+      const bool open_end = !path.closed && i + 1 == n;
+      const Vec2 at = end_point(piece);
+      if (open_end || !(norm(at - corner.at) < joint)) continue;
+      joint = norm(at - corner.at);
+      const Vec2 one = at - by_ * left_normal(unit_at(heading_at_end(piece)));
+      const Vec2 other =
+          at - by_ * left_normal(unit_at(heading_at_start(path.pieces[(i + 1) % n])));
+      corner.reach = std::max(norm(one - corner.at), norm(other - corner.at));
+    }
+    corner.left = std::max(0.0, nearest - std::abs(by_));
   }
 
   /// Cuts both sides of every gap off where they meet.
@@ -250,7 +268,7 @@ class ParallelOf {
   double by_;
   std::vector<Link> links_;
   std::vector<Parallel::InnerCorner> corners_;
-  std::vector<bool> measured_;  ///< of these: what is left has to be measured
+  std::vector<double> straight_;  ///< of these: the shorter of two lines beside it; 0 beside an arc
 };
 
 }  // namespace

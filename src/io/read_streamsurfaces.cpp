@@ -111,8 +111,10 @@ class StreamsurfaceReader {
   [[nodiscard]] tl::unexpected<Error> wrong(ErrorCode code, std::string what) const {
     return fail(error_at(code, std::move(what), name_, line_number_));
   }
-  /// Half a unit of the last digit of all numbers.
-  [[nodiscard]] double rounding() const { return 0.5 * std::pow(10.0, digits_.unit()); }
+  /// Half a unit of the last digit of what was read since it was asked last.
+  [[nodiscard]] double rounding() {
+    return 0.5 * std::pow(10.0, std::exchange(digits_, {}).unit());
+  }
 
  private:
   /// The next line that is not empty.
@@ -156,11 +158,14 @@ std::optional<Counts> counts_of(const std::array<double, 5>& numbers) {
   return out;
 }
 
-using Surface4 = std::array<std::vector<double>, kTold.size()>;
+struct ToldSurface {
+  std::array<std::vector<double>, kTold.size()> values;
+  std::array<double, kTold.size()> rounding{};  ///< of each block, by its digits and its scale
+};
 
 /// Lines of words before the first title belong to the surface: its number.
-Result<Surface4> surface_in(StreamsurfaceReader& reader, std::size_t places) {
-  Surface4 out;
+Result<ToldSurface> surface_in(StreamsurfaceReader& reader, std::size_t places) {
+  ToldSurface out;
   for (std::size_t k = 0; k < kTold.size(); ++k) {
     auto title = reader.title();
     OBVID_TRY(title);
@@ -175,10 +180,12 @@ Result<Surface4> surface_in(StreamsurfaceReader& reader, std::size_t places) {
     }
     const auto scale = reader.numbers(1);
     OBVID_TRY(scale);
+    (void)reader.rounding();  // the scale is exact
     auto values = reader.numbers(places);
     OBVID_TRY(values);
+    out.rounding[k] = std::abs(scale->front()) * reader.rounding();
     for (double& v : *values) v *= scale->front();
-    out[k] = std::move(*values);
+    out.values[k] = std::move(*values);
   }
   return out;
 }
@@ -213,37 +220,40 @@ Result<std::vector<SpaceSeries>> parse_streamsurfaces(string_view text, string_v
         .where(std::string(name))
         .hint("the blade lies from place JLE to JTE of JM on each of NS surfaces");
   }
+  const Units units = units_told(text);
   std::vector<SpaceSeries> sections;
-  double most_arc = 0.0;  // over the radius: rad
   for (std::size_t k = 0; k < counts->surfaces; ++k) {
     const auto told = surface_in(reader, counts->places);
     OBVID_TRY(told);
     SpaceSeries section{fmt::format("surface {}", k + 1), {}};
-    section.units = units_told(text);
+    section.units = units;
+    const auto& values = told->values;
+    double most_arc = 0.0;  // over the radius: rad
     const auto point = [&](std::size_t i, double arc) {
-      const double r = (*told)[kRadius][i], theta = arc / r;
+      const double r = values[kRadius][i], theta = arc / r;
       most_arc = std::max(most_arc, std::abs(theta));
-      return Vec3{(*told)[kAxial][i], r * std::sin(theta), r * std::cos(theta)};
+      return Vec3{values[kAxial][i], r * std::sin(theta), r * std::cos(theta)};
     };
     for (std::size_t i = counts->first - 1; i < counts->last; ++i) {
-      if (!((*told)[kRadius][i] > 0.0)) {
+      if (!(values[kRadius][i] > 0.0)) {
         return reader.wrong(ErrorCode::kBadNumber,
                             fmt::format("the radius of place {} is not greater than 0", i + 1));
       }
     }
     for (std::size_t i = counts->last; i-- > counts->first - 1;) {
-      section.points.push_back(point(i, (*told)[kArc][i]));
+      section.points.push_back(point(i, values[kArc][i]));
     }
     for (std::size_t i = counts->first - 1; i < counts->last; ++i) {
-      const double thick = (*told)[kThickness][i];
+      const double thick = values[kThickness][i];
       if (i + 1 == counts->first && thick == 0.0) continue;  // both sides begin in one point
-      section.points.push_back(point(i, (*told)[kArc][i] - thick));
+      section.points.push_back(point(i, values[kArc][i] - thick));
     }
+    // arc, thickness and radius are rounded; the angle is the arc over the radius
+    const auto& half = told->rounding;
+    const double across = half[kArc] + half[kThickness] + half[kRadius] * (1.0 + most_arc);
+    section.rounding = {half[kAxial], across, across};
     sections.push_back(std::move(section));
   }
-  // arc, thickness and radius are rounded; the angle is the arc over the radius
-  const double half = reader.rounding(), across = half * (3.0 + most_arc);
-  for (SpaceSeries& section : sections) section.rounding = {half, across, across};
   return sections;
 }
 

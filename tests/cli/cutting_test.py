@@ -124,7 +124,7 @@ class Cutting(unittest.TestCase):
     def test_drawings_of_curves_are_within_the_tolerance(self):
         own, tolerance = Ellipse(50.0, 40.0, 30.0, 20.0), 0.0005
         (self.at / "e.dxf").write_text(drawing([own]))
-        subprocess.run([PROGRAM, "cut", "e.dxf", "--tolerance", str(tolerance), "-o", "out.dxf", "-q"], cwd=self.at, check=True)
+        subprocess.run([PROGRAM, "cut", "e.dxf", "--diameter", "3", "--depth", "2", "--tolerance", str(tolerance), "-o", "out.dxf", "-q"], cwd=self.at, check=True)
         drawn = ezdxf.readfile(self.at / "out.dxf").modelspace().query('*[layer=="OUTLINES"]')
         chords = 0
         for line in drawn:

@@ -50,16 +50,23 @@ TEST(ParallelOfASquare, InsideIsASmallerSquareThatKeepsItsCorners) {
 
 /// A line down, a tiny one across, a line to the right: the tool touches the long ones alone, and
 /// is hypot(r, r - e) - r from the ends of the tiny one.
-TEST(ParallelOfACorner, WhatIsLeftAtATinyLineIsMeasured) {
-  constexpr double kBy = 3.0, kTiny = 1e-3;
-  const Vec2 at[] = {{0, kSide}, {0, kTiny}, {kTiny, 0}, {kSide, 0}};
-  ArcPath corner;
-  for (std::size_t i = 0; i < 3; ++i) corner.pieces.emplace_back(LinePiece{at[i], at[i + 1]});
-  const auto made = parallel_of(corner, kBy);
-  ASSERT_TRUE(made) << to_line(made.error());
-  ASSERT_EQ(made->corners.size(), 2U);
-  for (const Parallel::InnerCorner& one : made->corners) {
-    EXPECT_NEAR(one.left, std::hypot(kBy, kBy - kTiny) - kBy, kCloseBy * kSide);
+// A chamfer so short that the tool does not come to it: it stands where it touches both long lines.
+TEST(ParallelOfACorner, WhatIsLeftAtAShortLineIsMeasured) {
+  constexpr double kBy = 3.0;
+  for (const double share : {1e-3, 0.2, 0.42, 0.45, 0.6, 0.8}) {  // of its length
+    SCOPED_TRACE(share);
+    const double c = share * kBy / std::numbers::sqrt2;
+    const Vec2 at[] = {{0, kSide}, {0, c}, {c, 0}, {kSide, 0}};
+    ArcPath corner;
+    for (std::size_t i = 0; i < 3; ++i) corner.pieces.emplace_back(LinePiece{at[i], at[i + 1]});
+    const auto made = parallel_of(corner, kBy);
+    ASSERT_TRUE(made) << to_line(made.error());
+    ASSERT_EQ(made->corners.size(), 2U);
+    for (const Parallel::InnerCorner& one : made->corners) {
+      EXPECT_NEAR(one.left, std::hypot(kBy, kBy - c) - kBy, kCloseBy * kSide);
+      // it touches (0, kBy) and (kBy, 0)
+      EXPECT_NEAR(one.reach, std::max(kBy - c, std::hypot(kBy, c)), kCloseBy * kSide);
+    }
   }
 }
 

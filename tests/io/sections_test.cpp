@@ -112,7 +112,6 @@ TEST(ReadSections, BladesOnStreamsurfacesAreTheSideThatIsToldAndTheThicknessBesi
     EXPECT_EQ(section.units, Units("ft"));
     // places 4, 3, 2 of the side that is told, 3 and 4 of the other: the edge at 2 once
     ASSERT_EQ(section.points.size(), 5u);
-    EXPECT_EQ(section.rounding.x, 5e-7);
     EXPECT_GE(section.rounding.y, 3 * 5e-7);
   }
   const auto& hub = parsed->sections[0].points;
@@ -125,6 +124,8 @@ TEST(ReadSections, BladesOnStreamsurfacesAreTheSideThatIsToldAndTheThicknessBesi
     EXPECT_NEAR(r * std::atan2(hub[i].y, hub[i].z), arc, 1e-15);
   }
   EXPECT_EQ(parsed->sections[1].points[1].x, 2.0 * 0.05);  // the scale of the block
+  EXPECT_DOUBLE_EQ(parsed->sections[0].rounding.x, 5e-7);
+  EXPECT_DOUBLE_EQ(parsed->sections[1].rounding.x, 2.0 * 5e-7);  // and that of its rounding
 }
 
 TEST(ReadSections, BladesOnStreamsurfacesThatEndEarlyAreRefusedWithTheirLine) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,9 @@ struct PlacedTransition {
   double kappa0 = 0.0, kappa1 = 0.0;  ///< curvatures at its ends, 1/unit
   double length = 0.0;                ///< units
 };
+
+/// A transition does not turn farther, rad: a hundred full turns. What is asked to is refused.
+inline constexpr double kMostTransitionTurn = 200.0 * std::numbers::pi;
 
 /// Elements of so many pieces: clothoids that stand for a transition are one.
 [[nodiscard]] std::size_t elements_in(std::size_t pieces,

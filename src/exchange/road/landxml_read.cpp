@@ -68,8 +68,11 @@ class LandXmlReader {
                       drawing_.units.text()));
     }
     if (drawing_.curves.empty()) {
-      return error(ErrorCode::kNothingThere, "the file has no CoordGeom with a curve")
-          .where(file_.name());
+      const std::vector<std::string>& told = drawing_.warnings;
+      return error(ErrorCode::kNothingThere,
+                   "the file has no CoordGeom with a curve that can be read")
+          .where(file_.name())
+          .hint(told.empty() ? "" : "it has " + told.front());
     }
     return std::move(drawing_);
   }
@@ -160,7 +163,7 @@ class LandXmlReader {
   void add(const ClothoidPiece& ends, Transition law, pugi::xml_node node) {
     auto pieces = clothoids_along(law, {ends.start, ends.theta0, ends.kappa0}, ends.kappa1,
                                   ends.length, kNearTransition * ends.length);
-    if (!pieces) return leave_out("a Spiral: " + pieces.error().what, node);
+    if (!pieces) return leave_out("a Spiral along which " + pieces.error().what + ",", node);
     pieces->back().end = ends.end;
     curve_.transitions.push_back(
         {curve_.pieces.size(), pieces->size(), law, ends.kappa0, ends.kappa1, ends.length});

@@ -378,9 +378,11 @@ std::optional<VerticalProfile> opendrive_profile(pugi::xml_node road, XmlWarning
   const ElevationCubic* refused = nullptr;
   auto arcs = as_arcs(parts, off, refused);
   if (!arcs) {
-    warnings.add(fmt::format("an elevation profile is not used: its cubic at s = {:.6g} m is "
-                             "neither a parabola nor along an arc of a circle{}",
-                             refused->s, refused->is_parabola() ? " as others of its are" : ""),
+    const char* const why = refused->is_parabola()
+                                ? "is a parabola, and others of its are along arcs of circles"
+                                : "is neither a parabola nor along an arc of a circle";
+    warnings.add(fmt::format("an elevation profile is not used: its cubic at s = {:.6g} m {}",
+                             refused->s, why),
                  all);
     return std::nullopt;
   }

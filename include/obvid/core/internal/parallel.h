@@ -8,6 +8,9 @@
 
 namespace obvid {
 
+/// That this process may run on at a time: the machine's, unless it is bound to some of them.
+[[nodiscard]] std::size_t processors();
+
 /// work(i) once for each i in [0, count), in no order, on up to `threads` threads (0: as many as
 /// the machine runs at a time). Calls that share nothing they write give the same results for any
 /// number of threads. Rethrows what the first of failing calls throws, when all have ended.
