@@ -100,6 +100,9 @@ TEST(LandXmlRead, WhatCannotBeDrawnIsNamedAndCutsTheCurve) {
         "<Spiral spiType='cubic' length='1' radiusStart='INF' radiusEnd='9' rot='cw'>" + spiral,
         "<Spiral spiType='clothoid' length='1' radiusStart='0' radiusEnd='9' rot='cw'>" + spiral,
         "<Spiral spiType='clothoid' length='-1' radiusStart='INF' radiusEnd='9' rot='cw'>" + spiral,
+        "<Spiral spiType='bloss' length='9' radiusStart='INF' radiusEnd='1e-12' rot='cw'>" + spiral,
+        "<Spiral spiType='clothoid' length='9' radiusStart='INF' radiusEnd='1e-3' rot='cw'>" +
+            spiral,
         std::string("<Chain>a b</Chain>")}) {
     const Drawing d = read_landxml_text(file_of(good + "\n" + bad + good));
     EXPECT_EQ(d.curves.size(), 2U) << bad;
@@ -334,6 +337,8 @@ TEST(LandXmlRead, BrokenFilesAreRefused) {
   EXPECT_EQ(parse_landxml("<LandXML>", "x").error().code, ErrorCode::kBadJson);
   EXPECT_EQ(parse_landxml("<LandXML/>", "x").error().code, ErrorCode::kNothingThere);
   EXPECT_EQ(parse_landxml("<svg/>", "x").error().code, ErrorCode::kUnsupported);
+  const auto nothing_left = parse_landxml(file_of("<Chain>a b</Chain>"), "x");
+  EXPECT_NE(nothing_left.error().hint.find("left out"), std::string::npos);
   std::string deep = "<LandXML>";
   for (int k = 0; k < 300000; ++k) deep += "<CoordGeom>";
   deep += "<Line/>";
