@@ -314,6 +314,7 @@ std::vector<std::string> not_checked(const StoredContour& stored) {
     if (const auto& profile = stored.alignment->profile) {
       for (const std::string& one : loose_figures(*profile))
         out.push_back(std::string(kProfilePath) + one);
+      out.emplace_back("/alignment/profile (only that its elements agree with each other)");
     }
     if (!stored.alignment->transitions.empty()) {
       out.emplace_back("/alignment/transitions (only that each ends where its clothoids do)");
