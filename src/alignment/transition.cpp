@@ -20,7 +20,7 @@ constexpr double kPi = std::numbers::pi;
 /// Rad that a part of Gauss's rule turns, and parts of the length that it covers, at the most.
 constexpr double kPartTurn = 0.5;
 constexpr double kPartShare = 0.125;  // the middle, where Helmert's law has a corner, is a joint
-constexpr double kLeastShare = 1.0 / 2048.0;  // of a turn of `kMostTransitionTurn`
+constexpr double kLeastPartShare = 1.0 / 2048.0;  // of a turn of `kMostTransitionTurn`
 constexpr int kMostClothoids = 1024;
 constexpr int kLooks = 8;  ///< places of a clothoid that are compared
 
@@ -266,7 +266,7 @@ Element transition_at(const TransitionLaw& law, const Element& start, double kap
     return {start.point + complex_product(unit_at(start.theta), *end.step), theta, kappa};
   const double turn = (std::abs(start.kappa) + std::abs(change)) * length;
   const double share =
-      std::clamp(std::exp2(std::floor(std::log2(kPartTurn / turn))), kLeastShare, kPartShare);
+      std::clamp(std::exp2(std::floor(std::log2(kPartTurn / turn))), kLeastPartShare, kPartShare);
   Vec2 step;
   for (double from = 0.0; from < whole; from += share) {  // powers of two: exact
     const double to = std::min(from + share, whole);
