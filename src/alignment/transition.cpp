@@ -339,6 +339,9 @@ class ClothoidPair {
   /// Rad: likewise, what turns by so much less than along the chord; where two straight parts of it
   /// would meet is lost in the rounding of places.
   static constexpr double kStraightTurn = 1e-12;
+  // Of the share of the length and of what the middle lies below; of the length: steps of secants.
+  static constexpr double kSecantShare = 0.05;
+  static constexpr double kSecantLength = 1e-3;
   /// Where steps lead no nearer, this is near enough: of the length, and rad.
   static constexpr double kSettledPair = 1e-13;
 
@@ -364,7 +367,7 @@ class ClothoidPair {
   /// A step of Newton's method, with secants so long that their rounding is none: to first order
   /// all three are linear.
   bool step(const Miss& now) {
-    const Unknown by = {0.05, 0.05 * below_, 1e-3 * unknown_[2]};
+    const Unknown by = {kSecantShare, kSecantShare * below_, kSecantLength * unknown_[2]};
     std::array<Miss, 3> column;
     for (std::size_t j = 0; j < 3; ++j) {
       Unknown moved = unknown_;

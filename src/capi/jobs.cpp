@@ -100,6 +100,14 @@ void hand_out_text(const std::string& text, char** out) {
   if (out != nullptr) *out = text_of(text);
 }
 
+/// One file; `remark`, unless empty, is to be said of it.
+void hand_out_file(std::string text, std::string remark, obvid_files** files) {
+  auto out = std::make_unique<obvid_files>();
+  out->files.push_back({"", std::move(text)});
+  if (!remark.empty()) out->remarks.push_back(std::move(remark));
+  *files = out.release();
+}
+
 /// A job on a series of points: what is made of them is the report.
 template <class Make>
 int report_on_points(const obvid_input* input, const char* options, const Known& known,
@@ -168,9 +176,7 @@ int file_of_points(const obvid_input* input, const char* options, const Known& k
     OBVID_TRY(series);
     Result<std::string> text = make(*format, *series, *request, context);
     OBVID_TRY(text);
-    auto out = std::make_unique<obvid_files>();
-    out->files.push_back({"", std::move(*text)});
-    *files = out.release();
+    hand_out_file(std::move(*text), {}, files);
     return {};
   });
 }
@@ -333,9 +339,7 @@ int obvid_analyse_file(const obvid_input* input, const char* options, const char
     OBVID_TRY(format);
     auto text = analysed(*format, *input, *request, context_of(run));
     OBVID_TRY(text);
-    auto out = std::make_unique<obvid_files>();
-    out->files.push_back({"", std::move(*text)});
-    *files = out.release();
+    hand_out_file(std::move(*text), {}, files);
     return {};
   });
 }
@@ -501,10 +505,7 @@ int obvid_worksheet(const obvid_input* input, const char* options, const char* e
     if (!found) return fail(explained(*series, request->worksheet, found.error(), context));
     auto made = region_file(ending == nullptr ? "" : ending, *series, *found, context);
     OBVID_TRY(made);
-    auto out = std::make_unique<obvid_files>();
-    out->files.push_back({"", std::move(made->text)});
-    if (!made->remark.empty()) out->remarks.push_back(std::move(made->remark));
-    *files = out.release();
+    hand_out_file(std::move(made->text), std::move(made->remark), files);
     return {};
   });
 }

@@ -430,7 +430,11 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
     const auto append = [&](const Family& more) {
       all.insert(all.end(), more.begin(), more.end());
     };
-    left != nullptr ? append(in_short_order(*family, !options.one_way)) : append(*family);
+    if (left != nullptr) {
+      append(in_short_order(*family, !options.one_way));
+    } else {
+      append(*family);
+    }
     lay_moves(all, options, rule.level(), walker, out);
     OBVID_TRY(finish(*part, cells, reach, left, options, run, out));
     const bool high = options.scallop && out.report.scallop.found > *options.scallop &&

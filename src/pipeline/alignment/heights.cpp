@@ -223,8 +223,7 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
     if (no_tolerance) {
       remarks.emplace_back(
           "the points have heights, but nothing says how exact they are (the digits of receivers "
-          "and "
-          "maps do not): no profile (--profile-noise with a length or auto makes one)");
+          "and maps do not): no profile (--profile-noise with a length or auto makes one)");
       return std::optional<ProfileReport>();
     }
     // drawings fill a column that nobody measured

@@ -30,7 +30,7 @@ constexpr double kSameFigure = 1e-9;
 constexpr double kNegligible = 1e-13;
 
 /// Where the profile of an alignment stands in a contour file.
-constexpr const char* kProfilePath = "/alignment/profile/";
+constexpr const char* kProfilePath = "/alignment/profile";
 
 std::string shown_figure(double value) {
   return std::isnan(value) ? "null" : fmt::format("{:.9g}", value);
@@ -313,8 +313,8 @@ std::vector<std::string> not_checked(const StoredContour& stored) {
     out.emplace_back("/alignment/first_station");
     if (const auto& profile = stored.alignment->profile) {
       for (const std::string& one : loose_figures(*profile))
-        out.push_back(std::string(kProfilePath) + one);
-      out.emplace_back("/alignment/profile (only that its elements agree with each other)");
+        out.push_back(fmt::format("{}/{}", kProfilePath, one));
+      out.push_back(fmt::format("{} (only that its elements agree with each other)", kProfilePath));
     }
     if (!stored.alignment->transitions.empty()) {
       out.emplace_back("/alignment/transitions (only that each ends where its clothoids do)");
@@ -374,7 +374,7 @@ Verification verified(const StoredContour& stored, Watch& watch) {
   if (stored.alignment && stored.alignment->profile) {
     out.false_claim = contradiction_in(*stored.alignment->profile);
     if (out.false_claim) {
-      out.false_claim->where = std::string(kProfilePath) + out.false_claim->where;
+      out.false_claim->where = fmt::format("{}/{}", kProfilePath, out.false_claim->where);
       return out;
     }
   }
