@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <regex>
 
 #include "checks.h"
 #include "counts.h"
@@ -147,28 +149,104 @@ void check_flag(const Course& course, const char* name, bool can_hold, bool plai
   }
 }
 
+/// Stated gaps are upper bounds: when all of them are within theirs, so are the true ones.
+bool stated_within_bounds(const Course& course) {
+  const Json& stated = member(course.file.certificate, "joint_gaps");
+  const auto within = [&](const char* name, double bound) {
+    const Figure one = figure(stated, name);
+    return one.known() && *one.value <= bound;
+  };
+  return within("position", kPositionBound) && within("heading", kAngleBound) &&
+         (course.file.carrier == "arcs" || within("curvature", kCurvatureBound)) &&
+         (course.file.continuity != "G3" || within("slope", kSlopeBound));
+}
+
+/// The largest of position, at joints and of elements, lies so clearly within its bound.
+bool meets_plainly(const Course& course, const Gaps& gaps) {
+  constexpr double kPlainly = 0.1;
+  const double most = std::max(gaps.position, worst_element_gap(course).position);
+  return most <= kPlainly * kPositionBound;
+}
+
 void check_bounds_flag(const Course& course, const Gaps& gaps, Sheet& sheet) {
   const double position = std::max(kPositionBound, position_rounding(course));
   const bool arcs = course.file.carrier == "arcs";
   const bool can = gaps.position <= position && gaps.heading <= kAngleBound &&
                    (arcs || gaps.curvature <= kCurvatureBound) &&
                    (course.file.continuity != "G3" || gaps.slope <= kSlopeBound);
-  const bool plainly = gaps.position <= 0.1 * kPositionBound && gaps.heading <= 1e-10 &&
-                       (arcs || gaps.curvature <= 1e-10) &&
-                       (course.file.continuity != "G3" || gaps.slope <= 0.1 * kSlopeBound);
   // elements may disagree with the pieces; that is judged on its own and also makes the flag false
-  const bool elements_fit = worst_element_gap(course).heading < 1e-10;
-  check_flag(course, "gaps_within_bounds", can, plainly && elements_fit,
+  constexpr double kElementsFit = 1e-10;
+  const ElementGap elements = worst_element_gap(course);
+  const bool plainly = stated_within_bounds(course) && meets_plainly(course, gaps) &&
+                       elements.heading < kElementsFit && elements.curvature < kElementsFit;
+  check_flag(course, "gaps_within_bounds", can, plainly,
              fmt::format("position {:.3g} of the size, heading {:.3g}, curvature {:.3g}",
                          gaps.position, gaps.heading, gaps.curvature),
              sheet);
 }
 
+/// Jumps of the curvature: none against the run it lies in, or against both runs. Those that
+/// rounding makes count where arcs meet alone.
+bool jumps_fit_runs(const Course& course) {
+  const ContourFile& file = course.file;
+  for (std::size_t r = 0; r < file.runs.size(); ++r) {
+    const FileRun& run = file.runs[r];
+    const FileRun& before = file.runs[r > 0 ? r - 1 : file.runs.size() - 1];
+    for (std::size_t i = run.first; i <= run.last && i < course.joints.size(); ++i) {
+      const bool counts = file.carrier == "arcs" || course.joints[i].clear_jump;
+      const int jump = counts ? course.joints[i].jump : 0;
+      const bool parted = file.parted_at(i), begins = i == run.first;
+      if (parted && !begins) return false;
+      if (parted || jump == 0 || jump == run.direction) continue;
+      if (!begins || jump != before.direction) return false;
+    }
+  }
+  return true;
+}
+
+/// Nothing stands in the way of a proof: every piece is said to be monotone and is, turns by less
+/// than half a turn, and agrees with its run.
+bool plainly_monotone(const Course& course) {
+  constexpr Real kLessThanHalfATurn =
+      0.9L * std::numbers::pi_v<Real>;  // what proofs need not be fine for
+  for (const Json& one : member(course.file.certificate, "monotone")) {
+    const std::string verdict = text_of(one, "verdict");
+    if (verdict == "undecided" || verdict == "has-vertex") return false;
+  }
+  for (std::size_t i = 0; i < course.laws.size(); ++i) {
+    if (!course.laws[i].decided || !course.laws[i].one_way()) return false;
+    if (course.path.spans()[i].turning_both_ways(0.0L, 1.0L) > kLessThanHalfATurn) return false;
+  }
+  if (run_fault(course, true)) return false;
+  for (const FileRun& run : course.file.runs) {
+    for (std::size_t i = run.first; i <= run.last; ++i) {
+      const int sign = course.laws[i].direction();
+      if (sign != 0 && sign != run.direction) return false;
+    }
+  }
+  return jumps_fit_runs(course);
+}
+
+/// Monotone pieces, none of which turns by half a turn, with gaps within bounds: the definition.
 void check_region_flag(const Course& course, Sheet& sheet) {
   const char* claim = "certificate.inside_region";
   const auto stated = flag(course.file.certificate, "inside_region");
   if (!stated) return sheet.missing(claim);
-  if (!*stated) return sheet.holds(claim);  // claims nothing
+  const bool gaps = flag(course.file.certificate, "gaps_within_bounds").value_or(false);
+  if (!*stated) {
+    sheet.expect(!(gaps && plainly_monotone(course)), claim, std::string("false"),
+                 std::string("pieces are monotone, turn little, and gaps are within bounds"), "");
+    return;
+  }
+  if (!gaps) return sheet.fails(claim, "true", "gaps_within_bounds is false", "");
+  for (std::size_t i = 0; i < course.laws.size(); ++i) {
+    const bool turns = course.laws[i].decided && !course.laws[i].one_way();
+    const bool far =
+        std::abs(course.path.spans()[i].turning(0.0L, 1.0L)) > std::numbers::pi_v<Real>;
+    if (!turns && !far) continue;
+    return sheet.fails(claim, "true", turns ? "curvature turns" : "turns by half a turn or more",
+                       fmt::format("piece {}", i));
+  }
   for (const Part& part : course.parts) {
     for (std::size_t k = 0; k + 1 < part.cuts.size(); ++k) {
       const Real a = part.cuts[k], b = part.cuts[k + 1];
@@ -185,9 +263,18 @@ void check_region_flag(const Course& course, Sheet& sheet) {
   sheet.holds(claim);
 }
 
-void check_points_flag(const Course& course, Sheet& sheet) {
-  const std::string why = missed_point(course);
-  check_flag(course, "through_points", why.empty(), false, why, sheet);
+/// Points are met by joints where the pieces meet, or within their tolerances; gaps of heading and
+/// curvature have no say.
+void check_points_flag(const Course& course, const Gaps& gaps, Sheet& sheet) {
+  std::string why = missed_point(course);
+  const double apart = std::max(gaps.position, worst_element_gap(course).position);
+  const double bound = std::max(kPositionBound, position_rounding(course));
+  if (why.empty() && course.file.tolerance.empty() && apart > bound) {
+    why = fmt::format("pieces are {:.3g} of the size away from a joint", apart);
+  }
+  const bool plainly = missed_point(course, Doubt::kHindersTheClaim).empty();
+  check_flag(course, "through_points", why.empty(), plainly && meets_plainly(course, gaps), why,
+             sheet);
 }
 
 void check_counts(const Course& course, Sheet& sheet) {
@@ -237,22 +324,62 @@ void check_crossings(const Course& course, Sheet& sheet) {
       claim, fmt::format("stated {}, polylines cross {} times", stated.value.value_or(-1), *found));
 }
 
+/// The number behind words of the reason ("piece 6 has a vertex"), counted from 0.
+std::optional<std::size_t> named_in(const std::string& reason, const std::string& before,
+                                    const std::string& behind) {
+  std::smatch found;
+  if (!std::regex_search(reason, found, std::regex(before + "(\\d+)" + behind)))
+    return std::nullopt;
+  return static_cast<std::size_t>(std::strtoul(found[1].str().c_str(), nullptr, 10)) - 1;
+}
+
+/// The reason is one, and one that stands in the way of what the carrier promises.
+void check_reason(const Course& course, bool proved, Sheet& sheet) {
+  const Json& certificate = course.file.certificate;
+  const char* claim = "certificate.reason";
+  const std::string reason = text_of(certificate, "reason");
+  if (proved) {
+    sheet.expect(reason.empty(), claim, reason, std::string("it is proved"), "");
+    return;
+  }
+  if (reason.empty()) return sheet.fails(claim, "none", "not proved without a reason", "");
+  const bool gaps = flag(certificate, "gaps_within_bounds").value_or(false);
+  const bool points = flag(certificate, "through_points").value_or(false);
+  const bool names_gap = reason.find(" gap ") != std::string::npos;
+  if (names_gap && gaps) return sheet.fails(claim, reason, "gaps are within bounds", "");
+  if (const auto i = named_in(reason, "^piece ", " has a vertex")) {
+    const bool there = *i < course.laws.size() && !course.laws[*i].one_way();
+    if (!there) return sheet.fails(claim, reason, "no such vertex", "");
+  }
+  const auto missed = named_in(reason, "passes? point ", " (at|after)");
+  if (missed && points) return sheet.fails(claim, reason, "all points are met", "");
+  // a vertex breaks no promise of these
+  const bool promised = course.file.promises_monotone() || (gaps && points);
+  const bool serves =
+      promised || (!gaps ? names_gap || reason.find(" joints, not ") != std::string::npos
+                         : reason.find("point") != std::string::npos);
+  sheet.expect(serves, claim, reason,
+               gaps ? std::string("a point is missed") : std::string("a gap is beyond its bound"),
+               "");
+}
+
 /// proved = every other claim of the certificate.
 void check_proved(const Course& course, const Gaps& gaps, Sheet& sheet) {
   const Json& certificate = course.file.certificate;
   const char* claim = "certificate.proved";
   const auto stated = flag(certificate, "proved");
   if (!stated) return sheet.missing(claim);
-  if (!*stated) {
-    sheet.expect(!text_of(certificate, "reason").empty(), "certificate.reason", std::string("none"),
-                 std::string("not proved without a reason"), "");
-    return sheet.holds(claim);
-  }
+  check_reason(course, *stated, sheet);
+  std::string stands;
   for (const char* name : {"gaps_within_bounds", "inside_region", "through_points"}) {
-    if (flag(certificate, name) == false) {
-      return sheet.fails(claim, "true", std::string(name) + " is false", "");
-    }
+    if (flag(certificate, name) == false) stands = std::string(name) + " is false";
   }
+  if (!*stated) {
+    sheet.expect(!stands.empty(), claim, std::string("false"),
+                 std::string("gaps, region and points are as they have to be"), "");
+    return;
+  }
+  if (!stands.empty()) return sheet.fails(claim, "true", stands, "");
   for (std::size_t i = 0; i < course.laws.size(); ++i) {
     const CurvatureLaw& law = course.laws[i];
     if (law.decided && !law.one_way()) {
@@ -274,7 +401,7 @@ void check_certificate(const Course& course, Sheet& sheet) {
   check_gaps(course, gaps, sheet);
   check_bounds_flag(course, gaps, sheet);
   check_region_flag(course, sheet);
-  check_points_flag(course, sheet);
+  check_points_flag(course, gaps, sheet);
   check_counts(course, sheet);
   check_crossings(course, sheet);
   check_proved(course, gaps, sheet);

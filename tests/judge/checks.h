@@ -13,8 +13,16 @@
 namespace judge {
 
 // measures that several checks need
+/// Whom rounding of the coordinates helps: who claims that something holds, or who doubts it.
+enum class Doubt { kHelpsTheClaim, kHindersTheClaim };
 /// What is wrong with how the points are met; empty: nothing.
-std::string missed_point(const Course& course);
+std::string missed_point(const Course& course, Doubt doubt = Doubt::kHelpsTheClaim);
+/// Runs that do not cover the pieces in order, or that pieces or jumps go against.
+struct RunFault {
+  std::string stated, found, where;
+};
+/// `monotone`: of contours that claim no proof too.
+std::optional<RunFault> run_fault(const Course& course, bool monotone);
 /// How far the contour between two orders leaves the region of its elements there.
 Real outside_region(const Course& course, Real a, Real b);
 struct ElementGap {

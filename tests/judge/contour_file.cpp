@@ -135,6 +135,18 @@ bool ContourFile::parted_at(std::size_t joint_index) const {
   return element != nullptr && element->parted();
 }
 
+bool ContourFile::keeps_promise() const {
+  const auto holds = [this](const char* name) { return flag(certificate, name).value_or(false); };
+  const bool kept = promises_monotone() ? holds("proved")
+                                        : holds("gaps_within_bounds") && holds("through_points");
+  return kept && !too_wide();
+}
+
+bool ContourFile::too_wide() const {
+  const Figure width = figure(report, "largest_width"), asked = figure(report, "tolerance");
+  return width.known() && asked.known() && *width.value > *asked.value;
+}
+
 ReadContour read_contour(const std::string& text) {
   const ReadJson read = read_json(text);
   return read.fault.empty() ? read_contour(read.value) : ReadContour{{}, read.fault};

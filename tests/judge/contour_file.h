@@ -61,6 +61,10 @@ struct ContourFile {
   [[nodiscard]] bool promises_monotone() const {
     return carrier != "cubic" && carrier != "baseline" && carrier != "imported";
   }
+  /// By its own flags and figures: what its carrier promises, and the tolerance of the width. `fit`
+  /// and `verify` end with 0 if and only if it does.
+  [[nodiscard]] bool keeps_promise() const;
+  [[nodiscard]] bool too_wide() const;
 };
 
 struct ReadContour {

@@ -24,7 +24,8 @@ namespace judge {
 namespace {
 
 constexpr const char* kUsage =
-    "usage: judge --series N [--of fit|space|nurbs|spline|region] [--seed S] [--first I] [--jobs J]\n"
+    "usage: judge --series N [--of fit|space|nurbs|spline|region] [--seed S] [--first I] [--jobs "
+    "J]\n"
     "             [--obvid PROGRAM] [--keep FOLDER] [--json FILE] [--limit SECONDS] [--most "
     "FINDINGS] [--open FILE]\n"
     "       judge CONTOUR.json [--points FILE] [--options \"OPTIONS OF fit\"] [--text FILE]\n"
@@ -147,10 +148,10 @@ void print_finding(const Finding& f) {
   }
 }
 
-/// No exit code is known of a stored report, but its verdict.
-int code_said_by(const std::string& report) {
+/// No exit code is known of a stored report, but its verdict; widths have none.
+int code_said_by(const std::string& report, const ContourFile& file) {
   const std::vector<std::string> lines = lines_of(report);
-  return !lines.empty() && lines.back().starts_with("NOT proved") ? 5 : 0;
+  return file.too_wide() || (!lines.empty() && lines.back().starts_with("NOT proved")) ? 5 : 0;
 }
 
 int judge_file(const Settings& settings) {
@@ -166,8 +167,7 @@ int judge_file(const Settings& settings) {
     if (settings.points.empty()) {
       judge_course(course, sheet);
     } else {
-      const Input input =
-          read_input(text_of_file(settings.points), words_of(settings.options));
+      const Input input = read_input(text_of_file(settings.points), words_of(settings.options));
       if (input.construction.empty()) {
         judge_course(course, sheet);
         check_input(course, input, sheet);
@@ -182,9 +182,9 @@ int judge_file(const Settings& settings) {
       check_fit_text(course, run, sheet);
     }
     if (!settings.verify.empty()) {
-      const int fit_code = settings.text.empty() ? -1 : code_said_by(run.out);
+      const int fit_code = settings.text.empty() ? -1 : code_said_by(run.out, read.contour);
       run.out = text_of_file(settings.verify);
-      run.code = code_said_by(run.out);
+      run.code = code_said_by(run.out, read.contour);
       check_verify_text(course, run, sheet, fit_code);
     }
     const std::string report = settings.text.empty() ? "" : text_of_file(settings.text);

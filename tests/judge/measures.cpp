@@ -63,20 +63,21 @@ std::size_t first_point(const Course& course) {
 }
 
 /// How near the contour must come to a point.
-Real needed_nearness(const Course& course, std::size_t point) {
-  return course.file.tolerance[point] * (1.0L + 1e-6L) + course.resolution();
+Real needed_nearness(const Course& course, std::size_t point, Doubt doubt) {
+  const Real sign = doubt == Doubt::kHelpsTheClaim ? 1.0L : -1.0L;
+  return course.file.tolerance[point] * (1.0L + sign * 1e-6L) + sign * course.resolution();
 }
 
 /// How many points from the first one on are met in order behind an order: each at the first place
 /// that is near enough, behind that of the one before.
-std::size_t met_in_order(const Course& course, Real start) {
+std::size_t met_in_order(const Course& course, Real start, Doubt doubt) {
   const std::size_t n = course.file.points.size();
   const Real last = start + course.path.end();
   Real at = start;
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = (first_point(course) + k) % n;
     const Vec p = seen(course.file.points[i], course.origin);
-    const auto met = first_within(course.path, p, at, last, needed_nearness(course, i));
+    const auto met = first_within(course.path, p, at, last, needed_nearness(course, i, doubt));
     if (!met) return k;
     at = *met;
   }
@@ -85,35 +86,36 @@ std::size_t met_in_order(const Course& course, Real start) {
 
 /// The next part of the contour, an eighth of a piece, behind an order that comes near enough to
 /// the first point.
-std::optional<Real> next_visit(const Course& course, Real start) {
+std::optional<Real> next_visit(const Course& course, Real start, Doubt doubt) {
   const std::size_t i = first_point(course);
   const Vec p = seen(course.file.points[i], course.origin);
   constexpr Real kParts = 8.0L;
   for (Real from = (std::floor(start * kParts) + 1.0L) / kParts; from < course.path.end();
        from += 1.0L / kParts) {
     const Real to = from + 1.0L / kParts;
-    if (course.path.nearest(p, from, to).distance <= needed_nearness(course, i)) return from;
+    const Real needed = needed_nearness(course, i, doubt);
+    if (course.path.nearest(p, from, to).distance <= needed) return from;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::string missed_point(const Course& course) {
+std::string missed_point(const Course& course, Doubt doubt) {
   const ContourFile& file = course.file;
   if (file.points.size() < 2) return "there are no points";
   if (file.tolerance.empty()) return missed_exactly(course);
   if (file.tolerance.size() != file.points.size()) return "a point has no tolerance";
   const std::vector<Real>& away = course.away;
   for (std::size_t i = 0; i < away.size(); ++i) {
-    if (away[i] > file.tolerance[i] * (1.0L + 1e-9L) + course.resolution()) {
+    if (away[i] > needed_nearness(course, i, doubt)) {
       return fmt::format("point {} is {:.6Lg} away", i + 1, away[i]);
     }
   }
   // around a closed contour the first point may be met anywhere
   std::size_t furthest = 0;
-  for (std::optional<Real> start = 0.0L; start; start = next_visit(course, *start)) {
-    const std::size_t met = met_in_order(course, *start);
+  for (std::optional<Real> start = 0.0L; start; start = next_visit(course, *start, doubt)) {
+    const std::size_t met = met_in_order(course, *start, doubt);
     if (met == file.points.size()) return "";
     furthest = std::max(furthest, met);
     if (!file.closed) break;

@@ -126,6 +126,56 @@ TEST(JudgeContour, FindsProofsThatAreNone) {
   EXPECT_TRUE(sheet.has("certificate.monotone"));
 }
 
+TEST(JudgeContour, FindsFlagsThatAreFalseAlthoughWhatTheySayHolds) {
+  for (const char* name : {"gaps_within_bounds", "inside_region", "through_points", "proved"}) {
+    expect_found(series10(), with(series10(), name, "false"), std::string("certificate.") + name);
+  }
+  expect_found(series10(), with(series10(), "reason", "\"piece 3 has a vertex at t = 0.5\""),
+               "certificate.reason");
+}
+
+/// A line of 3 along x as a cubic, then one whose curvature begins with 2/3 (that of a cubic's
+/// start: 2/3 of the height of its third control point over the square of its first side).
+std::string stepping(const std::string& through, const std::string& reason) {
+  return R"({"format": "obvid-contour", "version": 1, "units": "mm", "units_source": "given",
+    "closed": false, "carrier": "baseline", "points": [[0, 0], [3, 0], [6, 3]],
+    "elements": [{"point": [0, 0], "heading": 0, "kappa": 0, "source": 0},
+      {"point": [3, 0], "heading": 0, "kappa": 0, "source": 1},
+      {"point": [6, 3], "heading": 1.1071487177940904, "kappa": 0, "source": 2}],
+    "pieces": [{"type": "bezier", "points": [[0, 0], [1, 0], [2, 0], [3, 0]], "weights": [1, 1, 1, 1]},
+      {"type": "bezier", "points": [[3, 0], [4, 0], [5, 1], [6, 3]], "weights": [1, 1, 1, 1]}],
+    "runs": [{"first_piece": 0, "last_piece": 0, "direction": 0},
+      {"first_piece": 1, "last_piece": 1, "direction": 0}],
+    "certificate": {"joint_gaps": {"position": 0, "heading": 0, "curvature": 1.0001},
+      "gaps_within_bounds": false, "inside_region": false, "through_points": )" +
+         through + R"(, "proved": false, "reason": ")" + reason + "\"}}";
+}
+
+TEST(JudgeContour, GapsOfCurvatureMissNoPointAndAreTheReason) {
+  const std::string gap = "the curvature gap at joint 2 is 1, its bound 1e-06";
+  const std::string sound = stepping("true", gap);
+  EXPECT_FALSE(judged(sound).has("certificate.gaps_within_bounds")) << all_false(judged(sound));
+  EXPECT_FALSE(judged(sound).has("certificate.joint_gaps.curvature")) << all_false(judged(sound));
+  expect_found(sound, stepping("false", gap), "certificate.through_points");
+  expect_found(sound, stepping("true", "piece 2 has a vertex at t = 0.9"), "certificate.reason");
+  expect_found(sound, changed(sound, "[6, 3]], ", "[6, 3.01]], "), "certificate.through_points");
+}
+
+/// What `fit` and `verify` of a file end with.
+TEST(JudgeContour, AContourKeepsWhatItsCarrierPromisesAndNoMore) {
+  const auto kept = [](const std::string& text) {
+    return read_contour(text).contour.keeps_promise();
+  };
+  const std::string gaps = stepping("true", "the curvature gap at joint 2");
+  EXPECT_FALSE(kept(gaps));
+  const std::string none = with(gaps, "gaps_within_bounds", "true");
+  EXPECT_TRUE(kept(none));
+  EXPECT_FALSE(kept(with(none, "through_points", "false")));
+  EXPECT_FALSE(kept(with(none, "carrier", "\"spiral\"")));
+  EXPECT_TRUE(kept(series10()));
+  EXPECT_FALSE(kept(with(series10(), "largest_width", "0.00084")));
+}
+
 TEST(JudgeContour, AcceptsArcsThatJumpOneWayOnly) {
   const std::string arcs = data("contours/arcs_closed.json");
   EXPECT_FALSE(judged(arcs).has("runs")) << all_false(judged(arcs));
@@ -137,7 +187,8 @@ TEST(JudgeContour, AcceptsArcsThatJumpOneWayOnly) {
 
 TEST(JudgeContour, FindsTheFaultOfEachFileThatMustBeRefused) {
   const auto folder = std::filesystem::path(OBVID_SHARED_DATA) / "found" / "refuse";
-  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "the public data sets are missing: " << folder;
+  if (!std::filesystem::is_directory(folder))
+    GTEST_SKIP() << "the public data sets are missing: " << folder;
   int seen = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const Sheet sheet = judged(text_of_file(entry.path().string()));
