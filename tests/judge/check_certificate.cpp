@@ -16,9 +16,6 @@ namespace {
 
 /// What the flags call continuous (docs/claims.md).
 constexpr double kPositionBound = 1e-12;  // of the size
-constexpr double kAngleBound = 1e-6;      // rad
-constexpr double kCurvatureBound = 1e-6;  // of the larger curvature
-constexpr double kSlopeBound = 1e-6;      // of the largest slope of both pieces
 /// Figures stated as bounds may be this much below in the last digits of their own text.
 constexpr double kLastDigit = 1e-12;
 

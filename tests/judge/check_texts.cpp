@@ -31,7 +31,8 @@ class TextCheck {
         run_(run),
         sheet_(sheet),
         report_(course.file.report),
-        certificate_(course.file.certificate) {}
+        certificate_(course.file.certificate),
+        orders_(orders_of(course.file, course.joints)) {}
 
   void fit() {
     enum class At { kSegments, kLinesAndArcs, kSentences } at = At::kSegments;
@@ -223,36 +224,52 @@ class TextCheck {
     const bool proved = flag(certificate_, "proved").value_or(false);
     sheet_.expect(line.starts_with("proved") == proved, "text: verdict", line,
                   proved ? "proved" : "not proved", "");
-    const bool arcs = file_.carrier == "arcs";
+    // behind them comes what the reason says
+    if (!line.starts_with("NOT proved")) joints_said(line.substr(0, line.find("): ")));
     if (!line.starts_with("proved")) {
       const std::string reason = text_of(certificate_, "reason");
       const bool named = line.find(reason) != std::string::npos;
       if (!named) sheet_.unjudged("text: verdict", sentence_of(line, file_.printed_unit()).shape);
       return;
     }
-    const Figure steps_of_slope = figure(member(certificate_, "joint_gaps"), "slope");
-    const bool slope = steps_of_slope.present && !steps_of_slope.null();
-    const std::string own = arcs ? "G1 joints" : slope ? "G3 joints" : "G2 joints";
-    for (const char* one : {"G1 joints", "G2 joints", "G3 joints"}) {
-      sheet_.expect((line.find(one) != std::string::npos) == (own == one), "text: verdict", line,
-                    own, "");
-    }
-    const auto count = [&](const char* name) {
-      return static_cast<long>(figure(certificate_, name).value.value_or(0.0));
-    };
-    const long corners = count("corners"), steps = count("curvature_steps");
-    says_if(line, corners > 0, " between ",
-            fmt::format("joints between {} corner{}", corners, corners == 1 ? "" : "s"));
-    says_if(line, steps > 0, " G1 with ",
-            fmt::format("for {} that {} G1 with", steps, steps == 1 ? "is" : "are"));
-    slope_step(line, steps_of_slope);
+    slope_step(line, figure(member(certificate_, "joint_gaps"), "slope"));
   }
 
-  /// Such words are there when they have to be, as they have to be, and not otherwise.
-  void says_if(const std::string& line, bool needed, const char* words, const std::string& whole) {
-    const bool right =
-        needed ? line.find(whole) != std::string::npos : line.find(words) == std::string::npos;
-    sheet_.expect(right, "text: verdict", line, needed ? whole : "nothing of it", words);
+  /// "G3 joints between 4 corners but for 2 that are G2 and 1 that is G1 with a step", "corners
+  /// alone", "no joints": the most continuous joints that there are, and how many are less so.
+  void joints_said(const std::string& line) {
+    static const std::regex kJoints(R"(G([123]) joints|no joints|(corners|a corner) alone)");
+    const char* claim = "text: joints";
+    std::smatch found;
+    if (!std::regex_search(line, found, kJoints)) {
+      return sheet_.unjudged(claim, sentence_of(line, file_.printed_unit()).shape);
+    }
+    const JointOrders& own = orders_;
+    const int said = found[1].matched ? std::stoi(found[1].str()) : 0;
+    const std::string tally = fmt::format("{} corners, {} steps, {} G1, {} G2, {} G3", own.corners,
+                                          own.steps, own.g1, own.g2, own.g3);
+    const bool alone = own.all() > 0 ? found[2].matched : found[0].str() == "no joints";
+    sheet_.expect(said == own.highest() && (said > 0 || alone), claim, line, tally, "");
+    if (said == 0) return;
+    says_count(line, claim, " between ", R"(joints.* between (\d+) corner)", own.corners);
+    says_count(line, claim, " G1 with a ", R"((\d+) that (?:is|are) G1 with)",
+               own.highest() > 1 ? own.steps : 0);
+    says_count(line, claim, " G2", R"((\d+) that (?:is|are) G2)", said == 3 ? own.g2 : 0,
+               said == 2 ? "G2 joints" : "");
+  }
+
+  /// Words with a count are there when there is one to tell, and not otherwise. `besides`: where
+  /// the words stand for something else.
+  void says_count(std::string line, const char* claim, const char* words, const char* counted,
+                  int count, const std::string& besides = "") {
+    const std::string whole = line;
+    const std::size_t other = besides.empty() ? std::string::npos : line.find(besides);
+    if (other != std::string::npos) line.erase(0, other + besides.size());
+    std::smatch found;
+    const bool told = std::regex_search(line, found, std::regex(counted));
+    const bool right = count > 0 ? told && std::stoi(found[1].str()) == count
+                                 : line.find(words) == std::string::npos;
+    sheet_.expect(right, claim, whole, fmt::format("{}:{}", count, words), "");
   }
 
   /// The points at or before joints that are said to step.
@@ -399,6 +416,9 @@ class TextCheck {
       figure_is(std::string("joint gaps ") + names[i], s.figures.at(i),
                 figure(gaps, names[i]).value);
     }
+    // a figure of slopes where there is a joint that has one
+    say((count == 4) == (orders_.g3 > 0), "joint gaps slope", count == 4 ? s.figures[3] : "none",
+        orders_.g3);
   }
 
   void judge(const std::string& label, const Sentence& s, const std::string& command) {
@@ -537,6 +557,7 @@ class TextCheck {
   Sheet& sheet_;
   const Json& report_;
   const Json& certificate_;
+  JointOrders orders_;
   std::string header_, verdict_;
   bool tells_crossings_ = false;
 };

@@ -62,7 +62,24 @@ JointFacts between(const ContourFile& contour, const ContourEnds& ends, std::siz
   return out;
 }
 
+int order_of(const ContourFile& contour, const JointFacts& joint) {
+  if (joint.heading.lower() > kAngleBound) return 0;
+  if (contour.carrier == "arcs" || joint.curvature.lower() > kCurvatureBound) return 1;
+  const bool slopes = contour.continuity == "G3" && !joint.slope_step;
+  return slopes && joint.slope.lower() <= kSlopeBound ? 3 : 2;
+}
+
 }  // namespace
+
+JointOrders orders_of(const ContourFile& contour, const std::vector<JointFacts>& joints) {
+  JointOrders out;
+  for (std::size_t j = contour.closed ? 0 : 1; j < joints.size(); ++j) {
+    const JointFacts& joint = joints[j];
+    int* const of_order[] = {&out.corners, &out.g1, &out.g2, &out.g3};
+    ++*(joint.corner ? &out.corners : joint.step ? &out.steps : of_order[order_of(contour, joint)]);
+  }
+  return out;
+}
 
 ContourEnds ends_of(const ContourFile& contour) {
   ContourEnds out;

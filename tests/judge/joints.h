@@ -22,6 +22,21 @@ struct JointFacts {
   bool clear_jump = false;  ///< too large to be rounding
 };
 
+/// What is called continuous (docs/claims.md).
+constexpr double kAngleBound = 1e-6;      // rad
+constexpr double kCurvatureBound = 1e-6;  // of the larger curvature
+constexpr double kSlopeBound = 1e-6;      // of the largest slope of both pieces
+
+/// How many joints there are of each order, as their gaps say: what the file calls G2 is no G3.
+struct JointOrders {
+  int corners = 0, steps = 0;
+  int g1 = 0, g2 = 0, g3 = 0;  ///< no corners, no steps
+  [[nodiscard]] int all() const { return corners + steps + g1 + g2 + g3; }
+  /// Of the most continuous ones: 3, 2, 1; 0: there are corners alone, or none.
+  [[nodiscard]] int highest() const { return g3 > 0 ? 3 : g2 > 0 ? 2 : g1 + steps > 0 ? 1 : 0; }
+};
+JointOrders orders_of(const ContourFile& contour, const std::vector<JointFacts>& joints);
+
 struct ContourEnds {
   std::vector<End> start, end;  ///< of each piece
   double size = 0.0;            ///< diagonal of the box around pieces and points

@@ -198,6 +198,73 @@ TEST(JudgeTexts, FindsEveryDoctoredFigureOfTheReport) {
   }
 }
 
+/// What is false about the joints in a verdict on pieces that are a proved G3 contour otherwise.
+std::string joints_of_verdict(ContourFile file, const std::string& joints) {
+  file.carrier = "spiral";
+  file.continuity = "G3";
+  file.certificate = read_json(R"({"proved": true, "joint_gaps": {"slope": 0}})").value;
+  file.points = {{0, 0}, {4, 4}};
+  const Course course(file);
+  judge::Run run;
+  run.out = "proved: monotone curvature on every run, " + joints + ", inside the region\n";
+  Sheet sheet;
+  check_fit_text(course, run, sheet);
+  return all_false(sheet);
+}
+
+// The parabola y = x^2 from 0 to 1 to 2 to 3 in Bernstein form: one curve, whatever is said of it.
+ContourFile parabola() {
+  ContourFile file;
+  for (const double x : {0.0, 1.0, 2.0}) {
+    const std::vector<Point> points = {
+        {x, x * x}, {x + 0.5, x * x + x}, {x + 1.0, (x + 1.0) * (x + 1.0)}};
+    file.pieces.emplace_back(Bezier{{}, points, {1, 1, 1}, points});
+  }
+  file.elements.resize(4);
+  return file;
+}
+
+TEST(JudgeTexts, JointsAreCalledAsTheMostContinuousOfThem) {
+  ContourFile file = parabola();
+  EXPECT_EQ(joints_of_verdict(file, "G3 joints"), "");
+  for (const char* wrong : {"G2 joints", "G1 joints", "no joints", "corners alone",
+                            "G3 joints but for 1 that is G2", "G3 joints between 2 corners",
+                            "G3 joints but for 1 that is G1 with a step of the curvature"}) {
+    EXPECT_NE(joints_of_verdict(file, wrong), "") << wrong;
+  }
+  file.elements[1].slope_step = true;
+  EXPECT_EQ(joints_of_verdict(file, "G3 joints but for 1 that is G2"), "");
+  EXPECT_NE(joints_of_verdict(file, "G3 joints but for 2 that are G2"), "");
+  EXPECT_NE(joints_of_verdict(file, "G3 joints"), "");
+  file.elements[2].slope_step = true;
+  EXPECT_EQ(joints_of_verdict(file, "G2 joints"), "");
+  EXPECT_NE(joints_of_verdict(file, "G3 joints but for 2 that are G2"), "");
+  file.elements[2].slope_step = false;
+  file.elements[2].step = true;
+  EXPECT_EQ(joints_of_verdict(file, "G2 joints but for 1 that is G1 with a step of the curvature"),
+            "");
+  file.elements[1].step = true;
+  EXPECT_EQ(joints_of_verdict(file, "G1 joints with steps of the curvature"), "");
+  file.elements[1].corner = file.elements[2].corner = true;
+  EXPECT_EQ(joints_of_verdict(file, "corners alone"), "");
+  EXPECT_NE(joints_of_verdict(file, "G3 joints between 2 corners"), "");
+  file.pieces.resize(1);
+  file.elements.resize(2);
+  EXPECT_EQ(joints_of_verdict(file, "no joints"), "");
+  EXPECT_NE(joints_of_verdict(file, "G3 joints"), "");
+}
+
+/// An end whose slope differs is no G3 joint, whatever the file says: a line goes on as y = x^3,
+/// whose slope of the curvature begins with 6.
+TEST(JudgeTexts, JointsAreOfTheOrderThatTheirGapsSay) {
+  ContourFile file;
+  const std::vector<Point> cubic = {{0, 0}, {1.0 / 3.0, 0}, {2.0 / 3.0, 0}, {1, 1}};
+  file.pieces = {Line{{-1, 0}, {0, 0}}, Bezier{{}, cubic, {1, 1, 1, 1}, cubic}};
+  file.elements.resize(3);
+  EXPECT_EQ(joints_of_verdict(file, "G2 joints"), "");
+  EXPECT_NE(joints_of_verdict(file, "G3 joints"), "");
+}
+
 TEST(JudgeTexts, TellsSentencesThatItDoesNotKnow) {
   const std::string sound = data("judge/series10.txt");
   const auto unjudged = [](const Sheet& sheet) {
