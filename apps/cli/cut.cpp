@@ -10,6 +10,7 @@
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/file_formats.h"
 #include "obvid/pipeline/internal/job_files.h"
+#include "obvid/pipeline/internal/no_such_file.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "outputs.h"
 #include "table.h"
@@ -24,12 +25,7 @@ Result<std::vector<Output>> cut_outputs(const CutCommand& command) {
   std::vector<Output> out;
   for (const std::string& path : command.outputs) {
     const auto format = cut_format_of(path);
-    if (!format) {
-      return error(ErrorCode::kUnknownFormat,
-                   "no format of cutting programs has this file extension")
-          .where(path)
-          .hint("possible are " + known_cut_endings());
-    }
+    if (!format) return no_such_file("a cut", known_cut_endings()).where(path);
     out.push_back({path, *format, {}});
   }
   return out;

@@ -6,12 +6,11 @@
 
 #include "commands.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "obvid/pipeline/internal/summary.h"
 #include "terminal.h"
 
 namespace obvid {
 namespace {
-
-std::string name_of(ErrorCode code) { return fmt::format("E{}", static_cast<int>(code)); }
 
 /// Whole sentences broken into lines that fit a terminal.
 std::string wrapped(std::string_view text, std::string_view indent) {
@@ -36,7 +35,7 @@ std::string list_of_codes(bool as_json) {
   if (as_json) return error_texts_json();
   std::string lines;
   for (const ErrorText& text : error_texts()) {
-    lines += fmt::format("{}  {}\n", name_of(text.code), text.title);
+    lines += fmt::format("{}  {}\n", code_text(text.code), text.title);
   }
   return lines;
 }
@@ -54,7 +53,7 @@ int run(const ExplainOptions& options) {
       text = error_text_json(*found);
     } else {
       text = fmt::format("{}\n\n{}\n{}\nExit code {}.\n",
-                         bold(fmt::format("{}: {}", name_of(found->code), found->title)),
+                         bold(fmt::format("{}: {}", code_text(found->code), found->title)),
                          wrapped(found->meaning, ""), wrapped(found->remedy, ""),
                          exit_code(found->code));
     }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "obvid/core/files.h"
+#include "obvid/pipeline/internal/no_such_file.h"
 #include "text.h"
 
 namespace obvid {
@@ -31,9 +32,7 @@ Result<FileFormat> table_format_of(const std::string& path, const std::string& w
        {FileFormat::kPicture, FileFormat::kPage, FileFormat::kSamples, FileFormat::kContour}) {
     if (format == one) return one;
   }
-  return error(ErrorCode::kUnknownFormat, "there is no such file of " + what)
-      .where(path)
-      .hint("possible are .svg (picture), .html (page), " + tables);
+  return no_such_file(what, ".svg (picture), .html (page), " + tables).where(path);
 }
 
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,

@@ -34,7 +34,7 @@ class CutProgram(NamedTuple):
         others = {".svg": self.picture, ".dxf": self.drawing, ".csv": self.table}
         text = {**others, **programs}.get(target.suffix.lower())
         if text is None:
-            raise UsageError(202, "no format of cutting programs has this file extension", str(path))
+            raise UsageError(202, "there is no such file of a cut", str(path))
         return write_all(target, ([("", text.encode())], self.remarks))
 
 

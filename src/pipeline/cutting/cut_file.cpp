@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
-#include "files/no_such_file.h"
 #include "obvid/core/internal/watch.h"
 #include "obvid/pipeline/internal/job_files.h"
+#include "obvid/pipeline/internal/no_such_file.h"
 
 namespace obvid {
 namespace {
@@ -31,9 +31,7 @@ Result<std::string> cut_file(FileFormat format, const MadeCut& made, const CutJo
     case FileFormat::kDxf:
       return drawn_paths(format, made, job, run);
     default:
-      return error(ErrorCode::kUnknownFormat,
-                   "no format of cutting programs has this file extension")
-          .hint("possible are " + known_cut_endings());
+      return no_such_file("a cut", known_cut_endings());
   }
 }
 

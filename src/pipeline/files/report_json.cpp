@@ -14,6 +14,7 @@
 #include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/internal/promise.h"
+#include "obvid/pipeline/internal/summary.h"
 #include "verify/false_claim.h"
 
 namespace obvid {
@@ -62,7 +63,7 @@ void add_why_not(JsonText& json, const WhyNot& why) {
 void add_row(JsonText& json, const ComparedCarrier& row) {
   json.begin_object().pair("carrier", to_string(row.carrier)).key("refusal");
   if (row.refusal) {
-    json.begin_object().pair("code", fmt::format("E{}", static_cast<int>(row.refusal->code)));
+    json.begin_object().pair("code", code_text(*row.refusal));
     json.pair("what", row.refusal->what).pair("where", row.refusal->where).end_object();
     json.end_object();
     return;
@@ -116,7 +117,7 @@ std::string refusal_json(const Error& error, const PointSeries& series,
   json.begin_object();
   add_units(json, series.units);
   json.key("error").begin_object();
-  json.pair("code", fmt::format("E{}", static_cast<int>(error.code))).pair("what", error.what);
+  json.pair("code", code_text(error)).pair("what", error.what);
   json.pair("where", error.where).pair("hint", error.hint).end_object();
   json.key("why_not");
   if (why) {
@@ -302,7 +303,7 @@ namespace {
 
 void add_error_text(JsonText& json, const ErrorText& text) {
   json.begin_object();
-  json.pair("code", fmt::format("E{}", static_cast<int>(text.code)));
+  json.pair("code", code_text(text.code));
   json.pair("exit_code", exit_code(text.code));
   json.pair("title", text.title).pair("meaning", text.meaning).pair("remedy", text.remedy);
   json.end_object();
@@ -318,7 +319,7 @@ Result<ErrorText> error_text_of(std::string_view typed) {
   }
   std::vector<std::string> names;
   for (const ErrorText& text : error_texts()) {
-    names.push_back(fmt::format("E{}", static_cast<int>(text.code)));
+    names.push_back(code_text(text.code));
     if (names.back() == wanted) return text;
   }
   return error(ErrorCode::kUsage, fmt::format("there is no error code '{}'", wanted))

@@ -29,9 +29,9 @@ SummaryCell bound_cell(const char* name, int bound) { return {name, "", std::to_
 
 }  // namespace
 
-std::string code_text(const Error& error) {
-  return fmt::format("E{}", static_cast<int>(error.code));
-}
+std::string code_text(ErrorCode code) { return fmt::format("E{}", static_cast<int>(code)); }
+
+std::string code_text(const Error& error) { return code_text(error.code); }
 
 std::string summary_csv_head(const std::vector<SummaryCell>& cells) {
   std::string out = "input";

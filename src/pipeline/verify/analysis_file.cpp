@@ -3,9 +3,9 @@
 #include <string>
 #include <utility>
 
-#include "files/no_such_file.h"
 #include "obvid/core/internal/watch.h"
 #include "obvid/pipeline/internal/job_files.h"
+#include "obvid/pipeline/internal/no_such_file.h"
 #include "obvid/pipeline/internal/report_json.h"
 
 namespace obvid {
@@ -47,7 +47,7 @@ Result<std::string> analysis_file(FileFormat format, const AnalysedSeries& point
     case FileFormat::kSamples:
       return csv_text(series_rows(points.series, points.analysis));
     default:
-      return pipeline_detail::no_such_file("an analysis", kAnalysisFiles);
+      return no_such_file("an analysis", kAnalysisFiles);
   }
 }
 
@@ -70,7 +70,7 @@ Result<std::string> analysis_file(FileFormat format, const AnalysedDrawing& anal
     case FileFormat::kPicture:
       break;
     default:
-      return pipeline_detail::no_such_file("an analysis", kAnalysisFiles);
+      return no_such_file("an analysis", kAnalysisFiles);
   }
   const CurveAudit* curve = pictured_curve(analysed);
   if (curve == nullptr) return fail(no_picture_of_points());

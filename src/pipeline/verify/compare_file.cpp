@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
-#include "files/no_such_file.h"
 #include "obvid/pipeline/internal/job_files.h"
+#include "obvid/pipeline/internal/no_such_file.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/internal/summary.h"
 
@@ -50,8 +50,7 @@ Result<std::string> comparison_file(FileFormat format, const PointSeries& series
     case FileFormat::kSamples:
       return csv_text(carrier_rows(compared));
     default:
-      return pipeline_detail::no_such_file("a comparison",
-                                           ".svg (picture), .csv and .json (tables)");
+      return no_such_file("a comparison", ".svg (picture), .csv and .json (tables)");
   }
 }
 

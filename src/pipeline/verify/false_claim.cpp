@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "obvid/pipeline/internal/summary.h"
+
 namespace obvid::pipeline_detail {
 
 Error false_claim_in_space(const std::string& name, double claimed, double found) {
@@ -19,7 +21,7 @@ void add_false_claim(JsonText& json, const Error* claim) {
     json.null();
     return;
   }
-  json.begin_object().pair("code", fmt::format("E{}", static_cast<int>(claim->code)));
+  json.begin_object().pair("code", code_text(*claim));
   json.pair("what", claim->what).pair("where", claim->where).end_object();
 }
 

@@ -29,6 +29,7 @@ struct Summary {
 };
 
 /// "E401"
+[[nodiscard]] std::string code_text(ErrorCode code);
 [[nodiscard]] std::string code_text(const Error& error);
 
 /// Names of the columns, and the line of one input below them.
