@@ -111,7 +111,7 @@ Facts summary(const Fit& fit, const Written& written) {
 }  // namespace
 
 void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
-  facts.add("joint gaps", gaps_text(carrier, certificate.gaps));
+  facts.add("joint gaps", gaps_text(carrier, certificate));
 }
 
 std::string fit_report_csv(const Fit& fit) {

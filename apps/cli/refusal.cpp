@@ -65,8 +65,9 @@ std::string refusal_text(const PointSeries& series, const WhyNot& why,
   std::string text;
   if (!series.name.empty()) text += bold(series.name) + "\n";
   if (why.next_to_nothing) {
-    text += fmt::format("No point is in the way. A contour with {} {}: {} allows them.\n",
-                        counts_of_fit(why.fit), exists_text(why), advised_option(why, series));
+    text += fmt::format("No point is in the way. A contour with {} {}: {} {}.\n",
+                        counts_of_fit(why.fit), exists_text(why), advised_option(why, series),
+                        what_option_does(why.fit));
   } else {
     text += points_in_the_way_text(series, why);
   }

@@ -67,6 +67,7 @@ class Certifier {
     certificate_.proved = monotone_ && forward_ && certificate_.gaps_within_bounds &&
                           certificate_.through_points && certificate_.inside_region;
     certificate_.self_intersections = self_intersections();
+    if (certificate_.reason.empty()) certificate_.reason = std::move(inside_);
     return std::move(certificate_);
   }
 
@@ -101,6 +102,17 @@ class Certifier {
     if (certificate_.reason.empty()) certificate_.reason = std::move(reason);
   }
 
+  /// What happens inside pieces: of carriers that promise nothing there it comes after the rest.
+  void fail_inside(std::string reason) {
+    if (promises_monotone(contour_.carrier)) return fail(std::move(reason));
+    if (inside_.empty()) inside_ = std::move(reason);
+  }
+
+  void fail_monotone(std::string reason) {
+    monotone_ = false;
+    fail_inside(std::move(reason));
+  }
+
   void examine_pieces() {
     const std::size_t n = contour_.pieces.size();
     certificate_.pieces.reserve(n);
@@ -115,7 +127,7 @@ class Certifier {
       if (facts.proof.verdict == Verdict::kHasVertex) follow_inside(i);
       if (!facts.turns_below_pi) {
         forward_ = false;
-        fail(fmt::format("piece {} is not proved to turn by less than half a turn", i + 1));
+        fail_inside(fmt::format("piece {} is not proved to turn by less than half a turn", i + 1));
       }
     }
   }
@@ -136,9 +148,8 @@ class Certifier {
   void report_verdict(std::size_t i, const PieceProof& proof) {
     const bool vertex = proof.verdict == Verdict::kHasVertex;
     if (!vertex && proof.verdict != Verdict::kUndecided) return;
-    monotone_ = false;
-    fail(vertex ? fmt::format("piece {} has a vertex {}", i + 1, place_of(proof))
-                : fmt::format("the curvature of piece {} could not be decided", i + 1));
+    fail_monotone(vertex ? fmt::format("piece {} has a vertex {}", i + 1, place_of(proof))
+                         : fmt::format("the curvature of piece {} could not be decided", i + 1));
   }
 
   void check_joints() {
@@ -146,13 +157,14 @@ class Certifier {
     const std::size_t expected = contour_.closed ? n : n + 1;
     certificate_.gaps = joints_.gaps;
     certificate_.inflections = joints_.inflections;
+    certificate_.joints = joints_.joints;
     certificate_.corners = joints_.corners;
     certificate_.curvature_steps = joints_.curvature_steps;
     certificate_.slope_steps = joints_.slope_steps;
     certificate_.loose_slopes = joints_.loose_slopes;
     certificate_.gaps_within_bounds = joints_.within_bounds;
     if (contour_.joints.size() != expected) {
-      certificate_.gaps_within_bounds = joints_.within_bounds = false;
+      certificate_.gaps_within_bounds = joints_.within_bounds = joints_.meeting = false;
       fail(fmt::format("{} pieces need {} joints, not {}", n, expected, contour_.joints.size()));
     }
     if (!joints_.within_bounds) fail(joints_.reason);
@@ -183,7 +195,7 @@ class Certifier {
   void check_points() {
     std::string missed = missed_point(contour_);
     if (std::string far = too_far(); missed.empty()) missed = std::move(far);
-    certificate_.through_points = missed.empty() && joints_.within_bounds;
+    certificate_.through_points = missed.empty() && joints_.meeting;
     if (!missed.empty()) fail(missed);
   }
 
@@ -193,14 +205,14 @@ class Certifier {
       const Run& run = contour_.runs[r];
       if (run.first_piece != next || run.last_piece < run.first_piece ||
           run.last_piece >= contour_.pieces.size()) {
-        return refuse_runs(fmt::format("run {} does not continue the run before it", r + 1));
+        return fail_monotone(fmt::format("run {} does not continue the run before it", r + 1));
       }
       for (std::size_t i = run.first_piece; i <= run.last_piece; ++i) check_piece_in_run(r, i);
       check_jump_before_run(r);
       next = run.last_piece + 1;
     }
     if (next != contour_.pieces.size()) {
-      refuse_runs(fmt::format("no run covers piece {}", next + 1));
+      fail_monotone(fmt::format("no run covers piece {}", next + 1));
     }
   }
 
@@ -208,27 +220,22 @@ class Certifier {
     return joint < contour_.joints.size() && contour_.joints[joint].leaving.has_value();
   }
 
-  void refuse_runs(std::string reason) {
-    monotone_ = false;
-    fail(std::move(reason));
-  }
-
   void check_piece_in_run(std::size_t r, std::size_t i) {
     const Run& run = contour_.runs[r];
     const auto against = [&run](int sign) { return sign != 0 && sign != run.direction; };
     if (against(before_[i]) || against(after_[i])) {
-      refuse_runs(fmt::format("run {} claims {} curvature, piece {} is {}", r + 1,
-                              word(run.direction), i + 1,
-                              to_string(certificate_.pieces[i].verdict)));
+      fail_monotone(fmt::format("run {} claims {} curvature, piece {} is {}", r + 1,
+                                word(run.direction), i + 1,
+                                to_string(certificate_.pieces[i].verdict)));
     }
     if (i == run.first_piece) return;
     if (is_parted(i)) {
-      refuse_runs(fmt::format("run {} continues over the {} at joint {}", r + 1,
-                              is_corner(contour_.joints[i]) ? "corner" : "step of the curvature",
-                              i + 1));
+      fail_monotone(fmt::format("run {} continues over the {} at joint {}", r + 1,
+                                is_corner(contour_.joints[i]) ? "corner" : "step of the curvature",
+                                i + 1));
     }
     if (against(joints_.jump[i])) {
-      refuse_runs(
+      fail_monotone(
           fmt::format("run {} claims {} curvature, which jumps the other way before piece {}",
                       r + 1, word(run.direction), i + 1));
     }
@@ -242,8 +249,8 @@ class Certifier {
     const int jump = joints_.jump[run.first_piece];
     if (!is_parted(run.first_piece) && jump != 0 && jump != run.direction &&
         jump != before.direction) {
-      refuse_runs(fmt::format("curvature jumps before piece {} against both its runs",
-                              run.first_piece + 1));
+      fail_monotone(fmt::format("curvature jumps before piece {} against both its runs",
+                                run.first_piece + 1));
     }
   }
 
@@ -271,6 +278,7 @@ class Certifier {
   std::map<std::size_t, std::vector<SignFrom>> changes_;  ///< of the same
   std::vector<std::int8_t> before_;  ///< sign of d kappa at the start of each piece
   std::vector<std::int8_t> after_;   ///< and at its end; they differ around a vertex
+  std::string inside_;               ///< the first reason of fail_inside that is held back
   bool monotone_ = true;
   bool forward_ = true;
 };

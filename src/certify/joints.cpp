@@ -15,8 +15,6 @@ namespace {
 
 // What is called continuous (docs/claims.md).
 constexpr double kPositionBound = 1e-12;  // of the contour's size
-constexpr double kHeadingBound = 1e-6;    // rad
-constexpr double kCurvatureBound = 1e-6;  // of the curvature at the joint
 constexpr double kSlopeBound = 1e-6;      // of the largest slope of the two pieces
 /// Coordinates far from the origin cannot say a position better than this, at the most; beyond,
 /// nobody would call a joint continuous.
@@ -143,18 +141,21 @@ class JointWalk {
     if (first_sign_ != 0 && last_sign_ != first_sign_) ++survey_.inflections;
   }
 
-  void check(double gap, double bound, std::size_t joint, const char* what) {
-    if ((gap <= bound && gap < kBroken) || !survey_.within_bounds) return;
+  /// Whether the gap is within its bound; the first that is not is the reason.
+  bool check(double gap, double bound, std::size_t joint, const char* what) {
+    const bool within = gap <= bound && gap < kBroken;
+    if (within || !survey_.within_bounds) return within;
     survey_.within_bounds = false;
     survey_.reason =
         fmt::format("{} at joint {} is {:.3g}, its bound {:.3g}", what, joint + 1, gap, bound);
+    return false;
   }
 
   void check_position(double far, double rounding, std::size_t joint) {
     const double gap = known(outward(far / size_));
     survey_.gaps.position = std::max(survey_.gaps.position, gap);
-    check(gap, allowed(kPositionBound, rounding / size_, kPositionCeiling), joint,
-          "the position gap");
+    const double bound = allowed(kPositionBound, rounding / size_, kPositionCeiling);
+    if (!check(gap, bound, joint, "the position gap")) survey_.meeting = false;
   }
 
   /// A difference of curvatures against those that meet at a joint.
@@ -190,6 +191,7 @@ class JointWalk {
   /// Two neighbouring pieces; returns the sign of the curvature's jump if it is one.
   std::int8_t compare(std::size_t joint, const PieceEnds& before, const PieceEnds& after) {
     const EndData &left = before.end, &right = after.start;
+    ++survey_.joints;
     check_position(distance(left, right), left.point_rounding + right.point_rounding, joint);
     const double turn = known(
         heading_gap(left.direction, right.direction, left.heading_error + right.heading_error));
@@ -204,15 +206,15 @@ class JointWalk {
       return parted_jump(left, right);
     }
     survey_.gaps.heading = std::max(survey_.gaps.heading, turn);
-    check(turn, kHeadingBound, joint, "the heading gap");
+    check(turn, kContinuousHeading, joint, "the heading gap");
     const double jump = right.kappa - left.kappa;
     const double gap = scale_at(&before, &after)
                            .of(outward(std::abs(jump)) + left.kappa_error + right.kappa_error);
     survey_.gaps.curvature = std::max(survey_.gaps.curvature, gap);
     compare_slopes(joint, before, after);
     const bool arcs = may_jump(joint);
-    if (!arcs) check(gap, kCurvatureBound, joint, "the curvature gap");
-    if (gap <= (arcs ? kSameArc : kCurvatureBound)) return 0;
+    if (!arcs) check(gap, kContinuousCurvature, joint, "the curvature gap");
+    if (gap <= (arcs ? kSameArc : kContinuousCurvature)) return 0;
     return static_cast<std::int8_t>(jump > 0.0 ? 1 : jump < 0.0 ? -1 : 0);
   }
 
@@ -258,14 +260,14 @@ class JointWalk {
     const double larger = std::max(std::abs(left.kappa), std::abs(right.kappa));
     const double rounding = left.kappa_rounding + right.kappa_rounding;
     const bool none =
-        std::abs(jump) <= allowed(kSameAtCorner * larger, rounding, kCurvatureBound * larger);
+        std::abs(jump) <= allowed(kSameAtCorner * larger, rounding, kContinuousCurvature * larger);
     return static_cast<std::int8_t>(none ? 0 : (jump > 0.0 ? 1 : -1));
   }
 
   /// The joint's own element against the ends that meet there. False where there is no element.
   bool compare_with_element(std::size_t joint, const PieceEnds* left, const PieceEnds* right) {
     if (joint >= contour_.joints.size()) {
-      check(kBroken, 0.0, joint, "the number of joints");
+      survey_.meeting = check(kBroken, 0.0, joint, "the number of joints");
       return false;
     }
     const Joint& here = contour_.joints[joint];
@@ -294,7 +296,7 @@ class JointWalk {
       if (end == nullptr) continue;
       check_position(distance(*end, claimed), end->point_rounding, joint);
       check(known(heading_gap(unit_at(element.theta), end->direction, end->heading_error)),
-            apart + allowed(kElementHeading, end->heading_rounding, kHeadingBound), joint,
+            apart + allowed(kElementHeading, end->heading_rounding, kContinuousHeading), joint,
             "the difference of headings between element and piece");
     }
     check_element_kappa(joint, element.kappa, scale_at(left, right),
@@ -309,7 +311,7 @@ class JointWalk {
     const double high = std::max(left.kappa, right.kappa);
     const double difference = is_nan(kappa) ? kappa : std::max({0.0, low - kappa, kappa - high});
     check(scale.of(known(difference)),
-          allowed(kElementCurvature, scale.of(rounding), kCurvatureBound), joint,
+          allowed(kElementCurvature, scale.of(rounding), kContinuousCurvature), joint,
           "the difference of curvatures between element and piece");
   }
 

@@ -18,8 +18,10 @@ namespace obvid {
 struct JointSurvey {
   JointGaps gaps;
   bool within_bounds = true;
+  bool meeting = true;            ///< every gap of position is within its bound
   std::string reason;             ///< first gap beyond its bound
   std::vector<std::int8_t> jump;  ///< sign of the curvature's jump at the start of each piece
+  int joints = 0;                 ///< places at which two pieces meet
   int inflections = 0;
   int corners = 0;
   int curvature_steps = 0;

@@ -635,6 +635,8 @@ Certificate ContourReader::certificate(const Node& node) {
   const auto corners = std::count_if(joints.begin(), joints.end(), is_corner);
   const auto parted = std::count_if(joints.begin(), joints.end(),
                                     [](const Joint& joint) { return joint.leaving.has_value(); });
+  const std::size_t n = stored_.contour.pieces.size();
+  claims.joints = static_cast<int>(stored_.contour.closed || n == 0 ? n : n - 1);
   claims.corners = count("corners", static_cast<int>(corners));
   claims.curvature_steps = count("curvature_steps", static_cast<int>(parted - corners));
   const auto slope_steps = std::count_if(joints.begin(), joints.end(),

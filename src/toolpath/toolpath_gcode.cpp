@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "obvid/core/internal/figures.h"
 #include "obvid/core/version.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/toolpath/toolpath.h"
@@ -35,8 +36,9 @@ std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, doub
   std::vector<std::string> remarks{
       fmt::format("Obvid {}: {}", kVersion, gcode_comment(options.name)),
       cutter_text(path, scale) + ", places are those of the tip",
-      fmt::format("{} passes, about {:.1f} min, within {:.3g} {}", path.report.passes, minutes,
-                  path.tolerance * scale, inches ? "in" : "mm")};
+      fmt::format("{} passes, about {:.1f} min, within {} {}", path.report.passes, minutes,
+                  significant_above(path.tolerance * scale, kDigitsOfBounds),
+                  inches ? "in" : "mm")};
   for (std::string& one : exchange::gcode_unit_remarks(path.units)) {
     remarks.push_back(std::move(one));
   }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "obvid/curve/carrier.h"
+
 namespace obvid {
 
 /// What is proved about the curvature of one piece.
@@ -34,6 +36,10 @@ struct JointGaps {
   std::optional<double> slope{};
 };
 
+/// What is called continuous (docs/claims.md): gaps up to these, in rad and of the curvature.
+inline constexpr double kContinuousHeading = 1e-6;
+inline constexpr double kContinuousCurvature = 1e-6;
+
 /// Everything that was proved about a contour (docs/methods/certify.md).
 struct Certificate {
   std::vector<PieceProof> pieces;
@@ -44,15 +50,28 @@ struct Certificate {
   bool through_points = false;  ///< every input point is met in order, exactly or within its
                                 ///< tolerance where it has one
   double largest_move = 0.0;    ///< proved bound of the distance of a point with a tolerance, units
+  int joints = 0;               ///< places at which two pieces meet
   int corners = 0;              ///< joints that are continuous in position only
   int curvature_steps = 0;      ///< joints with a common tangent whose curvature is said to step
   int slope_steps = 0;          ///< joints of a G3 contour that are said to be G2 only
+  /// Joints whose slope of curvature goes on, too.
+  [[nodiscard]] int smooth_joints() const {
+    return gaps.slope ? joints - corners - curvature_steps - slope_steps : 0;
+  }
   std::vector<std::size_t> loose_slopes{};  ///< joints of one whose gap is beyond its bound
   int vertices = 0;
   int inflections = 0;
   int self_intersections = 0;
   bool proved = false;
-  std::string reason;  ///< empty when proved, else the first claim that failed
+  /// Empty when proved, else the first claim that failed; of carriers that promise no monotone
+  /// curvature a claim on joints or points goes before one on curvature inside pieces.
+  std::string reason;
 };
+
+/// Whether a contour is what its carrier promises: proved, or without gaps through its points.
+[[nodiscard]] inline bool keeps_promise(Carrier carrier, const Certificate& certificate) {
+  if (promises_monotone(carrier)) return certificate.proved;
+  return certificate.gaps_within_bounds && certificate.through_points;
+}
 
 }  // namespace obvid

@@ -13,6 +13,7 @@
 
 #include "face_surface.h"
 #include "load.h"
+#include "obvid/core/internal/figures.h"
 
 namespace obvid::cad {
 namespace {
@@ -46,8 +47,8 @@ bool add_face(const TopoDS_Face& face, std::size_t number, const std::string& gi
                            "parameters was taken");
   }
   if (made.deviation > 0.0) {
-    out.warnings.push_back(
-        fmt::format("{} is an offset, approximated within {:.2g} mm", name, made.deviation));
+    out.warnings.push_back(fmt::format("{} is an offset, approximated within {} mm", name,
+                                       significant_above(made.deviation, kDigitsOfBounds)));
   }
   out.model.patches.push_back(
       {given.empty() ? plain : given, *std::move(made.surface), std::move(made.trims)});

@@ -12,6 +12,7 @@
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/contour/arcs/polyline_along.h"
 #include "obvid/contour/bsplines/cubic_along.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/core/version.h"
 #include "obvid/curve/internal/path_distance.h"
 #include "obvid/curve/internal/smooth_parts.h"
@@ -136,8 +137,8 @@ class Program {
   [[nodiscard]] std::string head(std::size_t blocks, double deviation) const {
     std::vector<std::string> remarks{
         fmt::format("Obvid {}: {}", kVersion, gcode_comment(options_.name)),
-        fmt::format("{} blocks within {:.3g} {} of the contour", blocks, deviation * scale_,
-                    inches_ ? "in" : "mm")};
+        fmt::format("{} blocks within {} {} of the contour", blocks,
+                    significant_above(deviation * scale_, kDigitsOfBounds), inches_ ? "in" : "mm")};
     for (std::string& one : exchange::gcode_unit_remarks(contour_.units)) {
       remarks.push_back(std::move(one));
     }

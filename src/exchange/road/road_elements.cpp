@@ -45,7 +45,9 @@ Result<std::vector<RoadLine>> road_lines(const Contour& contour, std::string_vie
       return error(ErrorCode::kUnsupported,
                    "road formats know lines, arcs and clothoids, and this contour has other pieces")
           .where(fmt::format("piece {}", i + 1))
-          .hint("use `fit --carrier clothoids`");
+          .hint(
+              "use `fit --carrier clothoids`, with --drawing points where a drawing has other "
+              "curves");
     }
     const bool corner = i < contour.joints.size() && is_corner(contour.joints[i]);
     if (i == 0 || corner) lines.emplace_back();

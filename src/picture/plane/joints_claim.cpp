@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "obvid/core/internal/figures.h"
 
 namespace obvid {
@@ -11,16 +13,42 @@ namespace {
 /// Gaps above are named: what the bounds of certificates call continuous is a number.
 constexpr double kNamedGap = 1e-9;
 
-/// Joints that are less continuous than the others.
-std::string lesser_joints(const Certificate& certificate) {
+struct JointKind {
+  int count = 0;
+  const char* joints;  ///< "G2 joints"
+  const char* one;     ///< "that is ..."
+};
+
+/// Joints that are no corners, the most continuous first.
+std::array<JointKind, 3> joint_kinds(Carrier carrier, const Certificate& certificate) {
+  const int smooth = certificate.smooth_joints();
+  const int stepped = certificate.curvature_steps;
+  const int others = certificate.joints - certificate.corners - stepped - smooth;
+  return {{{smooth, "G3 joints", ""},
+           {others, steps_at_joints(carrier) ? "G1 joints" : "G2 joints", "G2"},
+           {stepped, "G1 joints with steps of the curvature", "G1 with a step of the curvature"}}};
+}
+
+/// "G3 joints between 2 corners but for 8 that are G2".
+std::string counted_joints(Carrier carrier, const Certificate& certificate) {
+  const int corners = certificate.corners;
+  if (certificate.joints == 0) return "no joints";
+  if (certificate.joints == corners) return corners == 1 ? "a corner alone" : "corners alone";
   std::string text;
-  const auto add = [&text](int count, const char* what) {
-    if (count == 0) return;
-    text += fmt::format("{} {} that {} {}", text.empty() ? " but for" : " and", count,
-                        count == 1 ? "is" : "are", what);
-  };
-  add(certificate.curvature_steps, "G1 with a step of the curvature");
-  if (certificate.gaps.slope) add(certificate.slope_steps, "G2");
+  bool lesser = false;
+  for (const JointKind& kind : joint_kinds(carrier, certificate)) {
+    if (kind.count == 0) continue;
+    if (text.empty()) {
+      text = kind.joints;
+      if (corners > 0) {
+        text += " between " + counted(static_cast<std::size_t>(corners), "corner", "corners");
+      }
+      continue;
+    }
+    text += fmt::format("{} {} that {} {}", lesser ? " and" : " but for", kind.count,
+                        kind.count == 1 ? "is" : "are", kind.one);
+    lesser = true;
+  }
   return text;
 }
 
@@ -29,12 +57,7 @@ std::string lesser_joints(const Certificate& certificate) {
 std::string joints_claim(Carrier carrier, const Certificate& certificate) {
   const JointGaps& gaps = certificate.gaps;
   const bool arcs = steps_at_joints(carrier);
-  std::string text = arcs ? "G1 joints" : gaps.slope ? "G3 joints" : "G2 joints";
-  if (certificate.corners > 0) {
-    text +=
-        " between " + counted(static_cast<std::size_t>(certificate.corners), "corner", "corners");
-  }
-  text += lesser_joints(certificate);
+  std::string text = counted_joints(carrier, certificate);
   if (gaps.slope && *gaps.slope > 0.0) {
     text += fmt::format(" (the slope of curvature steps by {} of the largest beside it)",
                         significant(*gaps.slope, 2));

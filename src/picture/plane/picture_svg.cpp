@@ -72,8 +72,8 @@ VerdictLine verdict_of(const StoredContour& stored) {
     while (cut > 0 && (static_cast<unsigned char>(reason[cut]) & 0xC0U) == 0x80U) --cut;
     reason = reason.substr(0, cut) + " …";
   }
-  const bool no_promise = !promises_monotone(stored.contour.carrier);
-  return {"bad", std::string(no_promise ? "✗ not monotone" : "✗ NOT proved") +
+  const bool kept = keeps_promise(stored.contour.carrier, *stored.certificate);
+  return {"bad", std::string(kept ? "✗ not monotone" : "✗ NOT proved") +
                      (reason.empty() ? std::string{} : ": " + reason)};
 }
 

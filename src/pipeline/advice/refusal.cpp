@@ -15,6 +15,11 @@
 
 namespace obvid {
 
+const char* what_option_does(const Fit& fit) {
+  const bool any = fit.report.vertices > 0 || fit.report.inflections > 0;
+  return any ? "allows them" : "forms it";
+}
+
 std::string counts_of_fit(const Fit& fit) {
   const auto count = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
   return counted(count(fit.report.vertices), "vertex", "vertices") + " and " +
@@ -66,8 +71,8 @@ Error with_tolerance(Error error, const std::optional<WhyNot>& why, const PointS
         significant(largest_tolerance_tried(series), kAdvisedDigits), units);
   } else if (why->found && why->next_to_nothing) {
     error.hint += "no point is in the way: with " + counts_of_fit(why->fit) + " there is one" +
-                  places_of_vertices(why->fit.contour) + ": " + advised_option(*why, series) +
-                  " allows them";
+                  places_of_vertices(why->fit.contour) + ": " + advised_option(*why, series) + " " +
+                  what_option_does(why->fit);
   } else if (why->found) {
     error.hint +=
         "within " + room_within(*why, units) + " there is one: " + advised_option(*why, series);

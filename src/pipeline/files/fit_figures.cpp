@@ -201,7 +201,7 @@ FigureRows fit_figures(const Contour& contour, const FitReport& report,
     facts.emplace_back("largest move",
                        significant(report.largest_move, 4) + " " + contour.units.text());
   }
-  facts.emplace_back("joint gaps", gaps_text(contour.carrier, certificate.gaps));
+  facts.emplace_back("joint gaps", gaps_text(contour.carrier, certificate));
   if (report.waviness) {
     facts.emplace_back("waviness", fmt::format("{} hills of the slope of curvature on a run",
                                                significant(*report.waviness, 4)));

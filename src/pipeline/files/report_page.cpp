@@ -38,7 +38,7 @@ Figures seen_figures(const StoredContour& stored) {
   if (certificate.self_intersections > 0) {
     out.emplace_back("self-intersections", std::to_string(certificate.self_intersections));
   }
-  out.emplace_back("joint gaps", gaps_text(contour.carrier, certificate.gaps));
+  out.emplace_back("joint gaps", gaps_text(contour.carrier, certificate));
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "obvid/contour/bsplines/nurbs_of.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/skin_sections.h"
 #include "obvid/pipeline/surface_job.h"
@@ -28,8 +29,8 @@ Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, s
   ReadCurve curve{std::move(name), contour.units, placed(made->curve, frame), {}};
   if (made->deviation > 0.0) {
     curve.warnings.push_back(
-        fmt::format("{}: clothoids are followed by a C2 cubic within {:.2g} {}", curve.name,
-                    made->deviation, contour.units.text()));
+        fmt::format("{}: clothoids are followed by a C2 cubic within {} {}", curve.name,
+                    significant_above(made->deviation, kDigitsOfBounds), contour.units.text()));
   }
   return curve;
 }

@@ -10,6 +10,7 @@
 
 #include "files/file_units.h"
 #include "files/format_writers.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/exchange/internal/mesh/files.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
@@ -103,8 +104,8 @@ Result<void> SurfaceExport::tessellate_once(std::vector<std::string>& remarks) {
     triangles += mesh.triangles.size();
     deviation = std::max(deviation, mesh.deviation);
   }
-  remarks.push_back(fmt::format("{} triangles within {:.3g} {} of the surface", triangles,
-                                deviation, model.units.text()));
+  remarks.push_back(fmt::format("{} triangles within {} {} of the surface", triangles,
+                                significant_above(deviation, kDigitsOfBounds), model.units.text()));
   return {};
 }
 

@@ -44,11 +44,9 @@ Result<Fit> timed_fit(const PointSeries& series, const FitJob& job,
 }
 
 int continuity_of(const Contour& contour, const Certificate& certificate) {
-  // gaps below these are what rounding leaves (docs/methods/certify.md)
-  constexpr double kSameHeading = 1e-7, kSameCurvature = 1e-4;
-  if (certificate.gaps.heading > kSameHeading) return 0;
+  if (certificate.gaps.heading > kContinuousHeading) return 0;
   const bool steps = certificate.curvature_steps > 0 || steps_at_joints(contour.carrier);
-  if (certificate.gaps.curvature > kSameCurvature || steps) return 1;
+  if (certificate.gaps.curvature > kContinuousCurvature || steps) return 1;
   return contour.continuity == Continuity::kG3 && certificate.slope_steps == 0 ? 3 : 2;
 }
 

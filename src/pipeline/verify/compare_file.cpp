@@ -10,7 +10,7 @@ namespace obvid {
 
 std::string carrier_verdict(const ComparedCarrier& row) {
   if (row.fit.certificate.proved) return "proved";
-  return promises_monotone(row.carrier) ? "NOT proved" : "not monotone";
+  return keeps_promise(row.carrier, row.fit.certificate) ? "not monotone" : "NOT proved";
 }
 
 DataTable carrier_rows(const Comparison& compared) {

@@ -19,11 +19,6 @@ std::optional<Error> too_wide(const FitReport& report) {
 
 }  // namespace
 
-bool keeps_promise(Carrier carrier, const Certificate& certificate) {
-  if (promises_monotone(carrier)) return certificate.proved;
-  return certificate.gaps_within_bounds && certificate.through_points;
-}
-
 std::optional<Error> broken_promise(const Fit& made) {
   if (!keeps_promise(made.contour.carrier, made.certificate)) {
     Error out = error(ErrorCode::kNotProved,
@@ -66,7 +61,8 @@ std::string verdict_line(Carrier carrier, const Certificate& certificate) {
                      steps_at_joints(carrier) ? "radii" : "curvature", joints);
 }
 
-std::string gaps_text(Carrier carrier, const JointGaps& gaps) {
+std::string gaps_text(Carrier carrier, const Certificate& certificate) {
+  const JointGaps& gaps = certificate.gaps;
   std::string text = fmt::format("position {} of the size, heading {} rad",
                                  significant(gaps.position, 2), significant(gaps.heading, 2));
   if (steps_at_joints(carrier)) {
@@ -78,7 +74,8 @@ std::string gaps_text(Carrier carrier, const JointGaps& gaps) {
   } else {
     text += fmt::format(", curvature {} of the larger", significant(gaps.curvature, 2));
   }
-  if (gaps.slope) text += fmt::format(", slope of curvature {}", significant(*gaps.slope, 2));
+  if (certificate.smooth_joints() > 0)
+    text += fmt::format(", slope of curvature {}", significant(*gaps.slope, 2));
   return text;
 }
 

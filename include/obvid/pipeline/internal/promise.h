@@ -9,9 +9,6 @@
 
 namespace obvid {
 
-/// Whether a contour is what its carrier promises: proved, or without gaps through its points.
-[[nodiscard]] bool keeps_promise(Carrier carrier, const Certificate& certificate);
-
 /// What a contour that was formed does not keep: E501 the promise of its carrier, E502 the
 /// tolerance. Nothing when it keeps both.
 [[nodiscard]] std::optional<Error> broken_promise(const Fit& made);
@@ -30,6 +27,6 @@ namespace obvid {
 [[nodiscard]] std::string vertex_bound_text(int bound);
 
 /// How far neighbouring pieces are from meeting, with the scale of each figure.
-[[nodiscard]] std::string gaps_text(Carrier carrier, const JointGaps& gaps);
+[[nodiscard]] std::string gaps_text(Carrier carrier, const Certificate& certificate);
 
 }  // namespace obvid

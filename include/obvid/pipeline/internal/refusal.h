@@ -29,6 +29,8 @@ inline constexpr int kAdvisedDigits = 3;
 
 /// "3 vertices and 1 inflection"
 [[nodiscard]] std::string counts_of_fit(const Fit& fit);
+/// "allows them", of an option and those vertices and inflections; "forms it" where there are none.
+[[nodiscard]] const char* what_option_does(const Fit& fit);
 
 /// The option that the advice is.
 [[nodiscard]] std::string advised_option(const WhyNot& why, const PointSeries& series);
