@@ -193,7 +193,7 @@ void add_formats(CLI::App& command, FormatValues& values) {
   command
       .add_option("--output-tolerance", values.tolerance,
                   "Of curves that a format cannot hold exactly, units of the contour [1e-6 of its "
-                  "size; arcs and G-code 2e-5, G-code no less than 0.002 mm]")
+                  "size; arcs, G-code and SVG drawings 2e-5, G-code no less than 0.002 mm]")
       ->type_name("T")
       ->group(group);
   command

@@ -200,6 +200,23 @@ TEST(Certify, CurvatureJumpBetweenMonotonePiecesIsRefused) {
   EXPECT_FALSE(certificate.proved);
   EXPECT_NEAR(certificate.gaps.curvature, 0.5, 1e-12);
   EXPECT_EQ(certificate.gaps.position, 0.0);
+  EXPECT_TRUE(certificate.through_points) << "its points are met all the same";
+}
+
+TEST(Certify, AGapIsTheReasonOfACarrierThatPromisesNoMonotoneCurvature) {
+  // the first piece is a parabola over its vertex, between the two the curvature steps
+  const RationalBezier over{{}, 2, {Vec2{-1, 1}, {0, -1}, {1, 1}}, {1, 1, 1}};
+  const RationalBezier beyond{{}, 2, {Vec2{1, 1}, {2, 3}, {4, 8}}, {1, 1, 1}};
+  Contour contour = contour_of({over, beyond}, {{0, 0, 0}, {1, 1, -1}});
+  contour.carrier = Carrier::kBaseline;
+  const Certificate stepping = certify(contour);
+  EXPECT_EQ(stepping.reason.find("the curvature gap at joint 2"), 0U) << stepping.reason;
+  EXPECT_FALSE(keeps_promise(contour.carrier, stepping));
+  contour = contour_of({over}, {{0, 0, 0}});
+  contour.carrier = Carrier::kBaseline;
+  const Certificate alone = certify(contour);
+  EXPECT_EQ(alone.reason.find("piece 1 has a vertex"), 0U) << alone.reason;
+  EXPECT_TRUE(keeps_promise(contour.carrier, alone));
 }
 
 TEST(Certify, ChainOfArcsWithGrowingCurvatureIsProvedWithItsGapReported) {

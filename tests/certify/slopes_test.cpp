@@ -55,6 +55,8 @@ TEST(Slopes, OfTwoPartsOfOneCubicAgree) {
   ASSERT_TRUE(found.gaps.slope.has_value());
   EXPECT_LT(*found.gaps.slope, 1e-11);
   EXPECT_EQ(found.slope_steps, 0);
+  EXPECT_EQ(found.joints, 1);
+  EXPECT_EQ(found.smooth_joints(), 1);
 }
 
 TEST(Slopes, ThatWereDoctoredAreRefused) {
@@ -80,6 +82,7 @@ TEST(Slopes, ThatAreSaidToStepAreCountedAndNoGap) {
   const Certificate found = certify(contour);
   EXPECT_TRUE(found.proved) << found.reason;
   EXPECT_EQ(found.slope_steps, 1);
+  EXPECT_EQ(found.smooth_joints(), 0);
   EXPECT_EQ(found.gaps.slope, 0.0);
 }
 
