@@ -15,7 +15,6 @@ namespace {
 
 // What is called continuous (docs/claims.md).
 constexpr double kPositionBound = 1e-12;  // of the contour's size
-constexpr double kSlopeBound = 1e-6;      // of the largest slope of the two pieces
 /// Coordinates far from the origin cannot say a position better than this, at the most; beyond,
 /// nobody would call a joint continuous.
 constexpr double kZeroEnd = 1e-9;          // of the larger curvature of the piece
@@ -244,8 +243,8 @@ class JointWalk {
     const double gap = of_largest(outward(std::abs(right.slope - left.slope)) + left.slope_error +
                                   right.slope_error);
     survey_.gaps.slope = std::max(*survey_.gaps.slope, gap);
-    if (!(gap <= kSlopeBound)) survey_.loose_slopes.push_back(joint);
-    check(gap, kSlopeBound, joint, "the gap of the slope of curvature");
+    if (!(gap <= kContinuousSlope)) survey_.loose_slopes.push_back(joint);
+    check(gap, kContinuousSlope, joint, "the gap of the slope of curvature");
   }
 
   /// Whether the joint says something else for the piece that leaves it.

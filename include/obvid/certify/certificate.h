@@ -36,9 +36,11 @@ struct JointGaps {
   std::optional<double> slope{};
 };
 
-/// What is called continuous (docs/claims.md): gaps up to these, in rad and of the curvature.
+/// What is called continuous (docs/claims.md): gaps up to these, in rad, of the curvature, and of the
+/// largest slope of the two pieces.
 inline constexpr double kContinuousHeading = 1e-6;
 inline constexpr double kContinuousCurvature = 1e-6;
+inline constexpr double kContinuousSlope = 1e-6;
 
 /// Everything that was proved about a contour (docs/methods/certify.md).
 struct Certificate {

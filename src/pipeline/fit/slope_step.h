@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "obvid/certify/certificate.h"
 #include "obvid/curve/pieces.h"
 
 namespace obvid::pipeline_detail {
 
 /// Steps of the slope of curvature up to this are called none: a half of what a proof allows.
-inline constexpr double kClearlyContinuous = 5e-7;
+inline constexpr double kClearlyContinuous = 0.5 * kContinuousSlope;
 
 /// Step of d kappa/ds where a piece begins, of the largest slope of both pieces that meet there (at
 /// their ends, and the mean over each chord: it may vanish at both ends); the piece before the

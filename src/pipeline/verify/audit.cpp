@@ -272,8 +272,7 @@ class Auditor {
     const std::size_t n = out_.contour.pieces.size();
     if (in_transition(j)) return true;
     if (slope_vanishes((j + n - 1) % n, true) && slope_vanishes(j % n, false)) return true;
-    return pipeline_detail::slope_step_before(out_.contour.pieces, j) <=
-           pipeline_detail::kClearlyContinuous;
+    return pipeline_detail::slope_step_before(out_.contour.pieces, j) <= kContinuousSlope;
   }
 
   /// Notes what is not continuous at a joint; true at a corner and where the curvature jumps, or is
