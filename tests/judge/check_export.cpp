@@ -69,8 +69,7 @@ class ExportCheck {
     } else if (s.shape.ends_with("follows them within # U")) {
       allowed(s.figures.back());
     } else if (s.shape.starts_with("no unit is stated")) {
-      sheet_.expect(!course_.file.unit_known(), "export " + kind_ + " unit note", text,
-                    course_.file.units, name_);
+      sheet_.expect(!has_unit(), "export " + kind_ + " unit note", text, course_.file.units, name_);
     } else if (s.shape == "# entity, exact" || s.shape.starts_with("one NURBS curve of degree")) {
       return;
     } else if (!s.figures.empty()) {
@@ -85,16 +84,20 @@ class ExportCheck {
     allowed_ = value + half;
   }
 
+  /// Somebody said it, and it is one of length: "px" and "chord" are none.
+  [[nodiscard]] bool has_unit() const {
+    return course_.file.unit_known() && metres_of(course_.file.units).has_value();
+  }
+
   void compare(const Drawing& drawing) {
     const std::string claim = "export " + kind_;
     if (!drawing.fault.empty()) {
       return sheet_.fails(claim, "a readable file", drawing.fault, name_);
     }
-    const auto unit = metres_of(course_.file.units);
-    if (unit && kind_ != "nc") {
+    if (kind_ != "nc") {
       // STEP needs one and converts; DXF states none that nobody said (docs/formats.md). Another
       // unit is no fault as long as coordinates are converted
-      const bool stated = kind_ != "dxf" || course_.file.unit_known();
+      const bool stated = kind_ != "dxf" || has_unit();
       sheet_.expect(drawing.metres.has_value() == stated, claim + " unit",
                     drawing.metres ? fmt::format("{} m", *drawing.metres) : std::string("none"),
                     stated ? course_.file.units : "none: nobody said the unit", name_);

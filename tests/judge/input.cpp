@@ -2,6 +2,7 @@
 #include "input.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -167,11 +168,73 @@ class Reader {
   std::map<std::string, std::size_t> column_;
 };
 
+/// `--mirror`, then `--scale`, `--rotate` and `--move`; in the order in which they act.
+struct Placement {
+  char mirror = ' ';
+  double scale = 1.0, degrees = 0.0;
+  Point move;
+
+  void read(const std::string& name, const std::string& value) {
+    const double number = std::strtod(value.c_str(), nullptr);
+    if (name == "--mirror") mirror = value.empty() ? ' ' : value[0];
+    if (name == "--scale") scale = number;
+    if (name == "--rotate") degrees = number;
+    const std::size_t comma = value.find(',');
+    if (name != "--move" || comma == std::string::npos) return;
+    move = {number, std::strtod(value.c_str() + comma + 1, nullptr)};
+  }
+
+  [[nodiscard]] bool is_none() const {
+    return mirror == ' ' && scale == 1.0 && degrees == 0.0 && move == Point{};
+  }
+
+  void place(GivenPoint& p) const {
+    const Real angle = Real{degrees} * std::numbers::pi_v<Real> / 180.0L;
+    const Vec u = unit_at(angle);
+    const Real sx = mirror == 'y' ? -scale : scale, sy = mirror == 'x' ? -scale : scale;
+    const Vec q{sx * Real{p.point.x}, sy * Real{p.point.y}};
+    p.point = {static_cast<double>(u.x * q.x - u.y * q.y + Real{move.x}),
+               static_cast<double>(u.y * q.x + u.x * q.y + Real{move.y})};
+    const bool turned = mirror != ' ';
+    if (p.tolerance) *p.tolerance *= scale;
+    if (p.kappa) *p.kappa *= (turned ? -1.0 : 1.0) / scale;
+    if (p.kappas) p.kappas = of_range(*p.kappas, turned ? -1.0 / scale : 1.0 / scale, 0.0);
+    const double back = mirror == 'y' ? std::numbers::pi : 0.0, on = radians(degrees) + back;
+    if (p.heading) *p.heading = (turned ? -*p.heading : *p.heading) + on;
+    if (p.headings) p.headings = of_range(*p.headings, turned ? -1.0 : 1.0, on);
+  }
+
+ private:
+  static Ends of_range(const Ends& ends, double factor, double more) {
+    const double a = ends.least * factor + more, b = ends.greatest * factor + more;
+    return {std::min(a, b), std::max(a, b)};
+  }
+};
+
+bool places(const std::string& option) {
+  const std::string name = option.substr(0, option.find('='));
+  return name == "--mirror" || name == "--scale" || name == "--rotate" || name == "--move";
+}
+
 class Options {
  public:
   explicit Options(Input& input) : input_(input) {}
 
+  /// Data in options are of the placed points.
   void read(const std::vector<std::string>& words) {
+    each(words, [this](const std::string& name, const std::string& value) {
+      placement_.read(name, value);
+    });
+    input_.placed = !placement_.is_none();
+    for (GivenPoint& p : input_.points) {
+      if (input_.placed) placement_.place(p);
+    }
+    each(words, [this](const std::string& name, const std::string& value) { set(name, value); });
+  }
+
+ private:
+  static void each(const std::vector<std::string>& words,
+                   const std::function<void(const std::string&, const std::string&)>& use) {
     for (std::size_t i = 0; i < words.size(); ++i) {
       std::string name = words[i], value;
       const std::size_t equals = name.find('=');
@@ -183,11 +246,10 @@ class Options {
       } else if (takes && i + 1 < words.size()) {
         value = words[++i];
       }
-      set(name, value);
+      use(name, value);
     }
   }
 
- private:
   void set(const std::string& name, const std::string& value) {
     const double number = std::strtod(value.c_str(), nullptr);
     if (name == "--carrier") input_.carrier = value;
@@ -203,8 +265,10 @@ class Options {
       input_.units_given = true;
     }
     if (name == "--tolerance") input_.tolerance = number;
-    if (name == "--noise" && value == "rounding") input_.rounding = true;
-    if (name == "--noise" && value != "rounding") input_.noise = number;
+    if (name == "--continuity") input_.continuity = value;
+    if (name == "--corner-angle") input_.corner_angle = number;
+    if (name == "--no-corners") input_.searches_corners = false;
+    if (name == "--noise") noise(value);
     if (name == "--closed") input_.closed = true;
     if (name == "--open") input_.open = true;
     if (name == "--convex") input_.convex = true;
@@ -216,6 +280,18 @@ class Options {
     if (name == "--start-radius") give_radius(first, value);
     if (name == "--end-radius") give_radius(last, value);
     at_point(name, value);
+  }
+  void noise(const std::string& value) {
+    input_.rounding = value == "rounding";
+    input_.automatic = value == "auto";
+    if (input_.rounding) return;
+    input_.noise = std::strtod(value.c_str(), nullptr);
+    if (!input_.automatic || input_.points.empty()) return;
+    std::vector<Vec> points;
+    for (const GivenPoint& p : input_.points)
+      points.push_back(seen(p.point, input_.points[0].point));
+    const auto reach = reach_of_scatter(points);
+    input_.noise = reach ? reach->greatest : 0.0;
   }
   void at_point(const std::string& name, const std::string& value) {
     const std::size_t equals = value.find('=');
@@ -233,9 +309,76 @@ class Options {
     }
   }
   Input& input_;
+  Placement placement_;
 };
 
+/// Of the middle one of five points from the cubic through the others over their chord, in standard
+/// deviations of one point; none where they do not advance.
+std::optional<Real> residual_of(const std::array<Vec, 5>& p) {
+  const Vec chord = p[4] - p[0];
+  const Real length = norm(chord);
+  if (!(length > 0.0L)) return std::nullopt;
+  std::array<Real, 5> along{}, across{};
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    along[k] = dot(p[k] - p[0], chord) / length;
+    across[k] = cross(chord, p[k] - p[0]) / length;
+    if (k > 0 && !(along[k] > along[k - 1])) return std::nullopt;
+  }
+  constexpr std::size_t kMiddle = 2;
+  Real off = across[kMiddle], squares = 1.0L;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    if (k == kMiddle) continue;
+    Real weight = 1.0L;
+    for (std::size_t m = 0; m < p.size(); ++m) {
+      if (m == k || m == kMiddle) continue;
+      weight *= (along[kMiddle] - along[m]) / (along[k] - along[m]);
+    }
+    off -= weight * across[k];
+    squares += weight * weight;
+  }
+  return std::abs(off) / std::sqrt(squares);
+}
+
+/// Deviation by both medians of the residuals of every point with neighbours so far apart.
+std::optional<Ends> deviations_of(const std::vector<Vec>& points, std::size_t apart) {
+  std::vector<double> found;
+  for (std::size_t i = 2 * apart; i + 2 * apart < points.size(); ++i) {
+    const auto one = residual_of({points[i - 2 * apart], points[i - apart], points[i],
+                                  points[i + apart], points[i + 2 * apart]});
+    if (one) found.push_back(static_cast<double>(*one));
+  }
+  if (found.empty()) return std::nullopt;
+  constexpr double kMedianOfNormal = 0.6744897501960817;  // of sizes of errors, in deviations
+  std::sort(found.begin(), found.end());
+  return Ends{found[(found.size() - 1) / 2] / kMedianOfNormal,
+              found[found.size() / 2] / kMedianOfNormal};
+}
+
 }  // namespace
+
+std::optional<Ends> reach_of_scatter(const std::vector<Vec>& points) {
+  const auto near = deviations_of(points, 1), far = deviations_of(points, 2);
+  if (!near || !far) return std::nullopt;
+  constexpr double kPower = 256.0, kAmiss = 0.05;
+  const auto deviation = [](double one, double two) {
+    return std::sqrt(std::max(0.0, kPower * one * one - two * two) / (kPower - 1.0));
+  };
+  const double factor = std::sqrt(2.0 * std::log(static_cast<double>(points.size()) / kAmiss));
+  return Ends{factor * deviation(near->least, far->greatest),
+              factor * deviation(near->greatest, far->least)};
+}
+
+std::vector<std::string> without_placement(const std::vector<std::string>& options) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (!places(options[i])) {
+      out.push_back(options[i]);
+    } else if (options[i].find('=') == std::string::npos) {
+      ++i;
+    }
+  }
+  return out;
+}
 
 void narrow(std::optional<Ends>& range, const std::optional<Ends>& more) {
   if (!more) return;

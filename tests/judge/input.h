@@ -44,15 +44,27 @@ struct Input {
   [[nodiscard]] std::string printed_unit() const {
     return units_given || units_in_file ? units : "units";
   }
+  std::string continuity;              ///< asked for; empty: neither
+  std::optional<double> corner_angle;  ///< degrees
+  bool searches_corners = true;
   std::optional<double> tolerance, noise;
+  bool automatic = false;  ///< `noise` is the largest that the scatter of the points allows
+  bool placed = false;     ///< scaled, turned, moved or mirrored: to some ulps
   bool rounding = false, closed = false, open = false, convex = false, primitives = false;
   std::optional<Truth> truth;
   std::string fault;  ///< of the reading
 };
 
-/// Simple text: x and y, or named columns x, y (x_mm or "x [mm]" with a unit), heading_deg, radius, kappa, tol, corner, and
-/// heading_min, heading_max, radius_min, radius_max, kappa_min, kappa_max.
+/// Simple text: x and y, or named columns x, y (x_mm or "x [mm]" with a unit), heading_deg, radius,
+/// kappa, tol, corner, and heading_min, heading_max, radius_min, radius_max, kappa_min, kappa_max.
 Input read_input(const std::string& text, const std::vector<std::string>& options);
+
+/// How far points may move that scatter as these do (docs/methods/series.md): from and to, because
+/// an even number has two medians. None where it cannot be told.
+std::optional<Ends> reach_of_scatter(const std::vector<Vec>& points);
+
+/// Options of fit but for those that place the points (`--scale` and its like).
+std::vector<std::string> without_placement(const std::vector<std::string>& options);
 
 /// A closed series that names its first point at its end again: both have what is given at either.
 void share_closing_point(Input& input);

@@ -10,7 +10,6 @@
 #include <map>
 #include <mutex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -27,7 +26,7 @@ constexpr const char* kUsage =
     "usage: judge --series N [--of fit|space|nurbs|spline|region] [--seed S] [--first I] [--jobs "
     "J]\n"
     "             [--obvid PROGRAM] [--keep FOLDER] [--json FILE] [--limit SECONDS] [--most "
-    "FINDINGS] [--open FILE]\n"
+    "FINDINGS]\n"
     "       judge CONTOUR.json [--points FILE] [--options \"OPTIONS OF fit\"] [--text FILE]\n"
     "             [--verify FILE] [--export FILE]... [--json FILE]\n"
     "Exit code 0: nothing false; 1: something is; 2: wrong usage.\n";
@@ -37,7 +36,7 @@ struct Settings {
   std::uint64_t series = 0, first = 0;
   int jobs = 2;
   std::size_t most = 12;  ///< findings shown per claim
-  std::string open, keep, json, contour, points, options, text, verify;
+  std::string keep, json, contour, points, options, text, verify;
   std::vector<std::string> exports;
   bool wrong = false;
 };
@@ -72,8 +71,6 @@ Settings settings_of(int argc, char** argv) {
       out.trial.limit = std::atof(value.c_str());
     else if (name == "--obvid")
       out.trial.obvid = value;
-    else if (name == "--open")
-      out.open = value;
     else if (name == "--keep")
       out.keep = value;
     else if (name == "--json")
@@ -234,39 +231,10 @@ class Ledger {
     examples(Finding::Kind::kFalse, "false");
     examples(Finding::Kind::kUnjudged, "not judged");
     if (!settings_.json.empty()) write_file(settings_.json, json(all));
-    return is_no_worse() ? 0 : 1;
+    return all.wrong() == 0 ? 0 : 1;
   }
 
  private:
-  /// Claims that are known to be false now and then (`--open`: a line each, the most series in a
-  /// thousand and the claim) fail a run only beyond that; all others at once.
-  [[nodiscard]] bool is_no_worse() const {
-    std::map<std::string, double> allowed;
-    std::istringstream lines(settings_.open.empty() ? "" : text_of_file(settings_.open));
-    for (std::string line; std::getline(lines, line);) {
-      if (line.empty() || line[0] == '#') continue;
-      const std::size_t space = line.find(' ');
-      allowed[line.substr(space + 1)] = std::atof(line.c_str());
-    }
-    std::map<std::string, long> series;
-    for (const Trial& trial : trials_) {
-      std::set<std::string> met;
-      for (const Finding& f : trial.sheet.findings()) {
-        if (f.kind == Finding::Kind::kFalse && met.insert(f.claim).second) ++series[f.claim];
-      }
-    }
-    bool good = true;
-    for (const auto& [claim, count] : series) {
-      const double most = allowed[claim] * static_cast<double>(trials_.size()) / 1000.0;
-      if (static_cast<double>(count) <= most) continue;
-      good = false;
-      if (allowed[claim] > 0.0) {
-        fmt::print("\nmore than are known: {} in {} series, not {:.1f}\n", claim, count, most);
-      }
-    }
-    return good;
-  }
-
   /// Of each claim the examples with the fewest points.
   void examples(Finding::Kind kind, const char* title) const {
     struct Example {

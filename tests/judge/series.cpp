@@ -68,7 +68,9 @@ Motion make_motion(Dice& dice, Real shape_size) {
   return out;
 }
 
-constexpr const char* kUnits[] = {"mm", "m", "in", "cm", "ft", "um", "km", "yd", "mi", "usft"};
+constexpr std::array kUnits = {"mm", "m",    "in", "cm", "ft",  "um", "km",   "yd",
+                               "mi", "usft", "nm", "dm", "mil", "px", "chord"};
+constexpr int kLastUnit = static_cast<int>(kUnits.size()) - 1;
 
 class SeriesMaker {
  public:
@@ -97,6 +99,7 @@ class SeriesMaker {
     if (dice_.chance(0.1)) disturb(points);
     write(points);
     out_.points = points.size();
+    place(points);
     fix_data(points);
     return std::move(out_);
   }
@@ -110,16 +113,21 @@ class SeriesMaker {
   static std::string digits(double value) { return fmt::format("{:.17g}", value); }
   static std::string few(double value) { return fmt::format("{:.4g}", value); }
 
+  static const char* unit_of(Dice& dice) {
+    return kUnits[static_cast<std::size_t>(dice.whole(0, kLastUnit))];
+  }
+
   void choose_options(const Shape& shape) {
     static const char* kCarriers[] = {"arcs",    "conics", "beziers", "clothoids",
                                       "bspline", "cubic",  "baseline"};
     if (dice_.chance(0.65)) add("--carrier", kCarriers[dice_.whole(0, 6)]);
-    if (dice_.chance(0.35)) add("--units", kUnits[dice_.whole(0, 9)]);
+    if (dice_.chance(0.35)) add("--units", unit_of(dice_));
     if (dice_.chance(0.2)) {
       const double part = dice_.chance(0.02) ? 1e-300 : dice_.logarithmic(1e-9, 0.1);
       add("--tolerance", few(part * size_));
     }
     if (dice_.chance(0.25)) add("--noise", few(dice_.logarithmic(1e-9, 1e-2) * size_));
+    if (!has("--noise") && dice_.chance(0.04)) add("--noise", "auto");
     if (shape.closed ? dice_.chance(0.7) : dice_.chance(0.04)) {
       add("--closed");
     } else if (dice_.chance(0.05)) {
@@ -128,6 +136,50 @@ class SeriesMaker {
     if (dice_.chance(0.05)) add("--convex");
     if (dice_.chance(0.07)) add("--primitives");
     if (dice_.chance(0.05)) add("--no-corners");
+    if (dice_.chance(0.1)) add("--corner-angle", few(dice_.between(5.0, 90.0)));
+    choose_what_is_fair();
+  }
+
+  /// Mostly together with what they go with.
+  void choose_what_is_fair() {
+    static const char* kPrefer[] = {"fair", "centre", "least-change", "least-curvature"};
+    const bool spirals = carrier_of_options() == "spiral";
+    if ((spirals || keeps_what_is_refused()) && dice_.chance(0.1)) {
+      add("--continuity", dice_.chance(0.5) ? "G2" : "G3");
+    } else if (dice_.chance(0.05)) {
+      add("--prefer", kPrefer[dice_.whole(0, 3)]);
+    }
+  }
+
+  /// Scaled, turned, moved, mirrored: options that come later speak of the placed points.
+  void place(std::vector<Vec>& points) {
+    if (!dice_.chance(0.08)) return;
+    Motion motion;
+    if (dice_.chance(0.3)) {
+      const bool across_x = dice_.chance(0.5);
+      add("--mirror", across_x ? "x" : "y");
+      motion.side = -1.0L;
+      if (!across_x) motion.angle = std::numbers::pi_v<Real>;
+    }
+    if (dice_.chance(0.5)) {
+      const double scale = std::stod(few(dice_.logarithmic(0.3, 3.0)));
+      add("--scale", digits(scale));
+      motion.scale = scale;
+    }
+    if (dice_.chance(0.5)) {
+      const double degrees =
+          dice_.chance(0.3) ? 90.0 * dice_.whole(-2, 2) : dice_.between(-180.0, 180.0);
+      add("--rotate=" + digits(degrees));
+      motion.angle += Real{degrees} * std::numbers::pi_v<Real> / 180.0L;
+    }
+    if (dice_.chance(0.5)) {
+      const double x = size_ * dice_.between(-2.0, 2.0), y = size_ * dice_.between(-2.0, 2.0);
+      add("--move=" + digits(x) + "," + digits(y));
+      motion.offset = {x, y};
+    }
+    for (Vec& p : points) p = motion.of(p);
+    size_ = static_cast<double>(size_of(points));
+    if (out_.truth) move_truth(Truth(*out_.truth), motion);
   }
 
   /// What no contour can keep must be refused, which one in three such series shows.
@@ -208,7 +260,7 @@ class SeriesMaker {
   /// Behind the names of the columns: "_mm", " [mm]", mostly nothing. An option goes before.
   std::string unit_of_names() {
     if (!naming_.chance(has("--units") ? 0.05 : 0.25)) return "";
-    const char* unit = kUnits[naming_.whole(0, 9)];
+    const char* unit = unit_of(naming_);
     return naming_.chance(0.5) ? fmt::format("_{}", unit) : fmt::format(" [{}]", unit);
   }
 

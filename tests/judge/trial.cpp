@@ -84,10 +84,39 @@ class Work : public ProgramRuns {
     judge_course(course, sheet);
     check_input(course, input, sheet);
     check_truth(course, input, sheet);
+    told_options(course, fit, input);
     check_fit_text(course, fit, sheet);
     check_exit(&course, fit, sheet);
     exports(course, fit);
     others(course);
+  }
+
+  /// A contour that stays G2 although G3 was asked for says why; the scatter is told as it is used.
+  void told_options(const Course& course, const Run& fit, const Input& input) {
+    if (input.continuity == "G3" && course.file.continuity != "G3") {
+      const bool said = fit.out.find("G2 because") != std::string::npos;
+      out_.sheet.expect(said, "continuity", course.file.continuity,
+                        std::string("G3 was asked for, and nothing says why not"), "");
+    }
+    std::smatch found;
+    const std::regex scatter(R"(points may move (\S+) \S+, (\S+) times their scatter of (\S+) )");
+    if (!input.automatic) return;
+    if (!std::regex_search(fit.err, found, scatter)) {
+      return out_.sheet.fails("noise auto", "a contour", "nothing is told of the scatter", "");
+    }
+    const double told = std::stod(found[1].str());
+    const double product = std::stod(found[2].str()) * std::stod(found[3].str());
+    constexpr double kPrinted = 0.01;  // three digits of the factor
+    out_.sheet.expect(std::abs(told - product) <= kPrinted * told, "noise auto", told, product,
+                      "times the scatter");
+    const double reach = input.noise.value_or(0.0);
+    std::vector<Vec> points;
+    for (const GivenPoint& p : input.points) points.push_back(seen(p.point, course.origin));
+    const auto own = reach_of_scatter(points);
+    constexpr double kDigits = 1e-3;  // four are printed
+    out_.sheet.expect(
+        own && told >= own->least * (1.0 - kDigits) && told <= reach * (1.0 + kDigits),
+        "noise auto", told, reach, "by the residuals of the points");
   }
 
   void exports(const Course& course, const Run& fit) {
@@ -178,7 +207,7 @@ class Work : public ProgramRuns {
       out_.sheet.fails("convert back", "a contour", read.fault, "");
       return;
     }
-    if (unit_kept) {
+    if (unit_kept && metres_of(course.file.units)) {  // others are no unit of a drawing
       out_.sheet.expect(read.contour.unit_known() == course.file.unit_known(), "convert back unit",
                         read.contour.units_source, course.file.units_source, "");
     }
@@ -210,13 +239,14 @@ class Work : public ProgramRuns {
   }
 
   void analyse(const Input& input) {
+    const Input plain = read_input(series_.text, without_placement(series_.options));
     std::vector<std::string> words{"analyse", kPoints};
     if (input.units_given) words.insert(words.end(), {"--units", input.units});
     const Run text = program("analyse", words);
     if (stopped_ || text.code != 0) return;
     const Run json = program("analyse --json", {"analyse", kPoints, "--json"});
     if (stopped_ || json.code != 0) return;
-    check_analyse(input, json, text, out_.sheet);
+    check_analyse(plain, json, text, out_.sheet);
   }
 
   void refusal(const Run& fit, const Input& input) {

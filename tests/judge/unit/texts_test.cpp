@@ -545,6 +545,84 @@ TEST(JudgeTexts, TakesTheDatumOfOnePointOutOfTheOptions) {
             (Words{"--primitives", "--end-radius=inf", "--start-radius", "3"}));
 }
 
+/// Mirrored across x, doubled, turned by a quarter, moved: (x, y) goes to (2 y + 5, 2 x + 6), a
+/// heading h to 90 - h, a left turn becomes a right turn of twice the radius.
+TEST(JudgeTexts, PlacesPointsAndTheirDataButNotThoseOfOptions) {
+  const Input input = read_input(
+      "x,y,heading_deg,kappa,tol\n1,0,30,0.5,0.1\n3,4,,,\n",
+      {"--move=5,6", "--rotate=90", "--scale", "2", "--mirror", "x", "--end-radius", "8"});
+  const GivenPoint &a = input.points[0], &b = input.points[1];
+  EXPECT_TRUE(input.placed);
+  EXPECT_NEAR(a.point.x, 5.0, 1e-15);
+  EXPECT_NEAR(a.point.y, 8.0, 1e-15);
+  EXPECT_NEAR(b.point.x, 13.0, 1e-14);
+  EXPECT_NEAR(b.point.y, 12.0, 1e-14);
+  EXPECT_NEAR(*a.heading, std::acos(-1.0) / 3.0, 1e-15);
+  EXPECT_NEAR(*a.kappa, -0.25, 1e-15);
+  EXPECT_NEAR(*a.tolerance, 0.2, 1e-15);
+  EXPECT_EQ(*b.kappa, 0.125);
+  EXPECT_EQ(without_placement({"--move=5,6", "--units", "mm", "--scale", "2"}),
+            (std::vector<std::string>{"--units", "mm"}));
+}
+
+/// Points beside a line by 1 and -1 in turn: the weights of even spacing are -1/6, 4/6, 4/6, -1/6,
+/// so the cubic through the neighbours of a point at 1 runs at -1/6 - 4/6 - 4/6 - 1/6 = -5/3, which
+/// is 8/3 away. Every second point has no residual: sigma^2 = 256/255 sigma_1^2.
+TEST(JudgeTexts, KnowsHowFarPointsMayMoveThatScatterKnownly) {
+  std::vector<Vec> points;
+  for (int i = 0; i < 41; ++i) points.push_back({static_cast<Real>(i), i % 2 == 0 ? 1.0L : -1.0L});
+  const double residual = (8.0 / 3.0) / std::sqrt(35.0 / 18.0);
+  const double sigma = std::sqrt(256.0 / 255.0) * residual / 0.6744897501960817;
+  const double reach = std::sqrt(2.0 * std::log(41.0 / 0.05)) * sigma;
+  const auto found = reach_of_scatter(points);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR(found->least, reach, 1e-9 * reach);
+  EXPECT_NEAR(found->greatest, reach, 1e-9 * reach);
+}
+
+/// A square of points, each of which turns by a quarter: corners that nobody marked need no more
+/// than the least angle that was asked for, and none where none was to be searched.
+TEST(JudgeTexts, CornersTurnByTheLeastAngle) {
+  ContourFile file;
+  file.units = "mm";
+  file.units_source = "assumed";
+  file.carrier = "spiral";
+  file.points = {{0, 0}, {1, 0}, {1, 1}};
+  file.pieces = {Line{{0, 0}, {1, 0}}, Line{{1, 0}, {1, 1}}};
+  file.elements.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    file.elements[i].point = file.points[i];
+    file.elements[i].source = i;
+  }
+  file.elements[1].corner = true;
+  const Course course(file);
+  const auto corners = [&](const std::vector<std::string>& options) {
+    Sheet sheet;
+    check_input(course, read_input("0,0\n1,0\n1,1\n", options), sheet);
+    return sheet.has("corners");
+  };
+  EXPECT_FALSE(corners({}));
+  EXPECT_FALSE(corners({"--corner-angle", "89"}));
+  EXPECT_TRUE(corners({"--corner-angle", "91"}));
+  EXPECT_TRUE(corners({"--no-corners"}));
+  EXPECT_FALSE(corners({"--no-corners", "--corner-at", "2"}));
+}
+
+/// What is no unit of length is stated by no DXF.
+TEST(JudgeTexts, PixelsAreNoUnitOfADrawing) {
+  const ReadContour read =
+      read_contour(changed(data("judge/series10.json"), "\"units\": \"mm\"", "\"units\": \"px\""));
+  const Course course(read.contour);
+  Sheet sheet;
+  const std::string dxf =
+      changed(data("judge/series10.dxf"), "$INSUNITS\n 70\n4", "$INSUNITS\n 70\n0");
+  check_export(course, "a.dxf", dxf, {"1 entity, exact", "no unit is stated in the DXF file"},
+               sheet);
+  EXPECT_EQ(all_false(sheet), "");
+  check_export(course, "a.dxf", data("judge/series10.dxf"), {"1 entity, exact"}, sheet);
+  EXPECT_TRUE(sheet.has("export dxf unit"));
+}
+
 TEST(JudgeTexts, MakesTheSameSeriesFromTheSameSeed) {
   for (std::uint64_t i = 0; i < 50; ++i) {
     EXPECT_EQ(make_series(7, i).text, make_series(7, i).text);
