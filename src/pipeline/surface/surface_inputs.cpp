@@ -80,8 +80,8 @@ Result<std::vector<SpaceSeries>> sections_of(const std::vector<SurfaceInput>& in
   return out;
 }
 
-Result<SpaceSeries> section_of(const SurfaceInput& input) {
-  auto all = parsed(input, {});
+Result<SpaceSeries> section_of(const SurfaceInput& input, const RunContext& run) {
+  auto all = parsed(input, {}, run);
   OBVID_TRY(all);
   if (all->sections.size() == 1) return std::move(all->sections.front());
   return error(ErrorCode::kBadCount,
