@@ -69,7 +69,7 @@ std::optional<int> run_in_space(const FitOptions& options) {
 // ------------------------------------------------------------------------------
 OBVID_LATER(Result<StoredContour> contour_from_json(std::string_view, std::string_view))
 OBVID_LATER(Result<ParsedSections> parse_sections(std::string_view, std::string_view,
-                                                  const SectionOptions&))
+                                                  const SectionOptions&, const RunContext&))
 OBVID_LATER(Result<PrivateCopy> PrivateCopy::of(std::string_view, const std::string&))
 PrivateCopy::~PrivateCopy() = default;  // of none
 OBVID_LATER(Result<PlaneRow> plane_row_named(const std::string&))

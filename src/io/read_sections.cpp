@@ -314,7 +314,7 @@ Result<std::vector<SpaceSeries>> blade_sections(const std::string& table_path,
 }  // namespace
 
 Result<ParsedSections> parse_sections(string_view text, string_view name,
-                                      const SectionOptions& options) {
+                                      const SectionOptions& options, const RunContext& run) {
   Result<ParsedSections> out;
   if (is_airfoil_of_blade(text)) {
     const auto airfoil = parse_airfoil_of_blade(text, name);
@@ -324,7 +324,7 @@ Result<ParsedSections> parse_sections(string_view text, string_view name,
     section.rounding = {airfoil->rounding.x, airfoil->rounding.y, 0.0};
     out = ParsedSections{{std::move(section)}, true};
   } else if (is_on_streamsurfaces(text)) {
-    auto sections = parse_streamsurfaces(text, name);
+    auto sections = parse_streamsurfaces(text, name, run);
     OBVID_TRY(sections);
     return ParsedSections{std::move(*sections)};
   } else if (is_offset_text(text)) {
@@ -365,7 +365,7 @@ Result<std::vector<SpaceSeries>> read_sections(const std::vector<std::string>& p
                    [&](const std::string& other) { return other != path; });
       return blade_sections(path, *text, airfoils);
     }
-    auto parsed = parse_sections(*text, path, options);
+    auto parsed = parse_sections(*text, path, options, run);
     OBVID_TRY(parsed);
     (parsed->flat ? flat_file : spatial_file) = path;
     for (const std::string& what : parsed->assumed) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "number_rows.h"
+#include "obvid/core/internal/questions.h"
 #include "obvid/core/units.h"
 #include "text_digits.h"
 #include "text_lines.h"
@@ -57,12 +58,12 @@ struct Counts {
 
 class StreamsurfaceReader {
  public:
-  StreamsurfaceReader(string_view text, string_view name) : name_(name), cursor_(text) {}
+  /// Where the watch says stop, the text seems to end there.
+  StreamsurfaceReader(string_view text, string_view name, Watch* watch)
+      : name_(name), cursor_(text), watch_(watch), questions_(watch) {}
 
-  /// Moves behind the last line of counts; nothing: there is none.
-  [[nodiscard]] std::optional<std::array<double, 5>> find_counts() {
-    std::optional<std::array<double, 5>> found;
-    text::LineCursor behind = cursor_;
+  /// Moves behind the next line of counts; nothing: there is none.
+  [[nodiscard]] std::optional<std::array<double, 5>> next_counts() {
     while (next()) {
       if (!names_counts(fields_)) continue;
       std::array<double, 5> counts{};
@@ -73,7 +74,16 @@ class StreamsurfaceReader {
         good = good && number;
         counts[k] = number.value_or(0.0);
       }
-      if (!good) continue;
+      if (good) return counts;
+    }
+    return std::nullopt;
+  }
+
+  /// Likewise, of the last ones.
+  [[nodiscard]] std::optional<std::array<double, 5>> last_counts() {
+    std::optional<std::array<double, 5>> found;
+    text::LineCursor behind = cursor_;
+    while (const auto counts = next_counts()) {
       found = counts;
       behind = cursor_;
     }
@@ -119,7 +129,7 @@ class StreamsurfaceReader {
  private:
   /// The next line that is not empty.
   bool next() {
-    while (!cursor_.at_end()) {
+    while (!cursor_.at_end() && !questions_.end()) {
       const string_view whole = cursor_.peek();
       line_number_ = cursor_.line_number();
       cursor_.skip(whole);
@@ -137,6 +147,7 @@ class StreamsurfaceReader {
   }
 
   [[nodiscard]] tl::unexpected<Error> ended() const {
+    if (has_ended(watch_)) return fail(cancelled_error());
     return wrong(ErrorCode::kBadCount, "the text ends before all surfaces are told");
   }
 
@@ -146,6 +157,8 @@ class StreamsurfaceReader {
   text::Fields fields_;
   std::size_t line_number_ = 0;
   text::ColumnDigits digits_;
+  Watch* watch_;
+  Questions questions_;
 };
 
 std::optional<Counts> counts_of(const std::array<double, 5>& numbers) {
@@ -208,12 +221,15 @@ Units units_told(string_view text) {
 
 bool is_on_streamsurfaces(string_view text) {
   if (text.find(kCounts.back()) == string_view::npos) return false;
-  return StreamsurfaceReader(text, "").find_counts().has_value();
+  return StreamsurfaceReader(text, "", nullptr).next_counts().has_value();
 }
 
-Result<std::vector<SpaceSeries>> parse_streamsurfaces(string_view text, string_view name) {
-  StreamsurfaceReader reader(text, name);
-  const auto numbers = reader.find_counts();
+Result<std::vector<SpaceSeries>> parse_streamsurfaces(string_view text, string_view name,
+                                                      const RunContext& run) {
+  Watch watch(run);
+  StreamsurfaceReader reader(text, name, &watch);
+  const auto numbers = reader.last_counts();
+  if (watch.was_cancelled()) return fail(cancelled_error());
   const auto counts = numbers ? counts_of(*numbers) : std::nullopt;
   if (!counts) {
     return error(ErrorCode::kBadCount, "JM NS NB JLE JTE are no counts of a blade on surfaces")

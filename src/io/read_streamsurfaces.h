@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 #include "obvid/surface/point_grid.h"
 
 namespace obvid {
@@ -16,10 +17,11 @@ namespace obvid {
 [[nodiscard]] bool is_on_streamsurfaces(std::string_view text);
 
 /// A section of each surface, x along the axis: the side that is told from JTE to JLE, the other
-/// one back. Unit: that of a sentence "dimensions are in ...". Errors: E304 a surface ends early,
-/// E306 another word stands where a number is due, E310 a title, a count or a radius that cannot
-/// be.
+/// one back. Unit: that of a sentence "dimensions are in ...". Asks between lines. Errors: E103;
+/// E304 a surface ends early, E306 another word stands where a number is due, E310 a title, a count
+/// or a radius that cannot be.
 [[nodiscard]] Result<std::vector<SpaceSeries>> parse_streamsurfaces(std::string_view text,
-                                                                    std::string_view name);
+                                                                    std::string_view name,
+                                                                    const RunContext& run = {});
 
 }  // namespace obvid

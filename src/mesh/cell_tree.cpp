@@ -8,12 +8,17 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
+
+#include "obvid/core/internal/parallel.h"
 
 namespace obvid::mesh {
 namespace {
 
 /// Cells are not cut narrower than 2^-20 of a span: normals of singular points never settle.
 constexpr Line kNarrowest = kSpan >> 20;
+/// First cells that are grown side by side: enough that threads end at about the same time.
+constexpr std::size_t kCellsSharedOut = 64;
 
 /// Where to cut in one direction: between spans, then in the middle of the span.
 std::optional<Line> middle_of(Line from, Line to) {
@@ -50,8 +55,8 @@ std::vector<Line> cuts_of(const std::vector<bool>& edges, Line last) {
 
 CellTree::CellTree(PatchSampler& sampler, const TessellationOptions& options)
     : sampler_(sampler),
+      options_(options),
       judge_(sampler, options),
-      most_(options.most_triangles),
       bend_(2.0 * std::sin(std::min(options.angle, std::numbers::pi) / 2.0)) {}
 
 std::vector<bool> CellTree::edges(bool across_u) const {
@@ -75,42 +80,83 @@ std::vector<bool> CellTree::edges(bool across_u) const {
   return found;
 }
 
-Result<void> CellTree::build() {
+// The first cells are cut one round after another until there are enough of them to be shared out;
+// each is then a tree of its own. Their order is that of one tree.
+Result<void> CellTree::build(const RunContext& run) {
   edges_u_ = edges(true);
   edges_v_ = edges(false);
   const auto us = cuts_of(edges_u_, sampler_.u().last());
   const auto vs = cuts_of(edges_v_, sampler_.v().last());
+  struct First {
+    Cell cell;
+    bool whole = false;  ///< it is not cut any more
+  };
+  std::vector<First> first;
   for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
     for (std::size_t i = 0; i + 1 < us.size(); ++i) {
-      OBVID_TRY(refine({us[i], us[i + 1], vs[j], vs[j + 1]}));
+      first.push_back({{us[i], us[i + 1], vs[j], vs[j + 1]}});
     }
   }
+  for (bool all_whole = false; !all_whole && first.size() < kCellsSharedOut;) {
+    std::vector<First> next;
+    all_whole = true;
+    for (First& one : first) {
+      const auto parts = one.whole ? std::nullopt : cut(judge_, one.cell);
+      all_whole = all_whole && !parts;
+      if (parts) {
+        next.push_back({(*parts)[0]});
+        next.push_back({(*parts)[1]});
+      } else {
+        next.push_back({one.cell, true});
+      }
+    }
+    first = std::move(next);
+  }
+  std::vector<std::vector<Cell>> trees(first.size());
+  const auto grow = [&](std::size_t k) {
+    if (first[k].whole) {
+      trees[k].push_back(first[k].cell);
+      return;
+    }
+    PatchSampler sampler = sampler_;  // it and the judge keep what they have at hand
+    CellJudge judge(sampler, options_);
+    trees[k] = leaves(judge, first[k].cell);
+  };
+  OBVID_TRY(in_parallel(trees.size(), options_.threads, run, grow));
+  for (const auto& tree : trees) OBVID_TRY(append(tree));
   return {};
 }
 
-Result<void> CellTree::refine(const Cell& cell) {
-  waiting_.assign(1, cell);
-  while (!waiting_.empty()) {
-    Cell next = waiting_.back();
-    waiting_.pop_back();
-    const CellJudge::Verdict verdict = judge_.judge(next);
-    next.rising = verdict.rising;
-    auto parts = verdict.good ? std::nullopt : halves(next, verdict.cut_u);
-    if (!parts && !verdict.good) parts = halves(next, !verdict.cut_u);
-    if (parts) {
-      waiting_.push_back((*parts)[1]);
-      waiting_.push_back((*parts)[0]);
-      continue;
-    }
-    cells_.push_back(next);
-    if (2 * cells_.size() > most_) {
-      return error(ErrorCode::kToleranceNotReached,
-                   fmt::format("the surface needs more than {} triangles", most_))
-          .hint("allow a larger chord tolerance or angle, or more triangles")
-          .value(static_cast<double>(most_));
+std::optional<std::array<Cell, 2>> CellTree::cut(CellJudge& judge, Cell& cell) {
+  const CellJudge::Verdict verdict = judge.judge(cell);
+  cell.rising = verdict.rising;
+  if (verdict.good) return std::nullopt;
+  auto parts = halves(cell, verdict.cut_u);
+  return parts ? parts : halves(cell, !verdict.cut_u);
+}
+
+std::vector<Cell> CellTree::leaves(CellJudge& judge, const Cell& cell) const {
+  std::vector<Cell> out, waiting{cell};
+  while (!waiting.empty() && 2 * out.size() <= options_.most_triangles) {
+    Cell next = waiting.back();
+    waiting.pop_back();
+    if (const auto parts = cut(judge, next)) {
+      waiting.push_back((*parts)[1]);
+      waiting.push_back((*parts)[0]);
+    } else {
+      out.push_back(next);
     }
   }
-  return {};
+  return out;
+}
+
+Result<void> CellTree::append(const std::vector<Cell>& leaves) {
+  cells_.insert(cells_.end(), leaves.begin(), leaves.end());
+  if (2 * cells_.size() <= options_.most_triangles) return {};
+  return error(ErrorCode::kToleranceNotReached,
+               fmt::format("the surface needs more than {} triangles", options_.most_triangles))
+      .hint("allow a larger chord tolerance or angle, or more triangles")
+      .value(static_cast<double>(options_.most_triangles));
 }
 
 Result<bool> CellTree::improve(const std::vector<bool>& marked, std::vector<CellSeen>& seen) {
@@ -130,7 +176,7 @@ Result<bool> CellTree::improve(const std::vector<bool>& marked, std::vector<Cell
     }
     for (Cell part : *parts) {
       part.fan = false;
-      OBVID_TRY(refine(part));
+      OBVID_TRY(append(leaves(judge_, part)));
     }
     kept.resize(cells_.size());
   }

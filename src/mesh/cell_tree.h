@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "cell_judge.h"
 #include "measure.h"
 #include "obvid/core/result.h"
+#include "obvid/core/run_context.h"
 
 namespace obvid::mesh {
 
@@ -15,8 +18,8 @@ class CellTree {
  public:
   CellTree(PatchSampler& sampler, const TessellationOptions& options);
 
-  /// First cells, refined. E502 more cells than triangles are allowed.
-  [[nodiscard]] Result<void> build();
+  /// First cells, refined. Errors: E103; E502 more cells than triangles are allowed.
+  [[nodiscard]] Result<void> build(const RunContext& run = {});
   /// Cells that look good and turned out not to be, mostly because of the points of their
   /// neighbours: first they become fans, which gives neighbours no new points, the second time they
   /// are cut. Cells that are as small as they may be stay. False: nothing changed.
@@ -29,15 +32,19 @@ class CellTree {
   [[nodiscard]] const std::vector<bool>& edges_v() const { return edges_v_; }
 
  private:
-  [[nodiscard]] Result<void> refine(const Cell& cell);
+  /// A cell that is good, or as small as it may be: nothing. Else its halves.
+  [[nodiscard]] static std::optional<std::array<Cell, 2>> cut(CellJudge& judge, Cell& cell);
+  /// All that a cell is cut into, in order, but no more than there may be in all and one.
+  [[nodiscard]] std::vector<Cell> leaves(CellJudge& judge, const Cell& cell) const;
+  [[nodiscard]] Result<void> append(const std::vector<Cell>& leaves);
   [[nodiscard]] std::vector<bool> edges(bool across_u) const;
 
   PatchSampler& sampler_;
+  TessellationOptions options_;
   CellJudge judge_;
-  std::size_t most_;
   double bend_;  ///< chord on the unit sphere of the angle
   std::vector<bool> edges_u_, edges_v_;
-  std::vector<Cell> cells_, waiting_;
+  std::vector<Cell> cells_;
 };
 
 }  // namespace obvid::mesh

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "obvid/core/internal/parallel.h"
+
 namespace obvid::mesh {
 namespace {
 
@@ -23,6 +25,9 @@ constexpr double kShortest = 1.0 / 64.0;
 constexpr int kSearched = 16;
 /// Square of the sine between du and dv below which they count as one direction.
 constexpr double kParallelSquared = 1e-12;
+
+/// That know of each other what is good enough; so many lots end at about the same time.
+constexpr std::size_t kCellsTogether = 1024;
 
 struct Moves {
   bool u = true, v = true;
@@ -187,38 +192,49 @@ class Measurer {
 
 }  // namespace
 
+// Some cells together, each lot by itself: what one has seen is no measure for another.
 Measured measure(const PatchSampler& sampler, const Mesh& mesh,
                  const std::vector<CellTriangles>& triangles, std::vector<CellSeen>& seen,
-                 double tolerance) {
+                 double tolerance, std::size_t threads) {
   const Measurer measurer(sampler, mesh, tolerance);
+  std::vector<std::size_t> first{0};  // triangle of each cell
+  for (const CellTriangles& cell : triangles) first.push_back(first.back() + cell.count);
+  seen.resize(triangles.size());
+  struct Lot {
+    double good = 0.0, worst_bad = 0.0;
+    std::vector<std::size_t> bad;
+  };
+  std::vector<Lot> lots((triangles.size() + kCellsTogether - 1) / kCellsTogether);
+  in_parallel(lots.size(), threads, [&](std::size_t number) {
+    Lot& lot = lots[number];
+    const std::size_t end = std::min(triangles.size(), (number + 1) * kCellsTogether);
+    for (std::size_t cell = number * kCellsTogether; cell < end; ++cell) {
+      if (seen[cell].outline == triangles[cell].outline) {
+        lot.good = std::max(lot.good, seen[cell].deviation);
+        continue;
+      }
+      double worst = 0.0;
+      bool turned = false;
+      for (std::size_t k = first[cell]; k < first[cell + 1]; ++k) {
+        const Triangle t = measurer.triangle(k);
+        worst = std::max(worst, measurer.of_triangle(t, lot.good));
+        turned = turned || is_turned_over(t, tolerance);
+      }
+      if (worst > tolerance || turned) {
+        lot.worst_bad = std::max(lot.worst_bad, worst);
+        lot.bad.push_back(cell);
+      } else {
+        lot.good = std::max(lot.good, worst);
+        seen[cell] = {triangles[cell].outline, worst};
+      }
+    }
+  });
   Measured out;
   out.bad.assign(triangles.size(), false);
-  double good = 0.0, worst_bad = 0.0;
-  seen.resize(triangles.size());
-  std::size_t k = 0;
-  for (std::size_t cell = 0; cell < triangles.size(); ++cell) {
-    const std::size_t end = k + triangles[cell].count;
-    if (seen[cell].outline == triangles[cell].outline) {
-      good = std::max(good, seen[cell].deviation);
-      k = end;
-      continue;
-    }
-    double worst = 0.0;
-    bool turned = false;
-    for (; k < end; ++k) {
-      const Triangle t = measurer.triangle(k);
-      worst = std::max(worst, measurer.of_triangle(t, good));
-      turned = turned || is_turned_over(t, tolerance);
-    }
-    if (worst > tolerance || turned) {
-      worst_bad = std::max(worst_bad, worst);
-      out.bad[cell] = out.any_bad = true;
-    } else {
-      good = std::max(good, worst);
-      seen[cell] = {triangles[cell].outline, worst};
-    }
+  for (const Lot& lot : lots) {
+    out.deviation = std::max({out.deviation, lot.good, lot.worst_bad});
+    for (const std::size_t cell : lot.bad) out.bad[cell] = out.any_bad = true;
   }
-  out.deviation = std::max(good, worst_bad);
   return out;
 }
 

@@ -32,6 +32,6 @@ struct Measured {
 /// reaches over several spans. Cells that were good and have not changed are not looked at again.
 [[nodiscard]] Measured measure(const PatchSampler& sampler, const Mesh& mesh,
                                const std::vector<CellTriangles>& triangles,
-                               std::vector<CellSeen>& seen, double tolerance);
+                               std::vector<CellSeen>& seen, double tolerance, std::size_t threads);
 
 }  // namespace obvid::mesh

@@ -2,9 +2,12 @@
 #include "patch_mesher.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
+
+#include "obvid/core/internal/parallel.h"
 
 namespace obvid::mesh {
 namespace {
@@ -12,6 +15,7 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// A triangle whose height is below this part of its longest edge is none.
 constexpr double kNeedle = 1e-7;
+constexpr std::size_t kTogether = 1024;  // cells, and nodes, for the thread that takes them
 
 std::vector<std::size_t> blocks_of(const std::vector<bool>& edges) {
   std::vector<std::size_t> blocks(edges.size(), 0);
@@ -38,13 +42,14 @@ double slimness(Vec3 a, Vec3 b, Vec3 c) {
 }  // namespace
 
 PatchMesher::PatchMesher(const PatchSampler& sampler, const CellTree& tree, const Borders& borders,
-                         std::size_t patch)
+                         std::size_t patch, std::size_t threads)
     : sampler_(sampler),
       tree_(tree),
       block_u_(blocks_of(tree.edges_u())),
       block_v_(blocks_of(tree.edges_v())) {
   collect_nodes();
   for (const PatchSide side : kPatchSides) collect_border(side, patch, borders);
+  sample_nodes(threads);
   vertex_.assign(nodes_.size(), kNone);
   mesh_.vertices.reserve(nodes_.size());
   mesh_.triangles.reserve(2 * tree.cells().size());
@@ -249,6 +254,43 @@ std::uint64_t PatchMesher::block_of(const Cell& cell) const {
   return block_v_[span_of(cell.v0)] * (block_u_.back() + 1) + block_u_[span_of(cell.u0)];
 }
 
+Sample PatchMesher::sample_in(const Cell& cell, const Node& node) const {
+  return sampler_.sample(place_in(sampler_.u(), node.u, cell.u0, cell.u1),
+                         place_in(sampler_.v(), node.v, cell.v0, cell.v1));
+}
+
+void PatchMesher::sample_nodes(std::size_t threads) {
+  const auto& cells = tree_.cells();
+  std::vector<std::atomic<std::uint32_t>> first(nodes_.size());
+  for (auto& one : first) one = kNone;
+  in_parallel((cells.size() + kTogether - 1) / kTogether, threads, [&](std::size_t lot) {
+    const std::size_t end = std::min(cells.size(), (lot + 1) * kTogether);
+    std::vector<Id> outline;
+    for (std::size_t c = lot * kTogether; c < end; ++c) {
+      for (const PatchSide side : kPatchSides) {
+        side_of(cells[c], side, outline);
+        for (const Id id : outline) {
+          const auto own = static_cast<std::uint32_t>(c);
+          std::uint32_t known = first[id].load(std::memory_order_relaxed);
+          while (own < known && !first[id].compare_exchange_weak(known, own)) continue;
+        }
+      }
+    }
+  });
+  normals_.resize(nodes_.size());
+  in_parallel((nodes_.size() + kTogether - 1) / kTogether, threads, [&](std::size_t lot) {
+    const std::size_t end = std::min(nodes_.size(), (lot + 1) * kTogether);
+    for (std::size_t id = lot * kTogether; id < end; ++id) {
+      Node& node = nodes_[id];
+      if (node.on_edge || first[id] == kNone) continue;
+      const Sample s = sample_in(cells[first[id]], node);
+      normals_[id] = s.normal;
+      if (!node.known) node.point = s.point;
+      node.known = true;
+    }
+  });
+}
+
 std::uint32_t PatchMesher::vertex_of(const Cell& cell, Id id) {
   Node& node = nodes_[id];
   const bool plain = !node.on_edge;
@@ -258,8 +300,8 @@ std::uint32_t PatchMesher::vertex_of(const Cell& cell, Id id) {
     if (const auto found = edge_vertex_.find(key); found != edge_vertex_.end())
       return found->second;
   }
-  const Sample s = sampler_.sample(place_in(sampler_.u(), node.u, cell.u0, cell.u1),
-                                   place_in(sampler_.v(), node.v, cell.v0, cell.v1));
+  const bool sampled = plain && id < normals_.size();
+  const Sample s = sampled ? Sample{node.point, normals_[id]} : sample_in(cell, node);
   if (!node.known) {
     node.point = s.point;
     node.known = true;

@@ -14,7 +14,7 @@ namespace obvid::mesh {
 class PatchMesher {
  public:
   PatchMesher(const PatchSampler& sampler, const CellTree& tree, const Borders& borders,
-              std::size_t patch);
+              std::size_t patch, std::size_t threads);
 
   [[nodiscard]] Mesh take() { return std::move(mesh_); }
   [[nodiscard]] const std::vector<CellTriangles>& triangles_of_cells() const { return of_cells_; }
@@ -31,6 +31,9 @@ class PatchMesher {
 
   void give_missing_normals();
   void collect_nodes();
+  /// Those that are not on edges, from the first cell that has them on its outline.
+  void sample_nodes(std::size_t threads);
+  [[nodiscard]] Sample sample_in(const Cell& cell, const Node& node) const;
   void collect_border(PatchSide side, std::size_t patch, const Borders& borders);
   void add_cell(const Cell& cell);
   [[nodiscard]] std::uint64_t outline_of(const Cell& cell) const;
@@ -54,6 +57,7 @@ class PatchMesher {
   std::array<std::vector<std::pair<double, Id>>, 4>
       border_;  ///< of each `PatchSide`: parameter and node, ascending
   std::vector<Node> nodes_;
+  std::vector<Vec3> normals_;  ///< of the first nodes; those in the middle of fans come later
   std::array<std::vector<Id>, 4> side_;  ///< of the cell at hand
   std::vector<std::uint32_t> vertex_;    ///< of nodes that are not on edges
   std::unordered_map<std::uint64_t, std::uint32_t> edge_vertex_;

@@ -89,7 +89,9 @@ class Tessellator {
  private:
   [[nodiscard]] std::size_t count() const { return patches_.surfaces.size(); }
 
+  /// That the work was cancelled is not about the patch.
   [[nodiscard]] tl::unexpected<Error> named(Error error, std::size_t p) const {
+    if (error.code == ErrorCode::kCancelled) return fail(std::move(error));
     if (!patches_.names[p].empty()) error.where = fmt::format("patch {}", patches_.names[p]);
     error.index = static_cast<std::ptrdiff_t>(p);
     return fail(std::move(error));
@@ -102,7 +104,7 @@ class Tessellator {
     for (const NurbsSurface* surface : patches_.surfaces) samplers_.emplace_back(*surface);
     for (std::size_t p = 0; p < count(); ++p) {
       trees_.emplace_back(samplers_[p], options_);
-      if (auto done = trees_[p].build(); !done) return named(done.error(), p);
+      if (auto done = trees_[p].build(run_); !done) return named(done.error(), p);
       const double part = 0.5 * static_cast<double>(p + 1) / static_cast<double>(count());
       OBVID_TRY(tell(run_, "triangles", part));
     }
@@ -133,10 +135,11 @@ class Tessellator {
 
   /// Triangles of one patch; true: cells were cut, it has to be drawn again.
   Result<bool> draw(const Borders& borders, std::size_t p, bool may_cut, Mesh& mesh) {
-    PatchMesher mesher(samplers_[p], trees_[p], borders, p);
+    PatchMesher mesher(samplers_[p], trees_[p], borders, p, options_.threads);
     mesh = mesher.take();
-    const mesh::Measured measured = mesh::measure(samplers_[p], mesh, mesher.triangles_of_cells(),
-                                                  seen_[p], options_.chord_tolerance);
+    const mesh::Measured measured =
+        mesh::measure(samplers_[p], mesh, mesher.triangles_of_cells(), seen_[p],
+                      options_.chord_tolerance, options_.threads);
     mesh.deviation = measured.deviation;
     if (mesh.triangles.size() > options_.most_triangles) {
       return error(ErrorCode::kToleranceNotReached,

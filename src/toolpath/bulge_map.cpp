@@ -5,14 +5,17 @@
 #include <cmath>
 #include <limits>
 
+#include "obvid/core/internal/parallel.h"
+
 namespace obvid::toolpath {
 namespace {
 
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 constexpr double kMapCellOfRadius = 0.5, kLongestOfRadius = 0.5;
 constexpr double kMostMapCells = 4e6;
-constexpr double kBulgeMargin = 1.5;    // for what lies between the vertices of a triangle
-constexpr double kUprightBulge = 0.02;  // z of normals: beyond, heights say nothing
+constexpr std::size_t kVerticesTogether = 512;  // for the thread that takes them
+constexpr double kBulgeMargin = 1.5;            // for what lies between the vertices of a triangle
+constexpr double kUprightBulge = 0.02;          // z of normals: beyond, heights say nothing
 
 /// How the height bends, seen from above: second derivatives by x and y.
 struct HeightBend {
@@ -48,15 +51,22 @@ double bulge_at(const NurbsSurface& surface, double u, double v, const std::opti
 }
 
 /// Of each triangle of the field.
-std::vector<double> bulges(const Part& part, const std::optional<Vec2>& direction) {
+std::vector<double> bulges(const Part& part, const std::optional<Vec2>& direction,
+                           std::size_t threads) {
   const auto& triangles = part.field().triangles();
   const auto& meshes = part.meshes();
   std::vector<std::vector<double>> of_vertex(meshes.size());
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    for (const MeshVertex& vertex : meshes[m].vertices) {
-      of_vertex[m].push_back(
-          bulge_at(part.model().patches[m].surface, vertex.u, vertex.v, direction));
-    }
+    const auto& vertices = meshes[m].vertices;
+    of_vertex[m].resize(vertices.size());
+    in_parallel(
+        (vertices.size() + kVerticesTogether - 1) / kVerticesTogether, threads, [&](std::size_t k) {
+          const std::size_t end = std::min(vertices.size(), (k + 1) * kVerticesTogether);
+          for (std::size_t i = k * kVerticesTogether; i < end; ++i) {
+            of_vertex[m][i] =
+                bulge_at(part.model().patches[m].surface, vertices[i].u, vertices[i].v, direction);
+          }
+        });
   }
   std::vector<double> out;
   out.reserve(triangles.size());
@@ -72,7 +82,7 @@ std::vector<double> bulges(const Part& part, const std::optional<Vec2>& directio
 
 }  // namespace
 
-BulgeMap::BulgeMap(const Part& part, std::optional<Vec2> direction)
+BulgeMap::BulgeMap(const Part& part, std::optional<Vec2> direction, std::size_t threads)
     : longest_(kLongestOfRadius * part.cutter().radius) {
   const double r = part.cutter().radius + part.allowance();  // of what rests on the part
   const Vec3 low = part.field().low(), high = part.field().high();
@@ -83,7 +93,7 @@ BulgeMap::BulgeMap(const Part& part, std::optional<Vec2> direction)
   nx_ = static_cast<std::size_t>(dx / size_) + 1;
   ny_ = static_cast<std::size_t>(dy / size_) + 1;
   cells_.assign(nx_ * ny_, 0.0F);
-  take(part, bulges(part, direction));
+  take(part, bulges(part, direction, threads));
   // from anywhere in a cell to all that lies under the cutter on its way
   widen(static_cast<std::size_t>(std::ceil((r + 0.5 * longest_) / size_)));
 }

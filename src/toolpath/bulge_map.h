@@ -15,7 +15,7 @@ namespace obvid::toolpath {
 class BulgeMap {
  public:
   /// `direction`: of all ways, length 1; nothing: any.
-  BulgeMap(const Part& part, std::optional<Vec2> direction);
+  BulgeMap(const Part& part, std::optional<Vec2> direction, std::size_t threads);
 
   /// For ways whose middle this is, of at most `longest()`.
   [[nodiscard]] double at(Vec2 middle) const;

@@ -15,6 +15,7 @@ class Cleared {
   /// Straight passes of the tip.
   struct Cut {
     double from = 0.0, to = 0.0;
+    friend bool operator==(const Cut&, const Cut&) = default;
   };
 
   explicit Cleared(const CutterShape& cutter) : cutter_(cutter) {}

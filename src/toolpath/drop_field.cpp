@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "obvid/core/internal/parallel.h"
 
 namespace obvid::toolpath {
 namespace {
 
 constexpr std::uint32_t kLeaf = 4;  // triangles
+/// Boxes whose trees are built side by side: enough that threads end at about the same time.
+constexpr std::size_t kBoxesSharedOut = 64;
 /// Boxes halve what they hold: 2^32 triangles are 32 deep, and each leaves one waiting.
 constexpr std::size_t kDeepestBox = 64;
 constexpr double kLeastLid = 0.1;  // z of unit normals: steeper lids gain nothing
@@ -54,19 +59,23 @@ double DropField::Box::ceiling(const CutterShape& cutter, Vec2 axis) const {
   return std::min(by_top, by_lid);
 }
 
-DropField::DropField(const std::vector<Mesh>& meshes) {
-  take(meshes);
+DropField::DropField(const std::vector<Mesh>& meshes, std::size_t threads) {
+  take(meshes, threads);
   mark_sides(meshes, triangles_);
-  build();
+  build(threads);
 }
 
-void DropField::take(const std::vector<Mesh>& meshes) {
+void DropField::take(const std::vector<Mesh>& meshes, std::size_t threads) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::size_t count = 0;
+  for (const Mesh& mesh : meshes) count += mesh.triangles.size();
+  triangles_ = large_list<FieldTriangle>(count, {}, threads);
   low_ = {kFar, kFar, kFar};
   high_ = -low_;
+  auto next = triangles_.begin();
   for (std::uint32_t m = 0; m < meshes.size(); ++m) {
     for (std::uint32_t i = 0; i < meshes[m].triangles.size(); ++i) {
-      FieldTriangle t;
+      FieldTriangle& t = *next++;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 p = meshes[m].vertices[meshes[m].triangles[i][k]].point;
         t.corners[k] = p;
@@ -75,7 +84,6 @@ void DropField::take(const std::vector<Mesh>& meshes) {
       }
       t.mesh = m;
       t.number = i;
-      triangles_.push_back(t);
     }
   }
 }
@@ -110,36 +118,56 @@ void DropField::bound(Box& box, std::uint32_t first, std::uint32_t count) const 
   }
 }
 
-void DropField::build() {
+// The first boxes are divided one round after another until there are enough of them to be shared
+// out; each is then a tree of its own.
+void DropField::build(std::size_t threads) {
   if (triangles_.empty()) return;
-  struct Work {
-    std::uint32_t box, first, count;
-  };
-  std::vector<Work> waiting{{0, 0, static_cast<std::uint32_t>(triangles_.size())}};
+  std::vector<Undivided> waiting{{0, 0, static_cast<std::uint32_t>(triangles_.size())}};
   boxes_.emplace_back();
-  while (!waiting.empty()) {
-    const Work work = waiting.back();
-    waiting.pop_back();
-    Box box;
-    bound(box, work.first, work.count);
-    if (work.count <= kLeaf) {
-      box.first = work.first;
-      box.count = work.count;
-      boxes_[work.box] = box;
-      continue;
-    }
-    const bool of_x = box.high.x - box.low.x > box.high.y - box.low.y;
-    const std::uint32_t half = work.count / 2;
-    const auto begin = triangles_.begin() + work.first;
-    std::nth_element(begin, begin + half, begin + work.count, [of_x](const auto& a, const auto& b) {
-      return middle_of(a, of_x) < middle_of(b, of_x);
-    });
-    box.first = static_cast<std::uint32_t>(boxes_.size());
-    boxes_[work.box] = box;
-    boxes_.resize(boxes_.size() + 2);
-    waiting.push_back({box.first, work.first, half});
-    waiting.push_back({box.first + 1, work.first + half, work.count - half});
+  while (!waiting.empty() && waiting.size() < kBoxesSharedOut) {
+    std::vector<Undivided> next;
+    for (const Undivided& work : waiting) divide(work, boxes_, next);
+    waiting = std::move(next);
   }
+  std::vector<std::vector<Box>> trees(waiting.size());
+  in_parallel(trees.size(), threads, [&](std::size_t k) {
+    std::vector<Undivided> own{{0, waiting[k].first, waiting[k].count}};
+    trees[k].emplace_back();
+    while (!own.empty()) {
+      const Undivided work = own.back();
+      own.pop_back();
+      divide(work, trees[k], own);
+    }
+  });
+  for (std::size_t k = 0; k < trees.size(); ++k) {  // its first box has a place already
+    const auto moved = static_cast<std::uint32_t>(boxes_.size()) - 1;
+    for (Box& box : trees[k]) box.first += box.count == 0 ? moved : 0;
+    boxes_[waiting[k].box] = trees[k].front();
+    boxes_.insert(boxes_.end(), trees[k].begin() + 1, trees[k].end());
+  }
+}
+
+void DropField::divide(const Undivided& work, std::vector<Box>& boxes,
+                       std::vector<Undivided>& waiting) {
+  Box box;
+  bound(box, work.first, work.count);
+  if (work.count <= kLeaf) {
+    box.first = work.first;
+    box.count = work.count;
+    boxes[work.box] = box;
+    return;
+  }
+  const bool of_x = box.high.x - box.low.x > box.high.y - box.low.y;
+  const std::uint32_t half = work.count / 2;
+  const auto begin = triangles_.begin() + work.first;
+  std::nth_element(begin, begin + half, begin + work.count, [of_x](const auto& a, const auto& b) {
+    return middle_of(a, of_x) < middle_of(b, of_x);
+  });
+  box.first = static_cast<std::uint32_t>(boxes.size());
+  boxes[work.box] = box;
+  boxes.resize(boxes.size() + 2);
+  waiting.push_back({box.first, work.first, half});
+  waiting.push_back({box.first + 1, work.first + half, work.count - half});
 }
 
 std::optional<FieldRest> DropField::drop(const CutterShape& cutter, Vec2 axis) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drop_triangle.h"
+#include "large_list.h"
 #include "obvid/mesh/mesh.h"
 
 namespace obvid::toolpath {
@@ -40,9 +41,9 @@ struct FieldHeight {
 /// first, in about O(log n) for each place. `triangles` stay in the tree's order.
 class DropField {
  public:
-  explicit DropField(const std::vector<Mesh>& meshes);
+  DropField(const std::vector<Mesh>& meshes, std::size_t threads);
 
-  [[nodiscard]] const std::vector<FieldTriangle>& triangles() const { return triangles_; }
+  [[nodiscard]] const LargeList<FieldTriangle>& triangles() const { return triangles_; }
   /// Highest rest of the tip on this axis; nothing: the cutter meets nothing.
   [[nodiscard]] std::optional<FieldRest> drop(const CutterShape& cutter, Vec2 axis) const;
   /// Highest point over a place.
@@ -62,11 +63,17 @@ class DropField {
     /// Greatest height of a tip on the axis that anything in the box can cause, at least.
     [[nodiscard]] double ceiling(const CutterShape& cutter, Vec2 axis) const;
   };
-  void take(const std::vector<Mesh>& meshes);
-  void build();
+  void take(const std::vector<Mesh>& meshes, std::size_t threads);
+  /// A box that is to be divided, by its place in a list, and its triangles.
+  struct Undivided {
+    std::uint32_t box = 0, first = 0, count = 0;
+  };
+  void build(std::size_t threads);
+  /// Fills a box; where it is divided, its halves are new in the list and waiting.
+  void divide(const Undivided& work, std::vector<Box>& boxes, std::vector<Undivided>& waiting);
   void bound(Box& box, std::uint32_t first, std::uint32_t count) const;
 
-  std::vector<FieldTriangle> triangles_;
+  LargeList<FieldTriangle> triangles_;
   std::vector<Box> boxes_;
   Vec3 low_, high_;
 };
@@ -75,6 +82,6 @@ class DropField {
 /// are one corner), and corners at their ends. Rough are the triangles at these and at edges whose
 /// two sides have normals of their own. Skipped are the bottoms of valleys, where both sides
 /// hold a cutter up before, and all but one of the features that triangles share.
-void mark_sides(const std::vector<Mesh>& meshes, std::vector<FieldTriangle>& triangles);
+void mark_sides(const std::vector<Mesh>& meshes, LargeList<FieldTriangle>& triangles);
 
 }  // namespace obvid::toolpath

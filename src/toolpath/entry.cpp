@@ -48,9 +48,25 @@ class Way {
 }  // namespace
 
 std::optional<double> fall_of(const ToolpathOptions& options) {
+  const double deg = asked_deg(options);
+  if (!(deg > 0.0)) return std::nullopt;
+  return std::tan(deg * std::numbers::pi / 180.0);
+}
+
+double asked_deg(const ToolpathOptions& options) {
   const bool rough = options.strategy == ToolpathStrategy::kRough;
-  if (!rough && !options.entry && !options.ramp_deg) return std::nullopt;
-  return std::tan(options.ramp_deg.value_or(kRampDeg) * std::numbers::pi / 180.0);
+  if (!rough && !options.entry && !options.ramp_deg) return 0.0;
+  return options.ramp_deg.value_or(kRampDeg);
+}
+
+Steepest steepest_of(const std::vector<Vec3>& way) {
+  Steepest out;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const double level = level_distance(way[i - 1], way[i]);
+    const double fall = level > 0.0 ? (way[i - 1].z - way[i].z) / level : 0.0;
+    if (fall > out.fall) out = {fall, way[i - 1]};
+  }
+  return out;
 }
 
 std::optional<double> legs_of_ramp(double length, double height, double fall) {

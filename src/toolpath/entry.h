@@ -16,6 +16,15 @@ inline constexpr std::array kHelixRadii = {0.9, 0.45};
 /// Height that ramps and helices go down for each length seen from above; nothing: the tip goes
 /// straight down. Roughing always has ramps.
 [[nodiscard]] std::optional<double> fall_of(const ToolpathOptions& options);
+/// The angle of that; 0: straight down.
+[[nodiscard]] double asked_deg(const ToolpathOptions& options);
+
+/// Where a way goes down and forward at once most steeply.
+struct Steepest {
+  double fall = 0.0;  ///< height lost for each length seen from above
+  Vec3 place;
+};
+[[nodiscard]] Steepest steepest_of(const std::vector<Vec3>& way);
 
 /// Even number of ways back and forth over the beginning of a pass of this length; nothing: more
 /// than 40.

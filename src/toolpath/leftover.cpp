@@ -17,8 +17,8 @@ constexpr double kLookedAt = 0.5;  // of a square's side: how near places of a r
 }  // namespace
 
 Result<Leftover> Leftover::find(const Part& part, const CutterShape& earlier,
-                                const SurfaceCells& cells, std::vector<Nearest>& reach,
-                                double beyond, std::size_t threads, const RunContext& run) {
+                                const SurfaceCells& cells, LargeList<Nearest>& reach, double beyond,
+                                std::size_t threads, const RunContext& run) {
   struct Found {
     std::vector<Vec3> tips;
     double depth = 0.0, area = 0.0;

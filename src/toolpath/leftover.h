@@ -19,7 +19,7 @@ class Leftover {
   /// `reach`: of the smaller cutter, as many as cells; known for the cells that are left then.
   /// Passes farther than `beyond` from where that cutter touches these are not needed.
   [[nodiscard]] static Result<Leftover> find(const Part& part, const CutterShape& earlier,
-                                             const SurfaceCells& cells, std::vector<Nearest>& reach,
+                                             const SurfaceCells& cells, LargeList<Nearest>& reach,
                                              double beyond, std::size_t threads,
                                              const RunContext& run);
 

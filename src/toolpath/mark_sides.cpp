@@ -17,27 +17,67 @@ using Key = std::tuple<double, double, double>;
 Key key_of(Vec3 p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0}; }  // -0.0 becomes 0.0
 
 /// Numbers of the corners, the same for equal places: 3 for each triangle.
-std::vector<std::uint32_t> corner_numbers(const std::vector<FieldTriangle>& triangles) {
-  std::vector<std::pair<Key, std::uint32_t>> all;
-  all.reserve(3 * triangles.size());
-  for (const FieldTriangle& t : triangles) {
-    for (const Vec3 p : t.corners)
-      all.emplace_back(key_of(p), static_cast<std::uint32_t>(all.size()));
+std::vector<std::uint32_t> corner_numbers(const std::vector<Mesh>& meshes,
+                                          const LargeList<FieldTriangle>& triangles) {
+  std::vector<std::pair<Key, std::size_t>> all;  // of vertices, in the order of the meshes
+  std::vector<std::size_t> first;
+  for (const Mesh& mesh : meshes) {
+    first.push_back(all.size());
+    for (const MeshVertex& vertex : mesh.vertices) {
+      all.emplace_back(key_of(vertex.point), all.size());
+    }
   }
   std::sort(all.begin(), all.end());
-  std::vector<std::uint32_t> numbers(all.size());
+  std::vector<std::uint32_t> of_vertex(all.size());
   std::uint32_t number = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i > 0 && all[i].first != all[i - 1].first) ++number;
-    numbers[all[i].second] = number;
+    of_vertex[all[i].second] = number;
+  }
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(3 * triangles.size());
+  for (const FieldTriangle& t : triangles) {
+    for (const std::uint32_t k : meshes[t.mesh].triangles[t.number]) {
+      numbers.push_back(of_vertex[first[t.mesh] + k]);
+    }
   }
   return numbers;
 }
 
 struct Side {
-  std::uint32_t a, b, triangle, edge;
+  std::uint32_t a = 0, b = 0, triangle = 0, edge = 0;
   [[nodiscard]] bool same(const Side& o) const { return a == o.a && b == o.b; }
 };
+
+/// Of all triangles, those between the same two corners one after another. Put in order by their
+/// first corner at once: few have the same one.
+std::vector<Side> sides_in_order(const std::vector<std::uint32_t>& corner) {
+  const std::uint32_t most = corner.empty() ? 0 : *std::max_element(corner.begin(), corner.end());
+  const auto side = [&](std::size_t n) {
+    const std::size_t i = n / 3, k = n % 3;
+    const std::uint32_t a = corner[n], b = corner[3 * i + (k + 1) % 3];
+    return Side{std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(i),
+                static_cast<std::uint32_t>(k)};
+  };
+  std::vector<std::size_t> next(std::size_t{most} + 2, 0);  // place of the next side of each corner
+  for (std::size_t n = 0; n < corner.size(); ++n) ++next[side(n).a + 1];
+  for (std::size_t a = 1; a < next.size(); ++a) next[a] += next[a - 1];
+  std::vector<Side> out(corner.size());
+  for (std::size_t n = 0; n < corner.size(); ++n) {
+    const Side one = side(n);
+    out[next[one.a]++] = one;
+  }
+  std::size_t begin = 0;
+  for (std::size_t a = 0; a + 1 < next.size(); ++a) {
+    const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto to = out.begin() + static_cast<std::ptrdiff_t>(next[a]);
+    std::sort(from, to, [](const Side& x, const Side& y) {
+      return std::tie(x.b, x.triangle) < std::tie(y.b, y.triangle);
+    });
+    begin = next[a];
+  }
+  return out;
+}
 
 /// Normals that differ by more (rad) are those of an edge.
 constexpr double kSmooth = 1e-3;
@@ -71,7 +111,7 @@ Vec3 up_normal(const Triangle& t) {
 }
 
 /// Two triangles at a side that rise away from it on both its sides.
-bool valley(const std::vector<FieldTriangle>& triangles, const Side& one, const Side& two) {
+bool valley(const LargeList<FieldTriangle>& triangles, const Side& one, const Side& two) {
   const Triangle& t = triangles[one.triangle].corners;
   const Vec3 n = up_normal(t);
   if (n == Vec3{} || up_normal(triangles[two.triangle].corners) == Vec3{}) return false;
@@ -91,7 +131,7 @@ void set_bit(std::uint8_t& bits, std::uint32_t bit) {
 /// What the triangles at one side say of it.
 class SideMarker {
  public:
-  SideMarker(const std::vector<Mesh>& meshes, std::vector<FieldTriangle>& triangles,
+  SideMarker(const std::vector<Mesh>& meshes, LargeList<FieldTriangle>& triangles,
              const std::vector<std::uint32_t>& corner)
       : meshes_(meshes),
         triangles_(triangles),
@@ -133,26 +173,16 @@ class SideMarker {
 
  private:
   const std::vector<Mesh>& meshes_;
-  std::vector<FieldTriangle>& triangles_;
+  LargeList<FieldTriangle>& triangles_;
   const std::vector<std::uint32_t>& corner_;
   std::vector<bool> at_border_, ridge_;
 };
 
 }  // namespace
 
-void mark_sides(const std::vector<Mesh>& meshes, std::vector<FieldTriangle>& triangles) {
-  const auto corner = corner_numbers(triangles);
-  std::vector<Side> sides;
-  sides.reserve(corner.size());
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = corner[3 * i + k], b = corner[3 * i + (k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), i, k});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    return std::tie(x.a, x.b, x.triangle) < std::tie(y.a, y.b, y.triangle);
-  });
+void mark_sides(const std::vector<Mesh>& meshes, LargeList<FieldTriangle>& triangles) {
+  const auto corner = corner_numbers(meshes, triangles);
+  const auto sides = sides_in_order(corner);
   SideMarker marker(meshes, triangles, corner);
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;

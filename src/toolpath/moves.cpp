@@ -13,6 +13,8 @@ namespace {
 constexpr double kLinkSteps = 3.0;   // level steps seen from above: farther, the cutter is lifted
 constexpr double kLinkDetour = 3.0;  // a link up and down is not longer than this times straight
 constexpr double kRampHeight = 0.5;  // diameters
+constexpr double kRampWay = 1.0;     // diameters, of straight ways beside a pass
+constexpr double kSameFall = 1e-6;   // of a fall: rounding
 
 class Layer {
  public:
@@ -57,7 +59,7 @@ class Layer {
       if (options_.entry == ToolpathEntry::kHelix) way = helix_to(points, height);
       if (way) {
         ++report_.entries.helical;
-      } else if ((way = ramp_over(points, descent(height)))) {
+      } else if ((way = ramp_to(points, height))) {
         ++report_.entries.ramped;
       }
     }
@@ -71,37 +73,90 @@ class Layer {
 
   [[nodiscard]] Descent descent(double height) const { return {height, *fall_, report_.safe_z}; }
 
-  /// Turns over a circle that touches the beginning of the pass, no lower than that: on the side
-  /// where the part rises less, and no more than by `height`.
+  /// The least steep of several ways down: nothing is better than the angle that was asked for.
+  class Choice {
+   public:
+    explicit Choice(double fall) : enough_(fall * (1.0 + kSameFall)) {}
+    /// True: good enough, nothing else needs to be looked at.
+    bool take(std::optional<std::vector<Vec3>> way) {
+      if (!way) return false;
+      const double fall = steepest_of(*way).fall;
+      if (!best_ || fall < fall_) {
+        best_ = std::move(way);
+        fall_ = fall;
+      }
+      return fall_ <= enough_;
+    }
+    [[nodiscard]] std::optional<std::vector<Vec3>> best() { return std::move(best_); }
+
+   private:
+    double enough_, fall_ = 0.0;
+    std::optional<std::vector<Vec3>> best_;
+  };
+
+  /// In which a pass begins; nothing: it goes nowhere but up and down.
+  [[nodiscard]] static std::optional<Vec2> direction_of(const std::vector<Vec3>& points) {
+    for (const Vec3 p : points) {
+      const Vec2 way{p.x - points.front().x, p.y - points.front().y};
+      if (norm(way) > 0.0) return way / norm(way);
+    }
+    return std::nullopt;
+  }
+
+  /// Turns over a circle through the beginning of the pass, no lower than that, and nowhere higher
+  /// by `height`: beside the pass, else behind its beginning or where the part falls.
   [[nodiscard]] std::optional<std::vector<Vec3>> helix_to(const std::vector<Vec3>& points,
                                                           double height) {
     const Vec3 start = points.front();
-    Vec2 along{};
-    for (std::size_t i = 1; i < points.size() && along == Vec2{}; ++i) {
-      const Vec2 way{points[i].x - start.x, points[i].y - start.y};
-      if (norm(way) > 0.0) along = way / norm(way);
+    const auto along = direction_of(points);
+    if (!along) return std::nullopt;
+    const Vec2 beside = left_normal(*along);
+    struct Turn {
+      Vec2 along;  ///< in which the circle leaves
+      double side;
+    };
+    std::vector<Turn> turns{{*along, 1.0}, {*along, -1.0}, {beside, 1.0}};
+    if (const auto down = walker_.downhill({start.x, start.y})) {
+      turns.push_back({-left_normal(*down), 1.0});
     }
-    if (along == Vec2{}) return std::nullopt;
+    Choice choice(*fall_);
     for (const double part : kHelixRadii) {
-      std::optional<std::vector<Vec3>> best;
-      double least = start.z + height;
-      for (const double side : {1.0, -1.0}) {
-        const double radius = 0.5 * part * options_.cutter.diameter;
+      const double radius = 0.5 * part * options_.cutter.diameter;
+      for (const Turn& turn : turns) {
         auto ring = walker_.over(
-            circle_from({start.x, start.y}, along, side, radius, options_.tolerance), start.z);
+            circle_from({start.x, start.y}, turn.along, turn.side, radius, options_.tolerance),
+            start.z);
         if (!ring) continue;
-        double highest = start.z;
-        for (const Vec3 p : *ring) highest = std::max(highest, p.z);
-        if (!(highest < least)) continue;
-        least = highest;
+        const auto highest =
+            std::max_element(ring->begin(), ring->end(), [](Vec3 a, Vec3 b) { return a.z < b.z; });
+        if (!(highest->z < start.z + height)) continue;
         ring->front() = ring->back() = start;
-        best = std::move(ring);
-      }
-      if (best) {
-        if (auto way = helix_over(*best, descent(height), 1.0)) return std::move(way->points);
+        auto helix = helix_over(*ring, descent(height), 1.0);
+        if (helix && choice.take(std::move(helix->points))) return choice.best();
       }
     }
-    return std::nullopt;
+    return choice.best();
+  }
+
+  /// Back and forth over the pass; where that rises or falls too much, over a straight way from its
+  /// beginning, no lower than that.
+  [[nodiscard]] std::optional<std::vector<Vec3>> ramp_to(const std::vector<Vec3>& points,
+                                                         double height) {
+    const Vec3 start = points.front();
+    Choice choice(*fall_);
+    if (choice.take(ramp_over(points, descent(height)))) return choice.best();
+    const auto along = direction_of(points);
+    if (!along) return choice.best();
+    const Vec2 beside = left_normal(*along), from{start.x, start.y};
+    std::vector<Vec2> ways{*along, -*along, beside, -beside};
+    if (const auto down = walker_.downhill(from)) ways.push_back(*down);
+    for (const Vec2 to : ways) {
+      auto way = walker_.over({from, from + kRampWay * options_.cutter.diameter * to}, start.z);
+      if (!way) continue;
+      way->front() = start;
+      if (choice.take(ramp_over(*way, descent(height)))) return choice.best();
+    }
+    return choice.best();
   }
 
   const ToolpathOptions& options_;

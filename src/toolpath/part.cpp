@@ -62,22 +62,23 @@ double level_spacing(const Part& part) {
 }
 
 Result<Part> Part::make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
-                        double allowance, const RunContext& run) {
+                        double allowance, std::size_t threads, const RunContext& run) {
   TessellationOptions options;
   options.chord_tolerance = kTriangleShare * tolerance;
   options.angle = kEdgeAngle;
+  options.threads = threads;
   auto meshes = tessellate(model, options, run);
   OBVID_TRY(meshes);
-  return Part(model, cutter, tolerance, allowance, std::move(*meshes));
+  return Part(model, cutter, tolerance, allowance, std::move(*meshes), threads);
 }
 
 Part::Part(const SurfaceModel& model, CutterShape cutter, double tolerance, double allowance,
-           std::vector<Mesh> meshes)
+           std::vector<Mesh> meshes, std::size_t threads)
     : model_(model),
       tolerance_(tolerance),
       allowance_(allowance),
       meshes_(std::move(meshes)),
-      field_(meshes_) {
+      field_(meshes_, threads) {
   take(cutter);
 }
 

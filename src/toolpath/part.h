@@ -43,7 +43,7 @@ struct Place {
 class Part {
  public:
   static Result<Part> make(const SurfaceModel& model, const CutterShape& cutter, double tolerance,
-                           double allowance, const RunContext& run);
+                           double allowance, std::size_t threads, const RunContext& run);
 
   /// The same for another cutter.
   [[nodiscard]] Part with(const CutterShape& cutter) const;
@@ -72,7 +72,7 @@ class Part {
 
  private:
   Part(const SurfaceModel& model, CutterShape cutter, double tolerance, double allowance,
-       std::vector<Mesh> meshes);
+       std::vector<Mesh> meshes, std::size_t threads);
   void take(const CutterShape& cutter);
   void polish(Vec2 axis, Place& place) const;
 

@@ -19,6 +19,8 @@ constexpr double kMeasured = 0.25;      // radii: longer ways are not judged by 
 constexpr double kMeasuredBend = 0.25;  // of the share: how far these may lie off the chord
 /// Shorter rails, such as links, are walked on the calling thread: others take longer to start.
 constexpr std::size_t kStationsShared = 16;
+/// Of a pass, for the thread that takes them: it looks at their first station once more.
+constexpr std::size_t kStretchesTogether = 8;
 constexpr std::size_t kPointsTogether = 256;  // of a pass, for the thread that takes them
 constexpr std::size_t kIsoSteps = 64;         // to guess the length of a line of parameters
 /// Contacts that move so much faster than the cutter, to places that lean otherwise (change of the
@@ -273,12 +275,20 @@ Result<Pass> Walker::walk(const Rail& rail) {
   const auto ts = stations(rail);
   const std::size_t threads = ts.size() < kStationsShared ? 1 : threads_;
   std::vector<Station> ends(ts.size());
-  in_parallel(ts.size(), threads, [&](std::size_t i) { ends[i] = at(rail, ts[i]); });
   std::vector<Stretch> stretches(ts.size() - 1);
-  in_parallel(stretches.size(), threads, [&](std::size_t i) {
-    stretches[i].most = most_points_ - std::min(most_points_, points_);
-    fill(rail, ends[i], ts[i], ends[i + 1], ts[i + 1], 0, stretches[i]);
-  });
+  in_parallel((stretches.size() + kStretchesTogether - 1) / kStretchesTogether, threads,
+              [&](std::size_t lot) {
+                const std::size_t first = lot * kStretchesTogether;
+                const std::size_t end = std::min(stretches.size(), first + kStretchesTogether);
+                Station from = at(rail, ts[first]);
+                if (lot == 0) ends.front() = from;
+                for (std::size_t i = first; i < end; ++i) {
+                  ends[i + 1] = at(rail, ts[i + 1]);
+                  stretches[i].most = most_points_ - std::min(most_points_, points_);
+                  fill(rail, from, ts[i], ends[i + 1], ts[i + 1], 0, stretches[i]);
+                  from = ends[i + 1];
+                }
+              });
   Pass pass;
   pass.rail = rail;
   bool open = false;
@@ -326,6 +336,15 @@ std::optional<std::vector<Vec3>> Walker::link(Vec3 from, Vec3 to) {
   way->insert(way->begin(), from);
   way->push_back(to);
   return way;
+}
+
+// The contact lies where the part rises.
+std::optional<Vec2> Walker::downhill(Vec2 axis) const {
+  const auto rest = part_.drop(axis);
+  if (!rest) return std::nullopt;
+  const Vec2 away = axis - Vec2{rest->contact.x, rest->contact.y};
+  const double size = norm(away);
+  return size > 0.0 ? std::optional(away / size) : std::nullopt;
 }
 
 std::optional<std::vector<Vec3>> Walker::over(const std::vector<Vec2>& axis, double floor) {

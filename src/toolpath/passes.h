@@ -66,7 +66,7 @@ class Walker {
   Walker(const Part& part, double overrun, std::optional<Vec2> direction,
          const ToolpathOptions& options)
       : part_(part),
-        bulges_(part, direction),
+        bulges_(part, direction, options.threads),
         overrun_(overrun),
         most_points_(options.most_points),
         threads_(options.threads) {}
@@ -78,6 +78,9 @@ class Walker {
   /// Places of the tip over these of the axis, no lower than a floor, and between them as near to
   /// each other as those of passes; nothing: too many of them.
   [[nodiscard]] std::optional<std::vector<Vec3>> over(const std::vector<Vec2>& axis, double floor);
+  /// Where the resting tip falls most, seen from above, length 1; nothing: it is level, or rests on
+  /// nothing.
+  [[nodiscard]] std::optional<Vec2> downhill(Vec2 axis) const;
   [[nodiscard]] std::size_t threads() const { return threads_; }
 
  private:

@@ -31,7 +31,8 @@ constexpr double kLeastSpindle = 0.5;     // revolutions a minute: printed as a 
 constexpr double kLargestOfPart = 100.0;  // sizes of it: to such cutters all that is seen is flat
 constexpr double kSteepestRamp = 90.0;    // degrees
 constexpr double kMostSteep = 90.0;       // degrees
-constexpr double kMostAngle = 1e6;        // degrees: beyond, the angle is lost in rounding
+constexpr double kAngleDigits = 3.0;
+constexpr double kMostAngle = 1e6;  // degrees: beyond, the angle is lost in rounding
 
 Result<void> refuse(std::string what, double value, std::string hint = "") {
   return error(ErrorCode::kBadOption, std::move(what)).hint(std::move(hint)).value(value);
@@ -257,6 +258,14 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
                                        r.entries.straight,
                                        r.entries.helical + r.entries.ramped + r.entries.straight));
   }
+  // figures of so many digits are told: what is no more than their rounding is as asked for
+  const double rounding = std::pow(10.0, -kAngleDigits) * r.entries.asked_deg;
+  if (r.entries.asked_deg > 0.0 && r.entries.steepest_deg > r.entries.asked_deg + rounding) {
+    out.warnings.push_back(fmt::format(
+        "entries go down at up to {:.3g} degrees against the level, at {}, where {:g} were asked "
+        "for: there is no room for a flatter way over the pass or beside it",
+        r.entries.steepest_deg, place_text(r.entries.steepest_place), r.entries.asked_deg));
+  }
   if (r.unreached_area > 0.0) {
     add(fmt::format(
             "about {:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
@@ -281,29 +290,28 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
   }
 }
 
-/// Of all that goes down and forward at once: against the level, degrees.
-double steepest_descent(const std::vector<ToolpathMove>& moves) {
-  double steepest = 0.0;  // height lost for each length seen from above
+void tell_steepest(const std::vector<ToolpathMove>& moves, const ToolpathOptions& options,
+                   ToolpathEntries& out) {
+  Steepest steepest;
   for (const ToolpathMove& move : moves) {
     if (move.kind != ToolMove::kPlunge) continue;
-    for (std::size_t i = 1; i < move.points.size(); ++i) {
-      const double level = level_distance(move.points[i - 1], move.points[i]);
-      if (!(level > 0.0)) continue;
-      steepest = std::max(steepest, (move.points[i - 1].z - move.points[i].z) / level);
-    }
+    const Steepest one = steepest_of(move.points);
+    if (one.fall > steepest.fall) steepest = one;
   }
-  return std::atan(steepest) / kOneDegree;
+  out.steepest_deg = std::atan(steepest.fall) / kOneDegree;
+  out.steepest_place = steepest.place;
+  out.asked_deg = asked_deg(options);
 }
 
 /// Prints the program, reads it back and reports on that.
-Result<void> finish(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
+Result<void> finish(const Part& part, const SurfaceCells& cells, LargeList<Nearest>& reach,
                     const Leftover* left, const ToolpathOptions& options, const RunContext& run,
                     Toolpath& out) {
-  auto program = toolpath_gcode(out, options.gcode);
+  auto program = toolpath_gcode(out, options.gcode, options.threads);
   OBVID_TRY(program);
   out.program = std::move(*program);
   out.report.minutes = out.program.minutes;
-  out.report.entries.steepest_deg = steepest_descent(out.moves);
+  tell_steepest(out.moves, options, out.report.entries);
   const auto seen = check_program(part, cells, reach, left, out.program.text,
                                   *exchange::machine_units_in(out.units), options, run);
   OBVID_TRY(seen);
@@ -320,7 +328,7 @@ Result<SurfaceCells> cells_of(const Part& part, const StepRule& rule,
 
 Result<std::optional<Leftover>> leftover_of(const Part& part, const ToolpathOptions& options,
                                             const StepRule& rule, const SurfaceCells& cells,
-                                            std::vector<Nearest>& reach, const RunContext& run) {
+                                            LargeList<Nearest>& reach, const RunContext& run) {
   if (!options.earlier) return std::optional<Leftover>{};
   const auto earlier = shape_of(*options.earlier);
   OBVID_TRY(earlier);
@@ -371,7 +379,8 @@ Result<void> check_against_part(const SurfaceModel& model, const ToolpathOptions
 Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& options,
                          const CutterShape& cutter, const RunContext& run) {
   OBVID_TRY(check_against_part(model, options));
-  const auto part = Part::make(model, cutter, options.tolerance, options.allowance, run);
+  const auto part =
+      Part::make(model, cutter, options.tolerance, options.allowance, options.threads, run);
   OBVID_TRY(part);
   Toolpath out = begun(model, options);
   const bool rough = options.strategy == ToolpathStrategy::kRough;
@@ -387,7 +396,7 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
   if (rough) {
     const auto cells = cells_of(*part, rule, options, run);
     OBVID_TRY(cells);
-    std::vector<Nearest> reach(cells->cells().size());
+    auto reach = large_list<Nearest>(cells->cells().size(), {}, options.threads);
     OBVID_TRY(lay_rough(*part, options, run, out));
     OBVID_TRY(finish(*part, *cells, reach, nullptr, options, run, out));
     judge(out, options);
@@ -399,7 +408,7 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
   const auto made = cells_of(*part, rule, options, run);
   OBVID_TRY(made);
   const SurfaceCells& cells = *made;
-  std::vector<Nearest> reach(cells.cells().size());
+  auto reach = large_list<Nearest>(cells.cells().size(), {}, options.threads);
   const auto leftover = leftover_of(*part, options, rule, cells, reach, run);
   OBVID_TRY(leftover);
   const Leftover* left = *leftover ? &**leftover : nullptr;

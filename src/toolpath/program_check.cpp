@@ -32,7 +32,7 @@ std::vector<Sweep> sweeps_of(const exchange::NcProgram& program, double scale, d
 }  // namespace
 
 Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cells,
-                                       std::vector<Nearest>& reach, const Leftover* left,
+                                       LargeList<Nearest>& reach, const Leftover* left,
                                        const std::string& text, double scale,
                                        const ToolpathOptions& options, const RunContext& run) {
   const double within =

@@ -11,7 +11,7 @@ namespace obvid::toolpath {
 /// `scale`: machine units in a unit of the part. Errors: E101 a text that controllers do not
 /// understand.
 [[nodiscard]] Result<SimulationReport> check_program(const Part& part, const SurfaceCells& cells,
-                                                     std::vector<Nearest>& reach,
+                                                     LargeList<Nearest>& reach,
                                                      const Leftover* left, const std::string& text,
                                                      double scale, const ToolpathOptions& options,
                                                      const RunContext& run);

@@ -32,15 +32,13 @@ double round_to(double value, int decimals) {
 }  // namespace
 
 /// A pass in its plane: the level axis and z; directions by parabolas through three points.
-struct ProgramText::Flat {
-  PassPlane plane;
-  double other = 0.0;  ///< the axis that does not move
+struct ProgramText::Flat : Upright {
   std::vector<Vec2> points, directions;
 
-  Flat(const std::vector<Vec3>& pass, PassPlane in) : plane(in) {
-    other = in == PassPlane::kXz ? pass.front().y : pass.front().x;
+  Flat(const std::vector<Vec3>& pass, PassPlane in)
+      : Upright{in, in == PassPlane::kXz ? pass.front().y : pass.front().x} {
     for (const Vec3 p : pass) {
-      const Vec2 q{in == PassPlane::kXz ? p.x : p.y, p.z};
+      const Vec2 q = flat(p);
       if (points.empty() || !(q == points.back())) points.push_back(q);
     }
     directions.resize(points.size());
@@ -64,14 +62,6 @@ struct ProgramText::Flat {
   static Vec2 unit2(Vec2 a) {
     const double length = norm(a);
     return length > 0.0 ? a / length : a;
-  }
-  [[nodiscard]] Vec2 flat(Vec3 p) const { return {plane == PassPlane::kXz ? p.x : p.y, p.z}; }
-  [[nodiscard]] Vec3 place(Vec2 p) const {
-    return plane == PassPlane::kXz ? Vec3{p.x, other, p.y} : Vec3{other, p.x, p.y};
-  }
-  /// Of length 1, in space.
-  [[nodiscard]] Vec3 direction(Vec2 a) const {
-    return unit(plane == PassPlane::kXz ? Vec3{a.x, 0.0, a.y} : Vec3{0.0, a.x, a.y});
   }
 };
 
@@ -137,9 +127,10 @@ void ProgramText::rapid(const std::vector<Vec3>& points) {
   for (const Vec3 p : points) line(true, p);
 }
 
-void ProgramText::straight(const std::vector<Vec3>& points, double at_feed) {
-  feed(at_feed);
-  for (const Vec3 p : thinned(points, within_)) line(false, p);
+ProgramText::Way ProgramText::straight_way(const std::vector<Vec3>& points) const {
+  Way out;
+  for (const Vec3 p : thinned(points, within_)) out.steps.push_back({p, std::nullopt});
+  return out;
 }
 
 double ProgramText::Block::turn() const {
@@ -182,8 +173,8 @@ ProgramText::Block ProgramText::block(Vec2 from, Vec2 middle, Vec2 to) const {
   return out;
 }
 
-/// Two blocks from where the tool stands that stand for the points first .. last; nothing: they are
-/// no arcs, or the blocks as printed lie too far from a point.
+/// Two blocks from the printed first place that stand for the points first .. last; nothing: they
+/// are no arcs, or the blocks as printed lie too far from a point.
 std::optional<std::array<ProgramText::Block, 2>> ProgramText::biarc(const Flat& flat,
                                                                     std::size_t first,
                                                                     std::size_t last) const {
@@ -195,7 +186,8 @@ std::optional<std::array<ProgramText::Block, 2>> ProgramText::biarc(const Flat& 
   if (dot(c, leaving) < kMostLean * norm(c) || dot(d, arriving) < kMostLean * norm(d)) {
     return std::nullopt;
   }
-  const Block one = block(flat.flat(at_), arc_middle(a, leaving, *joint), *joint);
+  const Vec3 stands = printed(flat.place(a));
+  const Block one = block(flat.flat(stands), arc_middle(a, leaving, *joint), *joint);
   const Block two = block(one.to, arc_middle(b, -arriving, *joint), b);
   if (!one.arc && !two.arc) return std::nullopt;
   for (std::size_t i = first + 1; i < last; ++i) {
@@ -208,14 +200,14 @@ std::optional<std::array<ProgramText::Block, 2>> ProgramText::biarc(const Flat& 
   return std::array{one, two};
 }
 
-void ProgramText::print(const Flat& flat, const Block& block) {
-  if (!block.arc) return line(false, flat.place(block.to));
-  const Vec3 end = printed(flat.place(block.to));
+void ProgramText::print(const Upright& in, const Block& block) {
+  if (!block.arc) return line(false, in.place(block.to));
+  const Vec3 end = printed(in.place(block.to));
   // G18 is the plane ZX seen from +Y: x and z have the other hand there
-  const bool counter_clockwise = block.left != (flat.plane == PassPlane::kXz);
-  plane(flat.plane);
+  const bool counter_clockwise = block.left != (in.plane == PassPlane::kXz);
+  plane(in.plane);
   text_ += fmt::format("{}{} {}{} K{}\n", counter_clockwise ? "G3" : "G2", words(end),
-                       flat.plane == PassPlane::kXz ? "I" : "J",
+                       in.plane == PassPlane::kXz ? "I" : "J",
                        fixed(block.to_centre.x, kLeastCentreDecimals),
                        fixed(block.to_centre.y, kLeastCentreDecimals));
   ++blocks_;
@@ -223,20 +215,17 @@ void ProgramText::print(const Flat& flat, const Block& block) {
   const double turn = block.turn();
   const Vec2 from = -block.to_centre, to = block.to - block.from - block.to_centre;
   const double side = block.left ? 1.0 : -1.0;
-  time_.goes_on(norm(from) * turn, feed_, flat.direction(side * left_normal(from)),
-                flat.direction(side * left_normal(to)));
+  time_.goes_on(norm(from) * turn, feed_, in.direction(side * left_normal(from)),
+                in.direction(side * left_normal(to)));
   at_ = end;
 }
 
-void ProgramText::pass(const std::vector<Vec3>& points, PassPlane in, double at_feed) {
-  if (!with_arcs_ || in == PassPlane::kNone || points.size() < 3) {
-    return straight(points, at_feed);
-  }
-  feed(at_feed);
+ProgramText::Way ProgramText::way_of_pass(const std::vector<Vec3>& points, PassPlane in) const {
+  if (!with_arcs_ || in == PassPlane::kNone || points.size() < 3) return straight_way(points);
   const Flat flat(points, in);
   std::vector<Vec3> places;
   for (const Vec2 p : flat.points) places.push_back(flat.place(p));
-  line(false, places.front());
+  Way out{flat, {{places.front(), std::nullopt}}};
   const std::size_t end = flat.points.size() - 1;
   for (std::size_t k = 0; k < end;) {
     const std::size_t by_arcs =
@@ -246,12 +235,20 @@ void ProgramText::pass(const std::vector<Vec3>& points, PassPlane in, double at_
       return last - k <= kMostAhead && off_chord(places, k, last) <= within_;
     });
     const auto arcs = by_arcs > by_line + 1 ? biarc(flat, k, by_arcs) : std::nullopt;
-    if (arcs) {
-      for (const Block& block : *arcs) print(flat, block);
-    } else {
-      line(false, places[by_line]);
-    }
     k = arcs ? by_arcs : by_line;
+    out.steps.push_back({places[k], arcs});
+  }
+  return out;
+}
+
+void ProgramText::print(const Way& way, double at_feed) {
+  feed(at_feed);
+  for (const Way::Step& step : way.steps) {
+    if (step.arcs) {
+      for (const Block& block : *step.arcs) print(way.in, block);
+    } else {
+      line(false, step.to);
+    }
   }
 }
 

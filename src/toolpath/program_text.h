@@ -15,13 +15,50 @@ namespace obvid::toolpath {
 /// Blocks of a program. Places come in machine units and are rounded as they are printed; what
 /// follows starts where the tool stands, so nothing drifts.
 class ProgramText {
+  /// A block in the plane of a pass, as it is printed.
+  struct Block {
+    Vec2 from, to, to_centre;
+    bool arc = false, left = false;
+    [[nodiscard]] double distance(Vec2 p) const;
+    [[nodiscard]] double turn() const;  ///< of an arc, rad
+  };
+
  public:
   /// `within`: machine units, how far blocks may lie from the points they stand for.
   ProgramText(int decimals, double within, bool arcs, const exchange::MotionRules& machine);
 
+  /// The plane upright on X or Y in which a pass lies.
+  struct Upright {
+    PassPlane plane = PassPlane::kNone;
+    double other = 0.0;  ///< the axis that does not move
+    [[nodiscard]] Vec2 flat(Vec3 p) const { return {plane == PassPlane::kXz ? p.x : p.y, p.z}; }
+    [[nodiscard]] Vec3 place(Vec2 p) const {
+      return plane == PassPlane::kXz ? Vec3{p.x, other, p.y} : Vec3{other, p.x, p.y};
+    }
+    /// Of length 1, in space.
+    [[nodiscard]] Vec3 direction(Vec2 a) const {
+      return unit(plane == PassPlane::kXz ? Vec3{a.x, 0.0, a.y} : Vec3{0.0, a.x, a.y});
+    }
+  };
+  /// What stands for a move. That depends on its points alone, so several threads may ask for ways
+  /// of several moves before the first one is printed.
+  struct Way {
+    struct Step {
+      Vec3 to;                                   ///< straight
+      std::optional<std::array<Block, 2>> arcs;  ///< instead
+    };
+    Upright in;
+    std::vector<Step> steps;
+  };
+  [[nodiscard]] Way straight_way(const std::vector<Vec3>& points) const;
+  [[nodiscard]] Way way_of_pass(const std::vector<Vec3>& points, PassPlane plane) const;
+  void print(const Way& way, double feed);
+
   void rapid(const std::vector<Vec3>& points);
-  void straight(const std::vector<Vec3>& points, double feed);
-  void pass(const std::vector<Vec3>& points, PassPlane plane, double feed);
+  void straight(const std::vector<Vec3>& points, double feed) { print(straight_way(points), feed); }
+  void pass(const std::vector<Vec3>& points, PassPlane plane, double feed) {
+    print(way_of_pass(points, plane), feed);
+  }
   void level_plane();  ///< back to G17
 
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -32,13 +69,6 @@ class ProgramText {
 
  private:
   struct Flat;
-  /// A block in the plane of a pass, as it is printed.
-  struct Block {
-    Vec2 from, to, to_centre;
-    bool arc = false, left = false;
-    [[nodiscard]] double distance(Vec2 p) const;
-    [[nodiscard]] double turn() const;  ///< of an arc, rad
-  };
   [[nodiscard]] Vec3 printed(Vec3 p) const;
   /// Words of the axes that change; empty: the tool stands there.
   [[nodiscard]] std::string words(Vec3 to) const;
@@ -48,7 +78,7 @@ class ProgramText {
   [[nodiscard]] Block block(Vec2 from, Vec2 middle, Vec2 to) const;
   [[nodiscard]] std::optional<std::array<Block, 2>> biarc(const Flat& flat, std::size_t first,
                                                           std::size_t last) const;
-  void print(const Flat& flat, const Block& block);
+  void print(const Upright& in, const Block& block);
 
   int decimals_;
   double unit_, within_;

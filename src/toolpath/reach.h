@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "large_list.h"
 #include "part.h"
 
 namespace obvid::toolpath {

@@ -43,7 +43,7 @@ void append_sweeps(const std::vector<Pass>& passes, double within, std::size_t t
 }  // namespace
 
 ScallopSurvey::ScallopSurvey(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                             const SurfaceCells& cells, std::vector<Nearest>& reach,
+                             const SurfaceCells& cells, LargeList<Nearest>& reach,
                              const Leftover* left, Walker& walker)
     : part_(part),
       walker_(walker),

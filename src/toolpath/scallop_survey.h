@@ -14,7 +14,7 @@ namespace obvid::toolpath {
 class ScallopSurvey {
  public:
   ScallopSurvey(const Part& part, const ToolpathOptions& options, const StepRule& rule,
-                const SurfaceCells& cells, std::vector<Nearest>& reach, const Leftover* left,
+                const SurfaceCells& cells, LargeList<Nearest>& reach, const Leftover* left,
                 Walker& walker);
 
   /// Adds passes to the family where more stays than `share` of the scallop that is asked for;

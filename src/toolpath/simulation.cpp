@@ -74,7 +74,7 @@ double deepest(const CutterShape& cutter, const Cell& cell, const Sweep& sweep,
 
 }  // namespace
 
-Simulation::Simulation(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
+Simulation::Simulation(const Part& part, const SurfaceCells& cells, LargeList<Nearest>& reach,
                        std::size_t threads, double sway)
     : part_(part),
       cells_(cells),
@@ -82,8 +82,9 @@ Simulation::Simulation(const Part& part, const SurfaceCells& cells, std::vector<
       sway_(sway),
       of_tile_(cells.tiles().size()),
       tile_of_(cells.cells().size()),
-      nodes_(cells.cells().size(), CellBounds{kNotThere, kNotThere, -kNotThere, -kNotThere}),
-      searched_(cells.cells().size(), kNotThere),
+      nodes_(large_list<CellBounds>(cells.cells().size(),
+                                    {kNotThere, kNotThere, -kNotThere, -kNotThere}, threads)),
+      searched_(large_list(cells.cells().size(), kNotThere, threads)),
       nearest_(reach) {
   for (std::size_t t = 0; t < cells.tiles().size(); ++t) {
     const SurfaceCells::Tile& tile = cells.tiles()[t];

@@ -70,7 +70,7 @@ class Simulation {
  public:
   /// `reach` is known to all simulations of a part: as many as cells, filled as it is asked for.
   /// `sway`: how far each place of the cutter may lie from the sweeps; all bounds hold for that.
-  Simulation(const Part& part, const SurfaceCells& cells, std::vector<Nearest>& reach,
+  Simulation(const Part& part, const SurfaceCells& cells, LargeList<Nearest>& reach,
              std::size_t threads, double sway = 0.0);
 
   /// Places whose normal's z is larger are judged apart; more than `limit` there is counted.
@@ -165,10 +165,10 @@ class Simulation {
   const Leftover* left_ = nullptr;
   std::vector<Sweep> sweeps_;
   std::vector<Numbers> of_tile_;
-  std::vector<std::uint32_t> tile_of_;
-  std::vector<CellBounds> nodes_;
-  std::vector<double> searched_;  ///< no more was found in a cell: it becomes no more
-  std::vector<Nearest>& nearest_;
+  LargeList<std::uint32_t> tile_of_;
+  LargeList<CellBounds> nodes_;
+  LargeList<double> searched_;  ///< no more was found in a cell: it becomes no more
+  LargeList<Nearest>& nearest_;
 };
 
 template <class Look>

@@ -111,12 +111,21 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
     if (touched) raise_extreme(out.left, nodes_[i].left, cell.point);
     if (touched || at_edge(i, part_.tolerance())) high.push_back(i);
   }
+  // the others can show nothing more: what is highest of all is known from them
+  const std::size_t all = high.size();
+  const double shown = out.left.found + within;
+  double most_of_others = 0.0;
+  std::erase_if(high, [&](std::size_t i) {
+    const bool hides = nodes_[i].left_most > shown;
+    if (!hides) most_of_others = std::max(most_of_others, nodes_[i].left_most);
+    return !hides;
+  });
   std::sort(high.begin(), high.end(), [&](std::size_t a, std::size_t b) {
     return nodes_[a].left_most != nodes_[b].left_most ? nodes_[a].left_most > nodes_[b].left_most
                                                       : a < b;
   });
   std::size_t begin = 0, together = kCellsFirst;
-  std::size_t pieces_left = kPiecesOfCell * high.size() + kPiecesBesides;
+  std::size_t pieces_left = kPiecesOfCell * all + kPiecesBesides;
   while (begin < high.size() && pieces_left > 0) {
     const double limit = out.left.found;
     if (nodes_[high[begin]].left_most <= limit + within) break;
@@ -155,6 +164,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
     together = kCellsTogether;
   }
   if (begin < high.size()) out.left.most = std::max(out.left.most, nodes_[high[begin]].left_most);
+  out.left.most = std::max(out.left.most, most_of_others);
   out.left.most = std::max(out.left.most, out.left.found);
   return {};
 }

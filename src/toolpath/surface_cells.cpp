@@ -75,6 +75,13 @@ std::vector<double> divided(const NurbsSurface& s, bool along_u, double spacing)
   return out;
 }
 
+/// To the surface that far out along its normals.
+void move_out(Cell& cell, double allowance) {
+  cell.point = cell.point + allowance * cell.normal;
+  cell.reach += allowance * cell.turn;
+  cell.rise += 0.5 * allowance * cell.turn * cell.turn;
+}
+
 }  // namespace
 
 Cell cell_at(const SurfaceModel& model, const CellPlace& at, Vec3 side, double allowance) {
@@ -99,9 +106,7 @@ Cell cell_at(const SurfaceModel& model, const CellPlace& at, Vec3 side, double a
   cell.turn = kCellMargin *
               (turned(cross(uu, v) + cross(u, uv)) + turned(cross(uv, v) + cross(u, vv))) /
               cell_size;
-  cell.point = cell.point + allowance * cell.normal;
-  cell.reach += allowance * cell.turn;
-  cell.rise += 0.5 * allowance * cell.turn * cell.turn;
+  move_out(cell, allowance);
   return cell;
 }
 
@@ -109,8 +114,7 @@ Result<SurfaceCells> SurfaceCells::make(const Part& part, double spacing, double
                                         std::size_t threads, const RunContext& run) {
   SurfaceCells out(spacing);
   out.divide(part.model());
-  OBVID_TRY(out.fill(part, threads, run));
-  out.sort_into_tiles(tile);
+  OBVID_TRY(out.fill(part, tile, threads, run));
   return out;
 }
 
@@ -139,34 +143,46 @@ CellPlace SurfaceCells::place(const Origin& at) const {
 
 CellPlace SurfaceCells::place(std::size_t cell) const { return place(origins_[cell]); }
 
-Result<void> SurfaceCells::fill(const Part& part, std::size_t threads, const RunContext& run) {
-  struct Row {
-    std::uint32_t patch, j;
-    std::size_t first;
-  };
+// Twice over all places: where they lie, so that their tiles are known, then each cell at its
+// number. That costs less than to put a hundred megabytes in order.
+Result<void> SurfaceCells::fill(const Part& part, double tile, std::size_t threads,
+                                const RunContext& run) {
   std::vector<Row> rows;
   std::size_t count = 0;
   for (std::uint32_t p = 0; p < grids_.size(); ++p) {
     grids_[p].first = count;
     for (std::uint32_t j = 0; j + 1 < grids_[p].vs.size(); ++j) {
-      rows.push_back({p, j, count});
-      count += grids_[p].us.size() - 1;
+      const std::size_t cells = grids_[p].us.size() - 1;
+      rows.push_back({p, j, count, cells});
+      count += cells;
     }
   }
+  LargeList<Vec2> places(count);
+  OBVID_TRY(in_parallel(rows.size(), threads, run, [&](std::size_t r) {
+    for (std::uint32_t i = 0; i < rows[r].count; ++i) {
+      const Vec3 p = made(part, {rows[r].patch, i, rows[r].j}).point;
+      places[rows[r].first + i] = {p.x, p.y};
+    }
+  }));
+  sort_into_tiles(tile, rows, places, threads);
   cells_.resize(count);
   origins_.resize(count);
   return in_parallel(rows.size(), threads, run, [&](std::size_t r) {
-    const Row& row = rows[r];
-    for (std::uint32_t i = 0; i + 1 < grids_[row.patch].us.size(); ++i) {
-      const Origin origin{row.patch, i, row.j};
-      Cell& cell = cells_[row.first + i];
-      // the allowance lies on the open side, which is looked for from the surface itself
-      cell = cell_at(part.model(), place(origin), {0.0, 0.0, 1.0}, 0.0);
-      const Vec3 side = open_side(part, cell.point, cell.normal);
-      cell = cell_at(part.model(), place(origin), side, part.allowance());
-      origins_[row.first + i] = origin;
+    for (std::uint32_t i = 0; i < rows[r].count; ++i) {
+      const Origin origin{rows[r].patch, i, rows[r].j};
+      const std::uint32_t number = number_[rows[r].first + i];
+      cells_[number] = made(part, origin);
+      origins_[number] = origin;
     }
   });
+}
+
+// The allowance lies on the open side, which is looked for from the surface itself.
+Cell SurfaceCells::made(const Part& part, const Origin& origin) const {
+  Cell cell = cell_at(part.model(), place(origin), {0.0, 0.0, 1.0}, 0.0);
+  cell.normal = open_side(part, cell.point, cell.normal);
+  move_out(cell, part.allowance());
+  return cell;
 }
 
 std::size_t SurfaceCells::column(double x) const {
@@ -179,45 +195,36 @@ std::size_t SurfaceCells::row(double y) const {
       std::clamp((y - low_.y) / tile_, 0.0, static_cast<double>(ny_ - 1)));
 }
 
-void SurfaceCells::sort_into_tiles(double tile) {
+void SurfaceCells::sort_into_tiles(double tile, const std::vector<Row>& rows,
+                                   const LargeList<Vec2>& places, std::size_t threads) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   low_ = {kFar, kFar};
   high_ = {-kFar, -kFar};
-  for (const Cell& cell : cells_) {
-    low_ = {std::min(low_.x, cell.point.x), std::min(low_.y, cell.point.y)};
-    high_ = {std::max(high_.x, cell.point.x), std::max(high_.y, cell.point.y)};
+  for (const Vec2 p : places) {
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
   }
   const double dx = high_.x - low_.x, dy = high_.y - low_.y;
   tile_ = std::max({tile, std::sqrt(dx * dy / kMostTiles), (dx + dy) / kMostTiles});
   nx_ = static_cast<std::size_t>(dx / tile_) + 1;
   ny_ = static_cast<std::size_t>(dy / tile_) + 1;
-  std::vector<std::uint32_t> tile_of(cells_.size());
+  number_.resize(places.size());
+  in_parallel(rows.size(), threads, [&](std::size_t r) {
+    for (std::size_t k = rows[r].first; k < rows[r].first + rows[r].count; ++k) {
+      number_[k] = static_cast<std::uint32_t>(row(places[k].y) * nx_ + column(places[k].x));
+    }
+  });
   tiles_.assign(nx_ * ny_, {});
-  for (std::size_t k = 0; k < cells_.size(); ++k) {
-    const Vec3 p = cells_[k].point;
-    tile_of[k] = static_cast<std::uint32_t>(row(p.y) * nx_ + column(p.x));
-    ++tiles_[tile_of[k]].count;
-  }
+  for (const std::uint32_t t : number_) ++tiles_[t].count;
   std::uint32_t first = 0;
   for (Tile& t : tiles_) {
     t.first = first;
     first += t.count;
     t.count = 0;
   }
-  number_.resize(cells_.size());
-  for (std::size_t k = 0; k < cells_.size(); ++k) {
-    Tile& t = tiles_[tile_of[k]];
-    number_[k] = t.first + t.count++;
-  }
-  // in place: a second list of a hundred megabytes costs more than to put the first one in order
-  std::vector<std::uint32_t> to = number_;
-  for (std::size_t k = 0; k < cells_.size(); ++k) {
-    while (to[k] != k) {
-      const std::uint32_t there = to[k];
-      std::swap(cells_[k], cells_[there]);
-      std::swap(origins_[k], origins_[there]);
-      std::swap(to[k], to[there]);
-    }
+  for (std::uint32_t& number : number_) {
+    Tile& t = tiles_[number];
+    number = t.first + t.count++;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "large_list.h"
 #include "part.h"
 
 namespace obvid::toolpath {
@@ -42,7 +43,7 @@ class SurfaceCells {
   struct Tile {
     std::uint32_t first = 0, count = 0;  ///< cells
   };
-  [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
+  [[nodiscard]] const LargeList<Cell>& cells() const { return cells_; }
   [[nodiscard]] CellPlace place(std::size_t cell) const;
   [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
   /// Calls what(cell) for the cells of the same patch on all four sides.
@@ -82,14 +83,21 @@ class SurfaceCells {
   [[nodiscard]] std::size_t column(double x) const;
   [[nodiscard]] std::size_t row(double y) const;
   void divide(const SurfaceModel& model);
-  [[nodiscard]] Result<void> fill(const Part& part, std::size_t threads, const RunContext& run);
-  void sort_into_tiles(double tile);
+  struct Row {  ///< of cells side by side along u
+    std::uint32_t patch = 0, j = 0;
+    std::size_t first = 0, count = 0;  ///< by their place in the patches
+  };
+  [[nodiscard]] Cell made(const Part& part, const Origin& origin) const;
+  [[nodiscard]] Result<void> fill(const Part& part, double tile, std::size_t threads,
+                                  const RunContext& run);
+  void sort_into_tiles(double tile, const std::vector<Row>& rows, const LargeList<Vec2>& places,
+                       std::size_t threads);
 
   double spacing_;
   std::vector<Grid> grids_;
-  std::vector<Cell> cells_;
-  std::vector<Origin> origins_;
-  std::vector<std::uint32_t> number_;  ///< of cells, by their place in the patches
+  LargeList<Cell> cells_;
+  LargeList<Origin> origins_;
+  LargeList<std::uint32_t> number_;  ///< of cells, by their place in the patches
   std::vector<Tile> tiles_;
   Vec2 low_, high_;
   double tile_ = 1.0;

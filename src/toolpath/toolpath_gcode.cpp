@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "obvid/core/internal/figures.h"
+#include "obvid/core/internal/parallel.h"
 #include "obvid/core/version.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/toolpath/toolpath.h"
@@ -45,17 +46,26 @@ std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, doub
   return exchange::gcode_head(options.controller, inches, remarks);
 }
 
-void write_moves(const Toolpath& path, double scale, toolpath::ProgramText& program) {
-  for (const ToolpathMove& move : path.moves) {
+void write_moves(const Toolpath& path, double scale, std::size_t threads,
+                 toolpath::ProgramText& program) {
+  const auto scaled = [&](const ToolpathMove& move) {
     std::vector<Vec3> points = move.points;
     for (Vec3& p : points) p = scale * p;
+    return points;
+  };
+  std::vector<toolpath::ProgramText::Way> ways(path.moves.size());
+  in_parallel(ways.size(), threads, [&](std::size_t k) {
+    const ToolpathMove& move = path.moves[k];
+    if (move.kind == ToolMove::kRapid) return;
+    ways[k] = move.kind == ToolMove::kPass ? program.way_of_pass(scaled(move), move.plane)
+                                           : program.straight_way(scaled(move));
+  });
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    const ToolpathMove& move = path.moves[k];
     if (move.kind == ToolMove::kRapid) {
-      program.rapid(points);
-    } else if (move.kind == ToolMove::kPass) {
-      program.pass(points, move.plane, path.feeds.pass);
+      program.rapid(scaled(move));
     } else {
-      program.straight(points,
-                       move.kind == ToolMove::kPlunge ? path.feeds.plunge : path.feeds.pass);
+      program.print(ways[k], move.kind == ToolMove::kPlunge ? path.feeds.plunge : path.feeds.pass);
     }
   }
   program.level_plane();
@@ -68,7 +78,8 @@ ToolpathFeeds default_feeds(const Units& units) {
   return {default_feed(units.name), inches ? 12.0 : 300.0, inches ? 200.0 : 5000.0};
 }
 
-Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOptions& options) {
+Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOptions& options,
+                                     std::size_t threads) {
   const auto unit = exchange::machine_units_in(path.units);
   OBVID_TRY(unit);
   OBVID_TRY(exchange::check_gcode_decimals(options.decimals));
@@ -88,7 +99,7 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
                                       exchange::machine_acceleration(path.acceleration, inches),
                                       path.tolerance * scale};
   toolpath::ProgramText program(decimals, within, options.arcs, machine);
-  write_moves(path, scale, program);
+  write_moves(path, scale, threads, program);
   ToolpathGcode out;
   out.minutes = program.seconds() / exchange::kSecondsOfMinute;
   out.blocks = program.blocks();

@@ -7,8 +7,9 @@ usage: entries_test.py PROGRAM
 The part is a bowl z = f(x, y), a polynomial that a bicubic grid holds exactly. Roughing has to go down into the stock
 there: no way straight down meets any, no way is steeper than the angle or cuts deeper than a level, helices are
 circles, and the counts are those of the program. Finishing: entries are nowhere deeper than the tolerance in the part,
-begin as far over the tip's resting height as is said and fall over it no faster than the angle. Where there is no room
-for a ramp the program says how many entries go straight down.
+begin as far over the pass as is said, and fall as the angle says, neither faster nor slower: over the bowl, and over a
+plane and a cylinder whose resting tips are closed forms. Where there is no room for a ramp the program says how many
+entries go straight down; where there is none for one of the angle, how steep it is, and where.
 """
 import json
 import math
@@ -100,12 +101,18 @@ def counted(report, entries):
     kinds = [kind(ways) for _, ways in entries]
     found = {name: kinds.count(name) for name in ("helical", "ramped", "straight")}
     told = dict(report["entries"])
-    steepest = told.pop("steepest")
+    steepest, place = told.pop("steepest"), told.pop("steepest_place")
+    told.pop("asked")
+    assert (place is None) == (steepest == 0.0), (steepest, place)
     assert found == told, (found, told)
     # coordinates are printed to 0.001 mm: ways of 0.2 mm tell an angle to 0.6 degrees
     long = [(a - b, np.hypot(*(b - a)[:2])) for _, ways in entries for a, b in ways if np.hypot(*(b - a)[:2]) > 0.2]
     seen = max((math.degrees(math.atan2(way[2], level)) for way, level in long), default=0.0)
     assert seen <= steepest + 0.6, (seen, steepest)
+    # nor is a steeper one told than the printed places allow: blocks lie off the way by a share of the tolerance
+    most = max((math.degrees(math.atan2(a[2] - b[2] + TOLERANCE, max(1e-9, np.hypot(*(b - a)[:2]) - TOLERANCE)))
+                for _, ways in entries for a, b in ways), default=0.0)
+    assert steepest <= most, (steepest, most)
     assert (steepest > 0.0) == (found["helical"] + found["ramped"] > 0), (steepest, found)
     return found
 
@@ -183,21 +190,21 @@ def check_finish(binary, folder, cutter, diameter, corner, strategy, entry, over
     entries = entries_of(moves, 321.0)
     found = counted(report, entries)
     plain, _, _ = program(binary, folder, *options, code=code)
-    assert plain["entries"] == {"helical": 0, "ramped": 0, "straight": len(entries), "steepest": 0.0}, plain["entries"]
+    assert plain["entries"] == {"helical": 0, "ramped": 0, "straight": len(entries), "asked": 0.0,
+                                "steepest": 0.0, "steepest_place": None}, plain["entries"]
     tips = np.concatenate([along(a, b, 0.1) for _, ways in entries for a, b in ways])
     xs, ys = np.meshgrid(np.arange(0.0, WIDE + 1e-9, 0.4), np.arange(0.0, DEEP + 1e-9, 0.4))
     points = np.stack([xs.ravel(), ys.ravel(), height(xs.ravel(), ys.ravel())], axis=-1)
     gouge = depth_in(radius, corner, tips, points).max()
     assert gouge <= TOLERANCE, f"{name}: {gouge} into the part"
-    steepest, judged = 0.0, 0
+    steepest, flattest, judged = 0.0, 90.0, 0
     for _, ways in entries:
         if not ways:
             continue
         places = np.array([a for a, _ in ways] + [ways[-1][1]])
         end = places[-1]
         rest, sure = rests(radius, corner, places)
-        if entry == "helix" or strategy == "z-level":
-            rest = np.maximum(rest, end[2])
+        rest = np.maximum(rest, end[2])
         lift = places[:, 2] - rest
         begins = places[0, 2] - end[2]
         assert np.allclose(places[0, :2], end[:2]) and begins <= over + 2e-3, name
@@ -211,40 +218,63 @@ def check_finish(binary, folder, cutter, diameter, corner, strategy, entry, over
         fast = (begins - lift - 0.03)[falling] / gone[falling]
         steepest = max(steepest, math.degrees(math.atan(fast.max(initial=0.0))))
         assert places[:, 2].max() < report["safe_z"] + 2e-3, f"{name}: {places[:, 2].max()} is over the safe height"
+        if kind(ways) == "ramped":  # helices have whole turns, and are flatter by what is left of one
+            flattest = min(flattest, math.degrees(math.atan(begins / gone[-1])))
     assert steepest <= ramp, f"{name}: {steepest} degrees"
+    assert flattest > 0.99 * ramp, f"{name}: {flattest} degrees"
     print(f"{name}: {found}, falls by {steepest:.2f} degrees over the resting tip, {gouge:.4f} into the part")
     return found, judged
 
 
-def check_ceiling(binary, folder):
-    """On a pass that rises faster than ways down fall they are level at the safe height until it lies under them."""
-    slope, over, degrees = 0.5, 20.0, 10.0
-    (folder / "slope.txt").write_text("\n".join("".join(f"{x} {y} {slope * x}\n" for x in range(0, 41, 5))
-                                                for y in range(0, 31, 5)))
-    subprocess.run([binary, "surface", "grid", "slope.txt", "--spread", "uniform", "--units", "mm", "-o", "slope.json",
-                    "-q"], cwd=folder, check=True)
-    for entry in ("ramp", "helix"):
-        report, text, _ = program(binary, folder, "--cutter", "ball", "--diameter", 6, "--scallop", 0.2, "--one-way",
-                                  "--entry", entry, "--ramp", degrees, "--ramp-height", over, part="slope.json")
-        entries = entries_of(moves_of(text), 321.0)
-        assert counted(report, entries)["straight"] == 0, entry
-        safe, level, judged = report["safe_z"], 0, 0
-        for place, ways in entries:
-            ends = np.array([place] + [b for _, b in ways])
-            assert ends[:, 2].max() < safe + 2e-3, (entry, ends[:, 2].max(), safe)
-            gone = np.cumsum(np.hypot(*np.diff(ends[:, :2], axis=0).T))
-            # the tip of a ball rests so far over the plane, away from its borders
-            lift = ends[1:, 2] - slope * ends[1:, 0] - 3.0 * (math.sqrt(1.0 + slope * slope) - 1.0)
-            falls = (ends[0, 2] - ends[-1, 2]) - gone * math.tan(math.radians(degrees))
-            inner = (ends[1:, :2] > 3.0).all(axis=1) & (ends[1:, 0] < 37.0) & (ends[1:, 1] < 27.0)
-            free = inner & (ends[1:, 2] < safe - 2e-3)
-            judged += int(free.sum())
-            level += int((ends[1:, 2] >= safe - 2e-3).sum())
-            if entry == "ramp":
-                assert np.allclose(lift[free], falls[free], atol=0.02), (entry, lift[free], falls[free])
-        assert entry == "helix" or (level > 0 and judged > 0), (level, judged)
-        downhill = math.degrees(math.atan(math.tan(math.radians(degrees)) + slope))  # back over the slope, and falling
-        assert entry == "helix" or report["entries"]["steepest"] > downhill - 0.01, (report["entries"], downhill)
+def check_slope(binary, folder):
+    """Over parts whose resting tip is a closed form ways down have the angle that is asked for, neither more nor less:
+    a plane that rises by a half (passes up and down it, and level ones), and a cylinder of radius 30. They begin as far
+    over the pass as is asked for, fall evenly to its beginning, and lie over the part all the way."""
+    slope, over, degrees, radius = 0.5, 2.0, 10.0, 3.0
+    fall = math.tan(math.radians(degrees))
+    shapes = {"slope": (lambda x: slope * x, lambda x: slope * x + radius * (math.sqrt(1.0 + slope * slope) - 1.0), 9),
+              "cylinder": (lambda x: np.sqrt(900.0 - (x - 20.0) ** 2),
+                           lambda x: np.sqrt((30.0 + radius) ** 2 - (x - 20.0) ** 2) - radius, 161)}
+    for name, (shape, rests_at, count) in shapes.items():
+        (folder / f"{name}.txt").write_text("\n".join("".join(f"{x} {y} {shape(x)}\n" for x in np.linspace(0.0, 40.0, count))
+                                                      for y in range(0, 31, 5)))
+        subprocess.run([binary, "surface", "grid", f"{name}.txt", "--spread", "uniform", "--units", "mm", "-o",
+                        f"{name}.json", "-q"], cwd=folder, check=True)
+        for entry, angle in ((e, a) for e in ("ramp", "helix") for a in (0, 90, 180)):
+            report, text, said = program(binary, folder, "--cutter", "ball", "--diameter", 2 * radius, "--scallop", 0.2,
+                                         "--one-way", "--angle", angle, "--entry", entry, "--ramp", degrees,
+                                         "--ramp-height", over, part=f"{name}.json")
+            entries, case = entries_of(moves_of(text), 321.0), (name, entry, angle)
+            assert counted(report, entries)["straight"] == 0, case
+            told = report["entries"]
+            assert told["asked"] == degrees and told["steepest"] < degrees + 1e-3, (case, told)
+            assert "degrees against the level" not in said, said
+            for place, ways in entries:
+                ends = np.array([place] + [b for _, b in ways])
+                gone = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(ends[:, :2], axis=0).T))])
+                begins = ends[0, 2] - ends[-1, 2]
+                assert abs(begins - min(over, report["safe_z"] - ends[-1, 2])) < 2e-3, (case, ends[0], ends[-1])
+                due = ends[-1, 2] + begins * (1.0 - gone / gone[-1])
+                assert np.abs(ends[:, 2] - due).max() < 0.012, (case, np.abs(ends[:, 2] - due).max())
+                mean = begins / gone[-1]
+                turns = round(gone[-1] / (2.0 * math.pi * 0.9 * radius)) if entry == "helix" else math.inf
+                assert mean < 1.005 * fall, (case, mean, fall)
+                assert mean > 0.99 * fall * (1.0 - 1.0 / turns), (case, mean, fall, turns)
+                inner = (ends[:, 0] > radius) & (ends[:, 0] < 40.0 - radius) & (ends[:, 1] > 0.0) & (ends[:, 1] < 30.0)
+                lift = ends[inner, 2] - rests_at(ends[inner, 0])
+                assert lift.min(initial=0.0) > -TOLERANCE, (case, lift)
+    # so flat that straight ways beside the pass are too short for it: over the pass, with its slope, and that is said
+    degrees = 0.5
+    report, text, said = program(binary, folder, "--cutter", "ball", "--diameter", 6, "--scallop", 0.2, "--one-way",
+                                 "--ramp", degrees, "--ramp-height", 3, part="slope.json")
+    told = report["entries"]
+    downhill = math.degrees(math.atan(math.tan(math.radians(degrees)) + slope))  # back over the slope, and falling
+    assert downhill - 0.02 < told["steepest"] < 90.0, (told, downhill)  # more where a pass rolls over the border
+    assert f"at up to {told['steepest']:.3g} degrees against the level" in said and "where 0.5 were" in said, said
+    assert any("degrees against the level" in warning for warning in report["warnings"]), report["warnings"]
+    x, y, z = told["steepest_place"]
+    assert -3.0 <= x <= 43.0 and -3.0 <= y <= 33.0 and -3.0 <= z <= report["safe_z"], told
+    assert counted(report, entries_of(moves_of(text), 321.0))["ramped"] > 0, told
     # stretches that end beside the stock are no narrow ones, though they are cut one way
     report, _, said = program(binary, folder, "--cutter", "ball", "--diameter", 6, "--strategy", "rough", "--one-way",
                               "--step-down", 2, "--allowance", 0.3, part="slope.json")
@@ -275,10 +305,11 @@ def main():
             judged += places
             assert found["straight"] == 0 and (found["helical"] > 0) == (entry == "helix"), found
         assert judged > 300, judged
-        check_ceiling(binary, folder)
+        check_slope(binary, folder)
         # a ramp so flat that there is no room: it is said
         report, _, said = program(binary, folder, "--scallop", 0.1, "--one-way", "--ramp", 0.05, "--ramp-height", 3)
-        straight, all_of = report["entries"]["straight"], sum(report["entries"].values())
+        told = report["entries"]
+        straight, all_of = told["straight"], told["helical"] + told["ramped"] + told["straight"]
         assert straight > 0 and f"{straight} of {all_of} entries go straight down" in said, said
         for wrong in (["--acceleration", "1e-300"], ["--ramp", "0"], ["--ramp", "90"], ["--entry", "spiral"], ["--ramp-height", "2"],
                       ["--ramp", "5", "--ramp-height", "0"], ["--strategy", "rough", "--ramp-height", "2"]):

@@ -140,6 +140,31 @@ TEST(ReadSections, BladesOnStreamsurfacesThatEndEarlyAreRefusedWithTheirLine) {
   EXPECT_EQ(unknown.error().where.substr(0, 2), "f:");
 }
 
+TEST(ReadSections, ReadingOfStreamsurfacesAsksWhetherToGoOnAndEndsWhereItIsToldTo) {
+  constexpr int kPlaces = 5000, kSurfaces = 3;
+  std::string text = "JM NS NB JLE JTE\n" + std::to_string(kPlaces) + " " +
+                     std::to_string(kSurfaces) + " 22 1 " + std::to_string(kPlaces) + "\n";
+  for (int surface = 0; surface < kSurfaces; ++surface) {
+    for (const char* title : {"Axial Distance", "Theta", "Thickness", "Radius"}) {
+      text += std::string(title) + "\n1.0\n";
+      for (int i = 0; i < kPlaces; ++i) text += std::to_string(i + 1) + ".0\n";
+    }
+  }
+  int asked = 0, last = 1 << 30;
+  const RunContext run{Progress{}, [&] { return ++asked >= last; }};
+  ASSERT_TRUE(parse_sections(text, "f", {}, run));
+  const int in_all = asked;
+  EXPECT_GE(in_all, 2 * kSurfaces * 4);  // while the counts are looked for, and in each block
+  for (const int stop : {1, in_all / 2, in_all}) {
+    asked = 0;
+    last = stop;
+    const auto cancelled = parse_sections(text, "f", {}, run);
+    ASSERT_FALSE(cancelled) << stop;
+    EXPECT_EQ(cancelled.error().code, ErrorCode::kCancelled) << stop;
+    EXPECT_EQ(asked, stop);
+  }
+}
+
 TEST(ReadSections, RotorThirtySevenHasThirteenSectionsAtTheirRadii) {
   SKIP_WITHOUT("turbomachinery_nasa");
   const auto sections =

@@ -154,6 +154,26 @@ TEST(Tessellate, EdgesOfTheSurfaceAreSharpAndHaveNoCracks) {
   EXPECT_EQ(checks::open_edges({mesh}).size(), 6u);
 }
 
+TEST(Tessellate, TrianglesDoNotDependOnTheNumberOfThreads) {
+  const NurbsSurface surface = hills(12);
+  TessellationOptions options{1e-4, 0.2};
+  const auto one = tessellate(surface, options);
+  ASSERT_TRUE(one);
+  ASSERT_GT(one->triangles.size(), 10'000u);  // more than one lot of cells
+  for (const std::size_t threads : {2u, 3u}) {
+    options.threads = threads;
+    const auto many = tessellate(surface, options);
+    ASSERT_TRUE(many);
+    EXPECT_EQ(many->triangles, one->triangles);
+    EXPECT_EQ(many->deviation, one->deviation);
+    ASSERT_EQ(many->vertices.size(), one->vertices.size());
+    for (std::size_t i = 0; i < one->vertices.size(); ++i) {
+      ASSERT_EQ(many->vertices[i].point, one->vertices[i].point) << i;
+      ASSERT_EQ(many->vertices[i].normal, one->vertices[i].normal) << i;
+    }
+  }
+}
+
 TEST(Tessellate, NeighboursShareThePointsOfTheirBorder) {
   const NurbsSurface whole = hills(10);
   auto [left, right] = split_u(whole, 0.4);

@@ -195,7 +195,7 @@ TEST(DropField, FindsTheHighestOfAllTriangles) {
     for (int k = 0; k < 3; ++k) mesh.vertices.push_back({middle + draw.point(1.0), {0, 0, 1}});
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  const DropField field({mesh});
+  const DropField field({mesh}, 2);
   for (int i = 0; i < 300; ++i) {
     const CutterShape c = draw.cutter();
     const Vec2 axis{draw.between(-12.0, 12.0), draw.between(-12.0, 12.0)};

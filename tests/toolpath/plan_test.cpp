@@ -97,6 +97,7 @@ TEST(Toolpath, TheProgramDoesNotDependOnTheNumberOfThreads) {
     if (strategy == ToolpathStrategy::kRough) {
       o.scallop.reset();
       o.step_over = 1.0;
+      o.entry = ToolpathEntry::kHelix;
     }
     o.threads = 1;
     const auto alone = plan(model, o);

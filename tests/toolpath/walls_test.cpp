@@ -32,12 +32,12 @@ SurfaceModel box(bool outwards) {
 SimulationReport report_of(const SurfaceModel& model, const std::vector<Sweep>& sweeps,
                            const std::array<Vec3, 2>& stock) {
   const CutterShape cutter{1.5, 0.0};
-  const auto part = Part::make(model, cutter, kWallTolerance, kAllowance, {});
+  const auto part = Part::make(model, cutter, kWallTolerance, kAllowance, 1, {});
   EXPECT_TRUE(part);
   const auto made = SurfaceCells::make(*part, 0.2, cutter.radius, 1);
   EXPECT_TRUE(made);
   const SurfaceCells& cells = *made;
-  std::vector<Nearest> reach(cells.cells().size());
+  auto reach = large_list<Nearest>(cells.cells().size(), {}, 1);
   Simulation simulation(*part, cells, reach, 1);
   EXPECT_TRUE(simulation.cut(sweeps, {}));
   const auto report = simulation.rough_report(1.0, stock, {});

@@ -23,7 +23,8 @@ struct SectionOptions {
 /// that places them (columns BlSpn, BlCrvAC, BlSwpAC, BlTwist, BlChord, BlAFID); tables of
 /// half-breadths of a ship, with labels and empty cells: a section for each station, of the cells
 /// that are there. `assumed`, where it is not null, gets what was read into labels and what was
-/// left out. Asks between files. Errors: E103; E301 to E307 with place.
+/// left out. Asks between files, and in long ones on streamsurfaces. Errors: E103; E301 to E307
+/// with place.
 [[nodiscard]] Result<std::vector<SpaceSeries>> read_sections(
     const std::vector<std::string>& paths, const SectionOptions& options = {},
     std::vector<std::string>* assumed = nullptr, const RunContext& run = {});
@@ -34,6 +35,7 @@ struct ParsedSections {
   std::vector<std::string> assumed{};  ///< as of `read_sections`
 };
 [[nodiscard]] Result<ParsedSections> parse_sections(std::string_view text, std::string_view name,
-                                                    const SectionOptions& options = {});
+                                                    const SectionOptions& options = {},
+                                                    const RunContext& run = {});
 
 }  // namespace obvid

@@ -33,6 +33,7 @@ struct TessellationOptions {
   double angle = 0.0;  ///< rad, > 0: between the normals at the ends of an edge; edges much shorter
                        ///< than the chord tolerance (1/32 of it: cusps, folds) are free
   std::size_t most_triangles = 4'000'000;  ///< of one patch, E502 beyond
+  std::size_t threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
 };
 
 /// Triangles within the chord tolerance and angle, fewest where the surface is flat, no cracks
@@ -46,8 +47,8 @@ struct TessellationOptions {
                                       const TessellationOptions& options);
 /// All patches, of trimmed ones what is there; vertices of borders that two whole patches share are
 /// the same points (trimmed ones have points of their own): borders are shared
-/// when they are the same curve from corner to corner (either way, whatever their parameters) within 1e-7 of the
-/// model's size and a tenth of the chord tolerance. `Error::index`: the patch.
+/// when they are the same curve from corner to corner (either way, whatever their parameters)
+/// within 1e-7 of the model's size and a tenth of the chord tolerance. `Error::index`: the patch.
 [[nodiscard]] Result<std::vector<Mesh>> tessellate(const SurfaceModel& model,
                                                    const TessellationOptions& options,
                                                    const RunContext& run = {});

@@ -110,6 +110,8 @@ struct ToolpathEntries {
   std::size_t helical = 0, ramped = 0;
   std::size_t straight = 0;   ///< roughing: beside the stock
   double steepest_deg = 0.0;  ///< of helices and ramps against the level, anywhere on their way
+  Vec3 steepest_place;        ///< of the tip, where they go down so
+  double asked_deg = 0.0;     ///< how steep they may be; 0: all go straight down
 };
 
 struct ToolpathReport {

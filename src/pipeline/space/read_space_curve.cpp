@@ -76,7 +76,7 @@ Result<ReadCurve> spline_through(const SpaceSeries& series) {
 Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how,
                               const RunContext& run) {
   const std::string& path = input.name;
-  const auto section = pipeline_detail::section_of(input);
+  const auto section = pipeline_detail::section_of(input, run);
   OBVID_TRY(section);
   const SpaceSeries& series = *section;
   const Frame frame = plane_of(series.points);

@@ -41,10 +41,11 @@ bool are_files(const std::vector<SurfaceInput>& inputs) {
                      [](const SurfaceInput& input) { return input.is_file(); });
 }
 
-Result<ParsedSections> parsed(const SurfaceInput& input, const SectionOptions& options) {
+Result<ParsedSections> parsed(const SurfaceInput& input, const SectionOptions& options,
+                              const RunContext& run) {
   if (input.points) return ParsedSections{{*input.points}, false};
-  if (input.text) return parse_sections(*input.text, input.name, options);
-  auto read = read_sections({input.name}, options);
+  if (input.text) return parse_sections(*input.text, input.name, options, run);
+  auto read = read_sections({input.name}, options, nullptr, run);
   OBVID_TRY(read);
   return ParsedSections{std::move(*read), false};
 }
@@ -60,7 +61,7 @@ Result<std::vector<SpaceSeries>> sections_of(const std::vector<SurfaceInput>& in
   std::vector<SpaceSeries> out;
   for (const SurfaceInput& input : inputs) {
     OBVID_TRY(may_go_on(run));
-    auto some = parsed(input, options);
+    auto some = parsed(input, options, run);
     OBVID_TRY(some);
     for (const std::string& what : some->assumed) {
       if (assumed != nullptr) assumed->push_back(input.name + ": " + what);
@@ -79,8 +80,8 @@ Result<std::vector<SpaceSeries>> sections_of(const std::vector<SurfaceInput>& in
   return out;
 }
 
-Result<SpaceSeries> section_of(const SurfaceInput& input) {
-  auto all = parsed(input, {});
+Result<SpaceSeries> section_of(const SurfaceInput& input, const RunContext& run) {
+  auto all = parsed(input, {}, run);
   OBVID_TRY(all);
   if (all->sections.size() == 1) return std::move(all->sections.front());
   return error(ErrorCode::kBadCount,

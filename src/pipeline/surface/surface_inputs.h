@@ -15,7 +15,7 @@ namespace obvid::pipeline_detail {
                                                            std::vector<std::string>* assumed,
                                                            const RunContext& run);
 /// The one section of an input. Error: E307 there are more.
-[[nodiscard]] Result<SpaceSeries> section_of(const SurfaceInput& input);
+[[nodiscard]] Result<SpaceSeries> section_of(const SurfaceInput& input, const RunContext& run);
 /// Errors: of `read_grid`; E203 points that do not fill rows.
 [[nodiscard]] Result<PointGrid> grid_of(const std::vector<SurfaceInput>& inputs,
                                         const GridReading& reading);

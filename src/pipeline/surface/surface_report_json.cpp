@@ -278,7 +278,13 @@ std::string toolpath_report_json(const MadeToolpath& made, const Written& writte
   json.pair("flat_area", r.flat_area).pair("flat_left", r.flat_left).pair("safe_z", r.safe_z);
   json.key("entries").begin_object().pair("helical", r.entries.helical);
   json.pair("ramped", r.entries.ramped).pair("straight", r.entries.straight);
-  json.pair("steepest", r.entries.steepest_deg).end_object();
+  json.pair("asked", r.entries.asked_deg).pair("steepest", r.entries.steepest_deg);
+  if (r.entries.steepest_deg > 0.0) {
+    add_coordinates(json, "steepest_place", r.entries.steepest_place);
+  } else {
+    json.key("steepest_place").null();
+  }
+  json.end_object();
   json.pair("levels", r.levels).pair("narrow_stretches", r.narrow_stretches);
   json.pair("blocks", made.path.program.blocks).pair("arc_blocks", made.path.program.arc_blocks);
   json.key("not_kept").begin_array();

@@ -32,8 +32,9 @@ struct ToolpathGcode {
 /// A program with absolute ends; it holds no tool change; M3 and M5 where the path has a speed of
 /// the spindle. G21 and millimetres, or G20 for inches; other units are converted to millimetres.
 /// Errors: E203 decimals out of range, a unit without a length in metres; E502 decimals too few
-/// for the tolerance.
+/// for the tolerance. `threads`: 0 for as many as the machine has; the text does not depend on it.
 [[nodiscard]] Result<ToolpathGcode> toolpath_gcode(const Toolpath& path,
-                                                   const ToolpathGcodeOptions& options = {});
+                                                   const ToolpathGcodeOptions& options = {},
+                                                   std::size_t threads = 1);
 
 }  // namespace obvid
