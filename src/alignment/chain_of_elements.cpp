@@ -174,7 +174,7 @@ class Fitter {
     improve(2.0);
     out.squares = objective(2.0);
     out.largest = largest();
-    if (!is_closed()) {
+    if (!is_closed() || is_cancelled()) {
       out.largest = std::numeric_limits<double>::infinity();
       return out;
     }
@@ -244,6 +244,8 @@ class Fitter {
     std::fill_n(largest_steps_.begin() + static_cast<std::ptrdiff_t>(first_length_), chain_.size(),
                 size);
   }
+
+  [[nodiscard]] bool is_cancelled() const { return held_.cancelled && held_.cancelled(); }
 
   [[nodiscard]] std::size_t column_of(int kappa) const {
     return kappa == Chain::kStraight ? kNone : column_[static_cast<std::size_t>(kappa)];
@@ -542,6 +544,7 @@ class Fitter {
   /// that closes the gaps.
   template <class Better>
   bool take_step(double power, double& damping, const Better& better) {
+    if (is_cancelled()) return false;
     assemble(power);
     const std::size_t wound = winding(chain_, feet_);
     for (; damping < kDampingMost; damping *= 10.0) {

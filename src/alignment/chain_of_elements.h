@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -58,6 +59,8 @@ struct Held {
   /// Largest offset over its tolerance after least squares at which the fit gives up.
   double hopeless = std::numeric_limits<double>::infinity();
   double largest_curvature = std::numeric_limits<double>::infinity();  ///< that ends keep
+  /// Asked between steps: once true, what is left is infinite.
+  std::function<bool()> cancelled{};
 };
 
 /// Moves the chain to where the largest offset over its tolerance is small: least squares first,

@@ -80,8 +80,9 @@ double area_of(const std::vector<State>& corners) {
 class Search {
  public:
   Search(const std::vector<Vec2>& points, const std::vector<double>& tolerance,
-         const AlignmentOptions& options, const Sought& sought)
-      : points_(points),
+         const AlignmentOptions& options, const Sought& sought, const RunContext& run)
+      : run_(run),
+        points_(points),
         tolerance_(tolerance),
         options_(options),
         sought_(sought),
@@ -93,18 +94,18 @@ class Search {
     set_places();
   }
 
-  Result<std::vector<Node>> run(const RunContext& run) {
+  Result<std::vector<Node>> run() {
     const std::size_t last = places_.size() - 1;
     reached_.resize(places_.size());
     reached_[0].push_back({start_polygon(), {}});
     Layer layer{{{0, 0}}, 1};
     while (layer.end <= last) {
-      if (auto on = tell(run, "fewest elements",
+      if (auto on = tell(run_, "fewest elements",
                          static_cast<double>(layer.end) / static_cast<double>(last + 1));
           !on) {
         return fail(on.error());
       }
-      auto next = advance(layer, run);
+      auto next = advance(layer);
       OBVID_TRY(next);
       layer = std::move(*next);
       if (layer.sources.empty()) break;
@@ -418,10 +419,11 @@ class Search {
   }
 
   /// Farthest place that a clothoid from there reaches: what it reaches it passes on the way.
-  std::size_t reach_of(const Source& from, std::size_t guess) {
+  Result<std::size_t> reach_of(const Source& from, std::size_t guess) {
     std::size_t good = from.place, bad = places_.size();
     std::size_t step = std::max<std::size_t>(1, guess > good ? guess - good : 1);
     while (good + 1 < bad) {
+      OBVID_TRY(may_go_on(run_));
       const std::size_t next = std::min(good + step, bad - 1);
       if (reaches(from, next)) {
         good = next;
@@ -443,29 +445,30 @@ class Search {
   };
 
   /// Places behind those of a layer that one clothoid reaches from there, and corners beside them.
-  Result<Layer> advance(const Layer& layer, const RunContext& run) {
+  Result<Layer> advance(const Layer& layer) {
     std::vector<Reach> reaches;
     std::size_t farthest = 0, guess = 0;
     for (const Source& from : layer.sources) {
-      OBVID_TRY(may_go_on(run));
-      const std::size_t to = reach_of(from, guess);
-      guess = to;
-      if (to >= layer.end) reaches.push_back({from, to});
-      farthest = std::max(farthest, to);
+      const auto to = reach_of(from, guess);
+      OBVID_TRY(to);
+      guess = *to;
+      if (*to >= layer.end) reaches.push_back({from, *to});
+      farthest = std::max(farthest, *to);
     }
     Layer out;
     out.end = std::max(layer.end, farthest + 1);
     for (std::size_t j = layer.end; j <= farthest; ++j) {
-      OBVID_TRY(may_go_on(run));
       std::vector<Polygon> found;
-      for (const bool behind_corner : {false, true}) add_elements(reaches, j, behind_corner, found);
+      for (const bool behind_corner : {false, true}) {
+        OBVID_TRY(add_elements(reaches, j, behind_corner, found));
+      }
       std::stable_sort(found.begin(), found.end(), [](const Polygon& a, const Polygon& b) {
         return area_of(a.corners) > area_of(b.corners);
       });
       if (found.size() > kPolygons) found.resize(kPolygons);
       for (Polygon& polygon : found) keep(j, std::move(polygon), out);
     }
-    if (sought_.corners) add_corners(layer, out);
+    if (sought_.corners) OBVID_TRY(add_corners(layer, out));
     return out;
   }
 
@@ -479,8 +482,8 @@ class Search {
   }
 
   /// What elements from some of the places lead to at place j.
-  void add_elements(const std::vector<Reach>& reaches, std::size_t j, bool behind_corner,
-                    std::vector<Polygon>& found) {
+  Result<void> add_elements(const std::vector<Reach>& reaches, std::size_t j, bool behind_corner,
+                            std::vector<Polygon>& found) {
     std::vector<Source> from;
     for (const Reach& r : reaches) {
       if ((polygon_of(r.from).way != Way::kElement) != behind_corner) continue;
@@ -488,15 +491,18 @@ class Search {
     }
     const std::size_t stride = std::max<std::size_t>(1, from.size() / kPredecessors);
     for (std::size_t k = 0; k < from.size(); k += stride) {
+      OBVID_TRY(may_go_on(run_));
       auto polygon = polygon_at(from[k], j);
       if (polygon) found.push_back(std::move(*polygon));
     }
+    return {};
   }
 
   /// Corners behind elements of a layer: to the next point, which is behind none of its own. The
   /// widest above and below. None at the ends: there a grade more would say nothing.
-  void add_corners(const Layer& layer, Layer& next) {
+  Result<void> add_corners(const Layer& layer, Layer& next) {
     for (auto from = layer.sources.begin(); from != layer.sources.end();) {
+      OBVID_TRY(may_go_on(run_));
       const std::size_t place = from->place;
       const auto point = static_cast<std::size_t>(places_[place].at);
       std::array<std::optional<Polygon>, 2> widest;
@@ -516,6 +522,7 @@ class Search {
         if (one) keep(place_of_[point + 1], std::move(*one), next);
       }
     }
+    return {};
   }
 
   std::optional<Polygon> polygon_at(const Source& from, std::size_t j, Way way = Way::kElement) {
@@ -661,6 +668,7 @@ class Search {
     return static_cast<double>(behind - points_.begin() - 1) + (station - a.x) / (b.x - a.x);
   }
 
+  const RunContext& run_;
   const std::vector<Vec2>& points_;
   const std::vector<double>& tolerance_;
   const AlignmentOptions& options_;
@@ -715,7 +723,7 @@ Result<std::vector<Node>> fewest_pieces(const std::vector<Vec2>& points,
                                         const std::vector<double>& tolerance,
                                         const AlignmentOptions& options, const Sought& sought,
                                         const RunContext& run) {
-  return Search(points, tolerance, options, sought).run(run);
+  return Search(points, tolerance, options, sought, run).run();
 }
 
 }  // namespace obvid::alignment

@@ -99,6 +99,8 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
   OBVID_TRY(found);
   Alignment out = alignment::alignment_of(found->chain, found->feet, tolerance, options.closed);
   OBVID_TRY(alignment::keeps_limits(out, options));
+  out.found_within = found->found_within;
+  out.has_chords = found->has_chords;
   for (AlignmentElement& e : out.elements) e.start.point = e.start.point + found->origin;
   out.end.point = out.end.point + found->origin;
   return out;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -50,10 +51,11 @@ constexpr int kMoreAtSeam = 2;  ///< elements that may be added to close a loop
 class Simplifier {
  public:
   /// Of a closed alignment the last point is the first one again, a lap on; `close` leaves it out.
-  /// `first_given`: number, as given, of the first point.
+  /// `first_given`: number, as given, of the first point. `others`: other searches are to come.
   Simplifier(std::vector<Vec2> points, std::vector<double> tolerance,
              const AlignmentOptions& options, const Sought& sought, Chain chain,
-             std::vector<Foot> feet, std::size_t first_given, bool rounded)
+             std::vector<Foot> feet, std::size_t first_given, bool rounded, bool others,
+             const RunContext& run)
       : points_(std::move(points)),
         tolerance_(std::move(tolerance)),
         transitions_(options.transitions),
@@ -62,6 +64,8 @@ class Simplifier {
         lap_(sought.lap),
         first_given_(first_given),
         rounded_(rounded),
+        others_(others),
+        cancelled_(run.cancelled),
         chain_(std::move(chain)),
         feet_(std::move(feet)) {
     double length = 0.0;
@@ -84,18 +88,18 @@ class Simplifier {
     }
   }
 
-  /// `others`: there are other searches, so that one that leaves the tolerance after it was fitted
-  /// ends: fewer elements come no nearer.
-  Result<void> run(bool others, const RunContext& run) {
+  Result<void> run(const RunContext& run) {
     const std::vector<Element> joints = chain_.joints();  // of the search: the points are there
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
     if (!rounded_) OBVID_TRY(polish(run, &joints));  // what is rounded passes the points already
-    if (others) OBVID_TRY(polish_to_tolerance(run));
-    if (others && largest() > 1.0 && !mend(others)) return {};
+    if (others_) OBVID_TRY(polish_to_tolerance(run));
+    const auto goes_on = may_lead_within(1.0, run);
+    OBVID_TRY(goes_on);
+    if (!*goes_on) return {};
     OBVID_TRY(simplify(run));
-    if (!is_good() && mend(others)) OBVID_TRY(simplify(run));
+    OBVID_TRY(simplify_mended(run));
     straighten();
     if (!without_steps_) return {};
     give_room();
@@ -105,21 +109,25 @@ class Simplifier {
   /// The same around a loop: the ends of what was found are joined, and everything is tried once
   /// with the seam where the points begin and once with it half way around, where it is no other
   /// joint than the rest. At last the chain begins at the joint behind the first point.
-  Result<void> run_around(bool others, const RunContext& run) {
+  Result<void> run_around(const RunContext& run) {
     const std::vector<Element> joints = chain_.joints();
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
     if (!rounded_) OBVID_TRY(polish(run, &joints));
-    if (others && largest() > kHopelessOffset && !mend(others)) return {};
+    auto goes_on = may_lead_within(kHopelessOffset, run);
+    OBVID_TRY(goes_on);
+    if (!*goes_on) return {};
     OBVID_TRY(close(run));
-    if (others) OBVID_TRY(polish_to_tolerance(run));
-    if (others && largest() > 1.0 && !mend(others)) return {};
+    if (others_) OBVID_TRY(polish_to_tolerance(run));
+    goes_on = may_lead_within(1.0, run);
+    OBVID_TRY(goes_on);
+    if (!*goes_on) return {};
     for (int turn = 0; turn < 2; ++turn) {
       OBVID_TRY(simplify(run));
       turn_to(chain_.size() / 2);
     }
-    if (!is_good() && mend(others)) OBVID_TRY(simplify(run));
+    OBVID_TRY(simplify_mended(run));
     OBVID_TRY(merge_all(run));
     turn_to_first_given();
     if (largest() > 1.0) OBVID_TRY(polish(run));
@@ -142,6 +150,8 @@ class Simplifier {
   [[nodiscard]] const Chain& chain() const { return chain_; }
   /// Whether stretches of it are no elements of the search.
   [[nodiscard]] bool is_mended() const { return mended_; }
+  /// Whether it was begun as no search's.
+  [[nodiscard]] bool is_rounded() const { return rounded_; }
   /// Whether it turns between neighbouring points as they do not show.
   [[nodiscard]] bool winds() const {
     const PointRow points = row();
@@ -157,43 +167,62 @@ class Simplifier {
   }
 
  private:
-  /// Whether an interval of points is passed as it may be: its points within their tolerances, and
-  /// not wound through. Feet are found.
-  [[nodiscard]] bool is_good_at(std::size_t interval) const {
-    const PointRow points = row();
-    for (const std::size_t i : {interval, (interval + 1) % points_.size()}) {
-      if (!(std::abs(feet_[i].offset) <= tolerance_[i])) return false;
-    }
-    return windings(chain_, points, feet_, interval, interval + 1, kRefoundTurn) == 0;
-  }
-
-  [[nodiscard]] std::size_t bad_intervals() {
+  /// Which intervals of points are not passed as they may be: a point left, or wound through. Finds
+  /// the feet.
+  [[nodiscard]] std::vector<bool> bad_intervals() {
     find_feet(chain_, points_, feet_);
-    std::size_t out = 0;
-    for (std::size_t i = 0; i < row().intervals(); ++i) out += is_good_at(i) ? 0 : 1;
+    const PointRow points = row();
+    std::vector<bool> out =
+        wound_through(chain_, points, feet_, 0, points.intervals(), kRefoundTurn);
+    const std::size_t intervals = out.size();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (std::abs(feet_[i].offset) <= tolerance_[i]) continue;
+      if (i < intervals) out[i] = true;
+      if (i > 0 || closed_) out[(i + intervals - 1) % intervals] = true;
+    }
     return out;
   }
 
-  [[nodiscard]] bool is_good() { return bad_intervals() == 0; }
+  [[nodiscard]] static std::size_t number_of(const std::vector<bool>& bad) {
+    return static_cast<std::size_t>(std::count(bad.begin(), bad.end(), true));
+  }
+
+  [[nodiscard]] bool is_good() { return number_of(bad_intervals()) == 0; }
+
+  /// Whether to go on with what was fitted. Where there are other searches, not with what leaves
+  /// the points by more than so many tolerances and cannot be mended: fewer elements come no
+  /// nearer.
+  Result<bool> may_lead_within(double most, const RunContext& run) {
+    if (!others_ || largest() <= most) return true;
+    return mend(run);
+  }
+
+  /// Mends what fewer elements and simpler kinds made bad, and makes that fewer.
+  Result<void> simplify_mended(const RunContext& run) {
+    if (is_good()) return {};
+    const auto mended = mend(run);
+    OBVID_TRY(mended);
+    return *mended ? simplify(run) : Result<void>();
+  }
 
   /// Stretches whose points are left, or that are wound through, become their chords with rounded
-  /// corners; what lies beside stays. False where not all can, or, with `others`, where they are
-  /// many.
-  bool mend(bool others) {
+  /// corners; what lies beside stays. False where not all can, or, with other searches to come,
+  /// where they are many.
+  Result<bool> mend(const RunContext& run) {
     const bool limits = std::isfinite(largest_curvature_) || limited_length_;
     if (chain_.plane != Plane::kMap || constant_ || without_steps_ || limits) return false;
-    const auto intervals = static_cast<double>(row().intervals());
-    std::size_t bad = bad_intervals();
-    if (others && static_cast<double>(bad) > kMostMended * intervals) return false;
-    while (bad > 0) {
-      std::size_t first = 0;
-      while (is_good_at(first)) ++first;
-      std::size_t last = first;
-      while (last + 1 < row().intervals() && !is_good_at(last + 1)) ++last;
-      const std::size_t before = bad;
-      if (!mend(first, last, bad)) return false;
+    std::vector<bool> bad = bad_intervals();
+    const auto intervals = static_cast<double>(bad.size());
+    if (others_ && static_cast<double>(number_of(bad)) > kMostMended * intervals) return false;
+    while (number_of(bad) > 0) {
+      const auto first = std::find(bad.begin(), bad.end(), true);
+      const auto last = std::find(first, bad.end(), false) - 1;
+      const auto mended = mend({static_cast<std::size_t>(first - bad.begin()),
+                                static_cast<std::size_t>(last - bad.begin())},
+                               number_of(bad), run);
+      OBVID_TRY(mended);
+      if (!*mended) return false;
       bad = bad_intervals();
-      if (bad >= before) return false;
     }
     const double shortest = *std::min_element(chain_.length.begin(), chain_.length.end());
     least_length_ = std::min(least_length_, kOfShortest * shortest);
@@ -201,18 +230,18 @@ class Simplifier {
     return true;
   }
 
-  /// Intervals [first, last], which are bad, and as many beside them as that takes. `bad`: so many
-  /// are now.
-  bool mend(std::size_t first, std::size_t last, std::size_t bad) {
+  /// Bad intervals, and as many beside them as it takes that there are fewer than `before`.
+  Result<bool> mend(const PointStretch& intervals, std::size_t before, const RunContext& run) {
     for (const std::size_t more : kMendedBeside) {
-      PointStretch stretch{first - std::min(first, more),
-                           std::min(last + 1 + more, points_.size() - 1)};
+      OBVID_TRY(may_go_on(run));
+      const PointStretch stretch{intervals.first - std::min(intervals.first, more),
+                                 std::min(intervals.last + 1 + more, points_.size() - 1)};
       if (closed_ && (stretch.first == 0 || stretch.last + 1 == points_.size())) return false;
       auto mended = with_rounded_chords(chain_, feet_, row(), stretch);
       if (!mended) continue;
       std::swap(chain_, mended->chain);
       std::swap(feet_, mended->feet);
-      if (bad_intervals() < bad) return true;
+      if (number_of(bad_intervals()) < before) return true;
       std::swap(chain_, mended->chain);
       std::swap(feet_, mended->feet);
     }
@@ -336,17 +365,26 @@ class Simplifier {
     }
   }
 
+  /// Fewer elements and simpler kinds. What passes all points as it may does so afterwards.
   Result<void> simplify(const RunContext& run) {
+    std::optional<std::pair<Chain, std::vector<Foot>>> good;
+    const auto remember = [&] {
+      if (is_good()) good = {chain_, feet_};
+    };
+    remember();
     OBVID_TRY(merge_all(run));
+    remember();
     for (int pass = 0; pass < kPasses; ++pass) {
       const auto taken = take_conditions(run);
       OBVID_TRY(taken);
       if (!*taken) break;
+      remember();
     }
     OBVID_TRY(merge_all(run));
     if (transitions_ != Transition::kClothoid && !constant_) {
       // where clothoids lie beside transitions of another kind, lines are arcs and ends are off
       for (int pass = 0; pass < kPasses; ++pass) {
+        remember();
         const std::size_t before = chain_.size();
         OBVID_TRY(take_transitions(run));
         const auto taken = take_conditions(run);
@@ -355,7 +393,9 @@ class Simplifier {
         if (!*taken && chain_.size() == before) break;
       }
     }
-    return polish_to_tolerance(run);
+    OBVID_TRY(polish_to_tolerance(run));
+    if (good && !is_good()) std::tie(chain_, feet_) = std::move(*good);
+    return {};
   }
 
   Result<void> polish_to_tolerance(const RunContext& run) {
@@ -367,8 +407,9 @@ class Simplifier {
 
   /// Some elements with their points, cut out.
   struct Window {
-    std::size_t first = 0;  ///< element
-    std::size_t first_point = 0;
+    std::size_t first = 0;             ///< element
+    std::vector<std::size_t> numbers;  ///< of its points: where points are nearer than their
+                                       ///< tolerances, feet need not be in their order
     Chain chain;
     std::vector<Vec2> points;
     std::vector<double> tolerance;
@@ -393,6 +434,7 @@ class Simplifier {
     out.held.start = first > 0 || closed_;
     out.held.least_length = least_length_;
     out.held.largest_curvature = largest_curvature_;
+    out.held.cancelled = cancelled_;
     if (last < chain.size()) {
       out.held.end = joints[end];
     } else if (closed_) {
@@ -411,11 +453,9 @@ class Simplifier {
         out.held.kappa.push_back(static_cast<int>(k));
       }
     }
-    bool begun = false;
     for (std::size_t i = 0; i < feet.size(); ++i) {
       if (feet[i].element < first || feet[i].element >= last) continue;
-      if (!begun) out.first_point = i;
-      begun = true;
+      out.numbers.push_back(i);
       out.points.push_back(points_[i]);
       out.tolerance.push_back(tolerance_[i]);
       Foot foot = feet[i];
@@ -475,7 +515,7 @@ class Simplifier {
   }
 
   /// Makes `next` with what was fitted of its window the chain; false, and nothing, where more
-  /// intervals of points are wound through than before.
+  /// intervals of points are wound through than before, or points left that the window passes.
   bool commit(Chain next, std::vector<Foot> feet, const Window& window) {
     if (window.first == 0) {
       next.start = window.chain.start;
@@ -490,29 +530,63 @@ class Simplifier {
     for (std::size_t i = 0; i < window.feet.size(); ++i) {
       Foot foot = window.feet[i];
       foot.element += window.first;
-      feet[window.first_point + i] = foot;
+      feet[window.numbers[i]] = foot;
     }
-    if (winds_more(next, feet, window)) return false;
+    if (loses_points(next, feet, window) || winds_more(next, feet, window)) return false;
     chain_ = std::move(next);
     feet_ = std::move(feet);
     return true;
   }
 
+  /// Whether points that the window passes beyond its ends are not passed by what lies there. Sets
+  /// their feet.
+  [[nodiscard]] bool loses_points(const Chain& next, std::vector<Foot>& feet,
+                                  const Window& window) const {
+    std::vector<std::size_t> beyond;
+    std::vector<Vec2> points;
+    std::vector<Foot> there;
+    for (std::size_t i = 0; i < window.feet.size(); ++i) {
+      const Foot& foot = window.feet[i];
+      const bool before = foot.s < 0.0 && window.first + foot.element > 0;
+      const bool behind = foot.s > window.chain.length[foot.element] &&
+                          window.first + foot.element + 1 < next.size();
+      if (!before && !behind) continue;
+      beyond.push_back(i);
+      points.push_back(window.points[i]);
+      there.push_back(feet[window.numbers[i]]);
+    }
+    if (beyond.empty()) return false;
+    find_feet(next, points, there);
+    for (std::size_t k = 0; k < beyond.size(); ++k) {
+      const std::size_t i = beyond[k];
+      const bool within = std::abs(window.feet[i].offset) <= window.tolerance[i];
+      if (within && !(std::abs(there[k].offset) <= window.tolerance[i])) return true;
+      feet[window.numbers[i]] = there[k];
+    }
+    return false;
+  }
+
   [[nodiscard]] bool winds_more(const Chain& next, const std::vector<Foot>& feet,
                                 const Window& window) const {
-    const std::size_t first = window.first_point - std::min<std::size_t>(window.first_point, 1);
-    const std::size_t end = window.first_point + window.points.size();
+    if (window.numbers.empty()) return false;
+    const std::size_t first_point = window.numbers.front();
+    const std::size_t first = first_point - std::min<std::size_t>(first_point, 1);
+    const std::size_t end = window.numbers.back() + 1;
     const PointRow points = row();
     const std::size_t intervals = points.intervals(), last = std::min(end, intervals);
-    const auto number = [&](const Chain& chain, const std::vector<Foot>& own) {
-      std::size_t out = windings(chain, points, own, first, last);
-      if (closed_ && window.first_point == 0 && last < intervals) {
-        out += windings(chain, points, own, intervals - 1, intervals);
+    const auto number = [&](const Chain& chain, const std::vector<Foot>& own, double rounded) {
+      std::size_t out = windings(chain, points, own, first, last, rounded);
+      if (closed_ && first_point == 0 && last < intervals) {
+        out += windings(chain, points, own, intervals - 1, intervals, rounded);
       }
       return out;
     };
-    const std::size_t after = number(next, feet);
-    return after > 0 && after > number(chain_, feet_);
+    for (const double rounded : {kRoundedTurn, kRefoundTurn}) {
+      const std::size_t after = number(next, feet, rounded);
+      if (after == 0) return false;
+      if (after > number(chain_, feet_, rounded)) return true;
+    }
+    return false;
   }
 
   [[nodiscard]] PointRow row() const { return {points_, tolerance_, closed_, lap_}; }
@@ -1009,6 +1083,8 @@ class Simplifier {
   std::size_t first_given_ = 0;       ///< number, as given, of the first point
   bool mended_ = false;               ///< stretches are chords with rounded corners
   bool rounded_ = false;              ///< begun with chords whose corners are rounded
+  bool others_ = false;               ///< there are other searches
+  std::function<bool()> cancelled_;   ///< that fits ask
   Chain chain_;
   std::vector<Foot> feet_;
   double least_length_ = 0.0;
@@ -1066,14 +1142,22 @@ Result<void> check_points(const std::vector<Vec2>& points, const AlignmentOption
 /// of them, as the search sees deviations to first order, and with a chord of half a kilometre
 /// beside one of ten metres that is not enough; around a loop begun elsewhere, where its ends may
 /// join.
+///
+/// Where none of these leads to elements that need no mending, what is found within smaller
+/// tolerances is within the given ones: the fit has no more than that part then.
 struct Attempt {
-  double part;           ///< of the tolerances
+  double part;           ///< of the tolerances: the search's
   double begin;          ///< of the points
+  double fit = 1.0;      ///< part of the tolerances that the fit has
   bool rounded = false;  ///< no search: the chords with rounded corners
 };
-constexpr std::array kAttempts = {Attempt{1.0, 0.0},  Attempt{1.0, 0.5},  Attempt{0.5, 0.0},
-                                  Attempt{0.5, 0.25}, Attempt{0.25, 0.0}, Attempt{0.25, 0.75},
-                                  Attempt{0.1, 0.5}};
+constexpr std::array kAttempts = {
+    Attempt{1.0, 0.0},          Attempt{1.0, 0.5},           Attempt{0.5, 0.0},
+    Attempt{0.5, 0.25},         Attempt{0.25, 0.0},          Attempt{0.25, 0.75},
+    Attempt{0.1, 0.5},          Attempt{0.5, 0.0, 0.5},      Attempt{0.25, 0.0, 0.25},
+    Attempt{0.125, 0.0, 0.125}, Attempt{0.0625, 0.0, 0.0625}};
+/// That which is mended however much of it has to be: no other has all of the tolerances.
+constexpr double kMendedPart = 0.1;
 
 /// Points beyond which the first elements that are found are taken, and those of a search are made
 /// fewer even where they leave the tolerance: another search takes some seconds, and chords are
@@ -1096,7 +1180,7 @@ std::string advice_for_others(const AlignmentOptions& options, const Sought& sou
 }
 
 /// What is begun with where no search came to elements: on a map, where no limits are given.
-constexpr Attempt kRoundedChords = {1.0, 0.0, true};
+constexpr Attempt kRoundedChords = {1.0, 0.0, 1.0, true};
 
 /// Elements from one of these searches, or of the chords with rounded corners.
 Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
@@ -1120,6 +1204,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   std::vector<double> within = tolerance;
   const double part = attempt.part * (options.without_steps ? kBeforeTransitions : 1.0);
   for (double& one : within) one *= part;
+  for (double& one : tolerance) one *= attempt.fit;
   Sought search = sought;
   if (sought.corners) search.plane = Plane::kGraph;  // for arcs likewise: they begin as parabolas
   auto nodes = attempt.rounded ? Result<std::vector<Node>>(rounded_corners(points, tolerance))
@@ -1133,8 +1218,8 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   set_chain(*nodes, points.size(), sought, chain, feet);
   find_feet(chain, points, feet);
   Simplifier out(std::move(points), std::move(tolerance), options, sought, std::move(chain),
-                 std::move(feet), begin, attempt.rounded);
-  OBVID_TRY(options.closed ? out.run_around(others, run) : out.run(others, run));
+                 std::move(feet), begin, attempt.rounded, others, run);
+  OBVID_TRY(options.closed ? out.run_around(run) : out.run(run));
   const double largest = out.largest();
   if (!(largest <= 1.0)) {
     return fail(
@@ -1154,8 +1239,12 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
 
 Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<double>& tolerance,
                               const AlignmentOptions& options, const Sought& sought,
-                              const RunContext& run) {
+                              const RunContext& asked) {
   OBVID_TRY(check_points(given, options));
+  // loops within loops ask; who started it is not asked again once it said so
+  bool stopped = false;
+  RunContext run{asked.progress, {}};
+  if (asked.cancelled) run.cancelled = [&] { return stopped = stopped || asked.cancelled(); };
   FoundChain out;
   // coordinates of maps are far from their origin
   out.origin = given.front();
@@ -1174,8 +1263,11 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     points.push_back(points.front() + sought.lap);
     allowed.push_back(allowed.front());
   }
+  double best_fit = 1.0;
   const auto result_of = [&](const Simplifier& found) {
     out.chain = found.chain();
+    out.found_within = best_fit;
+    out.has_chords = found.is_mended() || found.is_rounded();
     for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(found.foot_of_given(i));
     return out;
   };
@@ -1184,13 +1276,16 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
   const bool again = sought.constant || given.size() <= kMostSearchedAgain;
   double tried = 0.0;  // of open points it is all the same where they begin
   for (const Attempt& attempt : kAttempts) {
-    if (!options.closed && attempt.part == tried) continue;
+    if (!options.closed && attempt.part == tried && attempt.fit == 1.0) continue;
     tried = attempt.part;
-    const bool others = (again || first) && &attempt != &kAttempts.back();
+    const bool others = (again || first) && attempt.part != kMendedPart;
     auto found = searched(points, allowed, options, sought, attempt, others, run);
     if (found) {
       const bool whole = !found->is_mended();
-      if (!best || found->chain().size() < best->chain().size()) best = std::move(*found);
+      if (!best || found->chain().size() < best->chain().size()) {
+        best = std::move(*found);
+        best_fit = attempt.fit;
+      }
       if (whole || !again) break;
       continue;
     }

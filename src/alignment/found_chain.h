@@ -15,6 +15,8 @@ struct FoundChain {
   Vec2 origin;
   Chain chain;
   std::vector<Foot> feet;
+  double found_within = 1.0;  ///< those of `Alignment`
+  bool has_chords = false;
 };
 
 /// The fewest elements found (`fewest_pieces`), fitted, made one where the points allow it, and of

@@ -161,6 +161,9 @@ class Mender {
       const std::size_t on = foot.element - behind_.element;
       if (on == 0) foot.s = cut_away ? 0.0 : foot.s - behind_.s;
       foot.element = begin + on - (cut_away && on > 0 ? 1 : 0);
+      if (foot.element < out_.chain.size()) continue;
+      foot.element = out_.chain.size() - 1;  // nothing of the last element was left
+      foot.s = out_.chain.length.back();
     }
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "obvid/alignment/internal/transition_law.h"
@@ -423,9 +424,7 @@ Result<std::vector<ClothoidPiece>> clothoids_along(Transition kind, const Elemen
                              "{:.3g} deg",
                              name_of(kind), turn / kOneDegree));
   };
-  if (!(0.5 * (std::abs(start.kappa) + std::abs(kappa1)) * length <= kMostTransitionTurn)) {
-    return none_found();
-  }
+  if (turns_too_far(start.kappa, kappa1, length)) return none_found();
   for (int count = 1;; count *= 2) {
     std::vector<ClothoidPiece> out;
     Element from = start;
@@ -444,8 +443,14 @@ Result<std::vector<ClothoidPiece>> clothoids_along(Transition kind, const Elemen
       share = next;
     }
     const bool last = 2 * count >= kMostClothoids;
-    if (found && (last || farthest_beside(out, law, start, kappa1, length) <= tolerance)) {
-      return out;
+    const double beside = found ? farthest_beside(out, law, start, kappa1, length)
+                                : std::numeric_limits<double>::infinity();
+    if (beside <= tolerance) return out;
+    if (last && found) {
+      return error(ErrorCode::kUnsupported,
+                   fmt::format("{} clothoids along a transition of kind {} are still {:.3g} beside "
+                               "it, where {:.3g} is asked for",
+                               out.size(), name_of(kind), beside, tolerance));
     }
     if (last) return none_found();
   }

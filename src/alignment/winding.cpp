@@ -119,11 +119,12 @@ bool may_run(const PointRow& row, std::size_t i, HeadingRange headings, double r
 
 }  // namespace
 
-std::size_t windings(const Chain& chain, const PointRow& row, const std::vector<Foot>& feet,
-                     std::size_t first, std::size_t last, double rounded) {
-  if (chain.plane != Plane::kMap) return 0;
+std::vector<bool> wound_through(const Chain& chain, const PointRow& row,
+                                const std::vector<Foot>& feet, std::size_t first, std::size_t last,
+                                double rounded) {
+  std::vector<bool> out(last - first, false);
+  if (chain.plane != Plane::kMap) return out;
   const std::vector<double> joints = chain.headings();
-  std::size_t out = 0;
   for (std::size_t i = first; i < last; ++i) {
     HeadingRange headings;
     if (i + 1 < row.points.size()) {
@@ -137,9 +138,15 @@ std::size_t windings(const Chain& chain, const PointRow& row, const std::vector<
     }
     const bool allowed = row.passages != nullptr ? allows((*row.passages)[i], headings, rounded)
                                                  : may_run(row, i, headings, rounded);
-    out += allowed ? 0 : 1;
+    out[i - first] = !allowed;
   }
   return out;
+}
+
+std::size_t windings(const Chain& chain, const PointRow& row, const std::vector<Foot>& feet,
+                     std::size_t first, std::size_t last, double rounded) {
+  const std::vector<bool> wound = wound_through(chain, row, feet, first, last, rounded);
+  return static_cast<std::size_t>(std::count(wound.begin(), wound.end(), true));
 }
 
 }  // namespace obvid::alignment

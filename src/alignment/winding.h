@@ -53,8 +53,13 @@ inline constexpr double kRefoundTurn = 1e-6;
 [[nodiscard]] HeadingRange headings_along(double theta, double kappa0, double kappa1, double length,
                                           double s0, double s1);
 
-/// Number of intervals [i, i + 1], `first` <= i < `last`, between whose feet the chain winds: it
-/// turns there as points do not show. None in a graph.
+/// Which intervals [i, i + 1], `first` <= i < `last`, the chain winds through between their feet:
+/// it turns there as points do not show. None in a graph.
+[[nodiscard]] std::vector<bool> wound_through(const Chain& chain, const PointRow& row,
+                                              const std::vector<Foot>& feet, std::size_t first,
+                                              std::size_t last, double rounded = kRoundedTurn);
+
+/// Their number.
 [[nodiscard]] std::size_t windings(const Chain& chain, const PointRow& row,
                                    const std::vector<Foot>& feet, std::size_t first,
                                    std::size_t last, double rounded = kRoundedTurn);

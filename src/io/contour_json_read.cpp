@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -355,8 +354,7 @@ PlacedTransition ContourReader::transition(const Node& node, std::size_t from) {
   }
   out.kind = *named;
   if (!(out.length > 0.0)) refuse(length, "the length of a transition is above 0");
-  constexpr double kMostTurn = 200.0 * std::numbers::pi;  // rad; of curves that are built, a few
-  if (!(std::max(std::abs(out.kappa0), std::abs(out.kappa1)) * out.length <= kMostTurn)) {
+  if (turns_too_far(out.kappa0, out.kappa1, out.length)) {
     refuse(length, "a transition turns by a hundred turns at most");
   }
   const std::size_t end = out.first_piece + out.pieces;

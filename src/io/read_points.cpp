@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "obvid/core/files.h"
+#include "obvid/io/internal/repeated_heights.h"
 #include "read_points_raw.h"
 #include "text_kind.h"
 #include "text_lines.h"
@@ -90,11 +91,14 @@ Result<void> merge_duplicates(RawPoints& raw, string_view name) {
     return {};
   }
   std::size_t merged = 0;
+  RepeatedHeights repeated;
   std::uint32_t first_line = 0;
   std::size_t kept = 0;
   for (std::size_t i = 1; i < raw.points.size(); ++i) {
     if (raw.points[i] == raw.points[kept]) {
       if (!raw.fixed.empty()) {
+        const auto &own = raw.fixed[kept].height, &other = raw.fixed[i].height;
+        if (own && other) repeated.add(*own, *other);
         if (auto done =
                 fill_missing(raw.fixed[kept], raw.fixed[i], text::position(name, raw.lines[i], 1));
             !done)
@@ -113,6 +117,7 @@ Result<void> merge_duplicates(RawPoints& raw, string_view name) {
   raw.warnings.push_back(
       std::to_string(merged) + (merged == 1 ? " point that repeats" : " points that repeat") +
       " the point before merged into it, first in line " + std::to_string(first_line) + ".");
+  repeated.warn("", raw.warnings);
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace obvid {
@@ -289,6 +290,80 @@ void expect_closed(const Alignment& made, double tolerance) {
   EXPECT_NEAR(
       std::abs(std::remainder(theta - made.elements.front().start.theta, 2.0 * std::numbers::pi)),
       0.0, 1e-9);
+}
+
+/// Unit steps that turn at random; `hairpins`: straight on, but for every fifth, which turns by 150
+/// degrees.
+std::vector<Vec2> random_walk(int seed, std::size_t count, bool hairpins) {
+  Noise noise;
+  for (int i = 0; i < 100 * seed; ++i) noise();
+  std::vector<Vec2> out = {{}};
+  double heading = 0.0;
+  while (out.size() < count) {
+    const double random = noise();
+    const bool turns = !hairpins || out.size() % 5 == 0;
+    if (turns) heading += hairpins ? std::copysign(2.6, random) : 3.0 * random;
+    out.push_back(out.back() + Vec2{std::cos(heading), std::sin(heading)});
+  }
+  return out;
+}
+
+Result<Alignment> within(const std::vector<Vec2>& points, double tolerance) {
+  return fit_alignment(points, std::vector<double>(points.size(), tolerance));
+}
+
+bool tells_that_fewer_may_be(const Alignment& a) { return a.has_chords || a.found_within < 1.0; }
+
+// The chords with rounded corners are within any tolerance, and what is within a smaller tolerance
+// is within a larger one.
+TEST(Alignment, NoPolylineIsRefusedAndALargerToleranceHasMoreElementsOnlyWhereItIsTold) {
+  for (const bool hairpins : {false, true}) {
+    for (int seed = 0; seed < 3; ++seed) {
+      const std::vector<Vec2> points = random_walk(seed, 12, hairpins);
+      std::size_t before = points.size() * 3;
+      for (const double tolerance : {0.02, 0.08, 0.32, 1.28}) {
+        const auto found = within(points, tolerance);
+        ASSERT_TRUE(found) << hairpins << " " << seed << " " << tolerance << found.error().what;
+        EXPECT_LE(found->largest_share, 1.0);
+        if (!tells_that_fewer_may_be(*found)) {
+          EXPECT_LE(found->elements.size(), before + 1) << hairpins << seed << " " << tolerance;
+        }
+        before = found->elements.size();
+      }
+    }
+  }
+}
+
+TEST(Alignment, PointsNearerThanTheToleranceAreNoReasonToRefuse) {
+  const std::vector<Vec2> points = {
+      {0.34, -2.415},  {0.689, -2.051},  {9.052, -0.227},  {10.567, 0.033},
+      {10.555, 0.028}, {11.349, -1.191}, {12.741, -1.035}, {13.919, -0.278},
+      {14.13, 1.428},  {13.514, 1.768},  {13.579, 1.909},  {14.499, 1.879},
+      {15.004, 1.996}, {15.084, 2.134},  {15.203, 2.15},   {15.131, 2.978}};
+  for (const double tolerance : {0.05, 0.133, 0.266}) {
+    EXPECT_TRUE(within(points, tolerance)) << tolerance;
+  }
+}
+
+TEST(Alignment, ChordsThatGoStraightBackAreRoundedWithinTheTolerance) {
+  const auto found = within({{0.0, 0.0}, {10.0, 0.0}, {4.0, 0.0}, {12.0, 3.0}}, 0.1);
+  ASSERT_TRUE(found) << found.error().what;
+  EXPECT_LE(found->largest_share, 1.0);
+  EXPECT_GE(found->length,
+            10.0 + 6.0 + std::hypot(8.0, 3.0) - 8 * 0.1);  // the chords, less at ends
+}
+
+TEST(Alignment, WhatIsRefusedForItsLimitsIsFoundAsTheAdviceSays) {
+  const std::vector<Vec2> points = random_walk(1, 16, true);
+  AlignmentOptions options;
+  options.least_radius = 2.0;
+  const auto refused = fit_alignment(points, std::vector<double>(points.size(), 0.01), options);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().hint.find("allow a larger tolerance, or smaller radii"),
+            std::string::npos)
+      << refused.error().hint;
+  EXPECT_TRUE(fit_alignment(points, std::vector<double>(points.size(), 10.0), options));
+  EXPECT_TRUE(within(points, 0.01));
 }
 
 TEST(ClosedAlignment, HasTheElementsOfALoopWhereverItsPointsBegin) {

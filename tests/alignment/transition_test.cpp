@@ -387,5 +387,32 @@ TEST(TransitionPublicFiles, EachIsOneElementWithItsRadii) {
   EXPECT_GT(count, 0);
 }
 
+// Of two turns and more: what is handed out is as near as was asked, whatever that is, or nothing
+// is.
+TEST(Transition, ClothoidsAlongManyTurnsAreWithinTheToleranceOrNone) {
+  const Element start{{}, 0.0, 0.0};
+  const double kappa1 = 0.03, length = 1000.0;
+  bool refused = false;
+  const Transition kind = Transition::kSine;
+  for (const double tolerance : {1e-2, 1e-8, 1e-16}) {
+    const auto made = clothoids_along(kind, start, kappa1, length, tolerance);
+    if (!made) {
+      EXPECT_EQ(made.error().code, ErrorCode::kUnsupported);
+      refused = true;
+      continue;
+    }
+    double s = 0.0;
+    for (const ClothoidPiece& piece : *made) {
+      for (const double t : {0.2, 0.5, 0.8}) {
+        const Element at = transition_at(kind, start, kappa1, length, s + t * piece.length);
+        const double beside = cross(unit_at(at.theta), evaluate(piece, t).point - at.point);
+        EXPECT_LE(std::abs(beside), 1.2 * tolerance);
+      }
+      s += piece.length;
+    }
+  }
+  EXPECT_TRUE(refused);  // no doubles are so near
+}
+
 }  // namespace
 }  // namespace obvid

@@ -534,5 +534,20 @@ TEST(ReadPoints, SkippedLinesAreNotLookedAtButCounted) {
   EXPECT_EQ(behind_lines("a\nb\n", 1), "b\n");
 }
 
+TEST(ReadPoints, TellsWherePointsThatRepeatHaveAnotherHeight) {
+  PointListOptions options;
+  options.heights = true;
+  const auto series =
+      parse_points("x,y,z\n0,0,1\n1,0,2\n1,0,5.25\n1,0,2\n2,0,3\n2,0,3\n", "road.csv", options);
+  ASSERT_TRUE(series) << series.error().what;
+  ASSERT_EQ(series->fixed.size(), 3U);
+  EXPECT_EQ(series->fixed[1].height, 2.0);
+  ASSERT_EQ(series->warnings.size(), 2U);
+  EXPECT_NE(series->warnings[1].find("1 point that repeats the point before has another height, up "
+                                     "to 3.25 off: that of the point before is kept"),
+            std::string::npos)
+      << series->warnings[1];
+}
+
 }  // namespace
 }  // namespace obvid

@@ -44,6 +44,10 @@ struct Alignment {
   std::vector<AlignmentDeviation> deviations;  ///< of each point
   double largest_share = 0.0;  ///< largest |offset| over the point's tolerance: 1 or less
   double rms = 0.0;            ///< root of the mean square of the offsets, units
+  double found_within = 1.0;   ///< part of the tolerances that every point keeps: less than 1 where
+                               ///< no search within all of them came to elements as few
+  bool has_chords = false;     ///< stretches began as chords with rounded corners, which are no
+                            ///< search's: there may be fewer elements, as where less than 1 is kept
 };
 
 struct AlignmentOptions {
@@ -71,6 +75,9 @@ struct AlignmentOptions {
 /// they begin: no point is met by a joint. The ends of an open search are joined there, and
 /// everything is tried again with the seam elsewhere. A last point that is the first one again
 /// stands for it. Points that lie on one circle have one arc.
+///
+/// Where searches within all of the tolerances come to nothing, or to stretches that have to be
+/// chords with rounded corners, those within parts of them are tried.
 ///
 /// Guaranteed: every offset is at most its tolerance (else an error), elements join exactly but for
 /// rounding, and are as long and as blunt as the options ask for. Not guaranteed: that no fewer

@@ -2,6 +2,7 @@
 #pragma once  // reentrant: docs/threads.md
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -35,6 +36,9 @@ struct PlacedTransition {
 
 /// A transition does not turn farther, rad: a hundred full turns. What is asked to is refused.
 inline constexpr double kMostTransitionTurn = 200.0 * std::numbers::pi;
+[[nodiscard]] inline bool turns_too_far(double kappa0, double kappa1, double length) {
+  return !(0.5 * (std::abs(kappa0) + std::abs(kappa1)) * length <= kMostTransitionTurn);
+}
 
 /// Elements of so many pieces: clothoids that stand for a transition are one.
 [[nodiscard]] std::size_t elements_in(std::size_t pieces,
@@ -61,7 +65,7 @@ inline constexpr std::array<std::string_view, 6> kTransitionNames = {
 /// inflections. Every second joint at least is a place of the transition with its heading; the ends
 /// are exact. As few as do of those with stretches of equal length to both sides of where its
 /// curvature bends back. Error: E310 where it turns so far between as many places as are tried that
-/// none are found.
+/// none are found, or none so near.
 [[nodiscard]] Result<std::vector<ClothoidPiece>> clothoids_along(Transition kind,
                                                                  const Element& start,
                                                                  double kappa1, double length,

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "obvid/core/internal/figures.h"
+#include "obvid/io/internal/repeated_heights.h"
 
 namespace obvid::exchange {
 namespace {
@@ -36,24 +36,16 @@ GeoPoint middle_of_places(const std::vector<GeoSeries>& all) {
 
 /// Heights of the points that are kept; a place that repeats may have another one.
 void take_heights(const GeoSeries& series, const std::vector<Vec2>& points, PointSeries& out) {
-  std::size_t others = 0;
-  double farthest = 0.0;
+  RepeatedHeights repeated;
   for (std::size_t i = 0; i < series.heights.size(); ++i) {
-    if (i == 0 || points[i] != points[i - 1]) {
-      out.fixed.push_back({});
-      out.fixed.back().height = series.heights[i];
+    if (i > 0 && points[i] == points[i - 1]) {
+      repeated.add(*out.fixed.back().height, series.heights[i]);
       continue;
     }
-    const double off = std::abs(series.heights[i] - *out.fixed.back().height);
-    others += off > 0.0 ? 1 : 0;
-    farthest = std::max(farthest, off);
+    out.fixed.push_back({});
+    out.fixed.back().height = series.heights[i];
   }
-  if (others == 0) return;
-  out.warnings.push_back(fmt::format(
-      "{} that repeat{} the point before ha{} another height, up to {} m off: that of the point "
-      "before is kept",
-      counted(others, "point", "points"), others == 1 ? "s" : "", others == 1 ? "s" : "ve",
-      significant_above(farthest, 3)));
+  repeated.warn("m", out.warnings);
 }
 
 PointSeries projected(GeoSeries series, const LocalProjection& projection) {

@@ -106,7 +106,7 @@ std::optional<PlacedPiece> placed(const StatedSpiral& spiral, std::string& why) 
     why = "a Spiral of a type that does not turn so far between its radii";
     return std::nullopt;
   }
-  if (!(0.5 * (std::abs(c.kappa0) + std::abs(c.kappa1)) * c.length <= kMostTransitionTurn)) {
+  if (turns_too_far(c.kappa0, c.kappa1, c.length)) {
     why = "a Spiral of more than a hundred turns";
     return std::nullopt;
   }

@@ -171,6 +171,21 @@ void add_doubts(const std::vector<Vec2>& points, const std::vector<double>& tole
   }
 }
 
+/// Where elements are not those of a search within all of the tolerance.
+void tell_fewer(const Alignment& alignment, std::vector<std::string>& warnings) {
+  if (alignment.found_within < 1.0) {
+    warnings.push_back(fmt::format(
+        "there may be fewer elements: these keep to {} of the tolerance, as searches within all of "
+        "it came to none, or to more",
+        significant(alignment.found_within, 4)));
+  }
+  if (alignment.has_chords) {
+    warnings.emplace_back(
+        "there may be fewer elements: some began as chords between points with rounded corners, "
+        "where no search came to others");
+  }
+}
+
 Result<std::optional<SpeedLimit>> speed_limit(const Units& units,
                                               const std::optional<double>& acceleration) {
   if (!acceleration) return std::optional<SpeedLimit>();
@@ -221,6 +236,7 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
   out.stored = {std::move(audited->contour), std::nullopt, std::move(audited->certificate)};
   out.alignment = std::move(*alignment);
   add_doubts(series.points, *tolerance, out);
+  tell_fewer(out.alignment, out.warnings);
   out.points = series.points;
   out.limit = *limit;
   return out;
