@@ -12,6 +12,7 @@
 #include "obvid/core/internal/watch.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/curve/internal/curvature_extent.h"
+#include "obvid/curve/internal/end_curvatures.h"
 #include "obvid/curve/internal/piece_box.h"
 #include "obvid/curve/internal/runs.h"
 #include "obvid/geom/internal/angle.h"
@@ -112,7 +113,7 @@ class Auditor {
     for (const Piece& piece : pieces) {
       const double flat = flat_curvature(piece);
       for (const double t : {0.0, 1.0}) {
-        const double kappa = element_at(piece, t).kappa;
+        const double kappa = accurate_curvature(piece, t);
         ends.push_back({kappa, std::abs(kappa) > flat});
       }
     }
@@ -208,7 +209,7 @@ class Auditor {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       OBVID_TRY(goes_on());
       for (const double t : at) {
-        const double kappa = element_at(pieces[i], t).kappa;
+        const double kappa = accurate_curvature(pieces[i], t);
         samples_.push_back({i, t, path_->length_at(i, t), kappa});
         out_.least_kappa = std::min(out_.least_kappa, kappa);
         out_.largest_kappa = std::max(out_.largest_kappa, kappa);
@@ -224,7 +225,9 @@ class Auditor {
   }
 
   [[nodiscard]] Element end_of(std::size_t piece, double t) const {
-    return element_at(out_.contour.pieces[piece], t);
+    Element end = element_at(out_.contour.pieces[piece], t);
+    end.kappa = accurate_curvature(out_.contour.pieces[piece], t);
+    return end;
   }
 
   void lay_joints() {
