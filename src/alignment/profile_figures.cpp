@@ -27,11 +27,6 @@ Error contradicted(std::size_t element, const char* field, const std::string& cl
       .hint("make the profile again");
 }
 
-ProfileKind kind_between(double grade0, double grade1) {
-  if (grade0 == grade1) return ProfileKind::kGrade;
-  return grade1 > grade0 ? ProfileKind::kSag : ProfileKind::kCrest;
-}
-
 std::optional<Error> contradiction_in(const ProfileElement& e, std::size_t k,
                                       ProfileCurves curves) {
   const ProfileKind kind = kind_between(e.grade0, e.grade1);
@@ -51,6 +46,11 @@ std::optional<Error> contradiction_in(const ProfileElement& e, std::size_t k,
 }
 
 }  // namespace
+
+ProfileKind kind_between(double grade0, double grade1) {
+  if (grade0 == grade1) return ProfileKind::kGrade;
+  return grade1 > grade0 ? ProfileKind::kSag : ProfileKind::kCrest;
+}
 
 double end_height(const ProfileElement& e, ProfileCurves curves) {
   // chord of an arc: half way between its ends' slopes; of a parabola: between its grades

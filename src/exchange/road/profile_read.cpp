@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/alignment/internal/profile_figures.h"
 #include "obvid/core/internal/figures.h"
 
 namespace obvid::exchange {
@@ -177,17 +178,13 @@ std::optional<ElevationCubic> cubic_of(pugi::xml_node node) {
   return out;
 }
 
-ProfileKind kind_of_bend(double bend) {
-  return bend > 0.0 ? ProfileKind::kSag : ProfileKind::kCrest;
-}
-
 /// The parabola or grade that a cubic is.
 ProfileElement plain_element(const ElevationCubic& one) {
   const Vec2 from{one.s, one.a};
   if (one.is_grade()) {
     return element_between(ProfileKind::kGrade, from, one.length, one.b, one.b, 0.0);
   }
-  return element_between(kind_of_bend(one.c), from, one.length, one.b,
+  return element_between(kind_between(0.0, one.c), from, one.length, one.b,
                          one.b + 2.0 * one.c * one.length, 0.5 / one.c);
 }
 
@@ -219,8 +216,8 @@ class ArcOfCubics {
   }
 
   [[nodiscard]] ProfileElement element() const {
-    return element_between(kind_of_bend(curvature_), {first_->s, first_->a}, length_, first_->b,
-                           last_->end_grade(), 1.0 / curvature_);
+    return element_between(kind_between(0.0, curvature_), {first_->s, first_->a}, length_,
+                           first_->b, last_->end_grade(), 1.0 / curvature_);
   }
 
  private:

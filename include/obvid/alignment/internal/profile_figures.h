@@ -10,6 +10,9 @@
 
 namespace obvid {
 
+/// What an element between two grades is.
+[[nodiscard]] ProfileKind kind_between(double grade0, double grade1);
+
 /// Height at the end of an element: that of its start, its length and its grades say where.
 [[nodiscard]] double end_height(const ProfileElement& element, ProfileCurves curves);
 
