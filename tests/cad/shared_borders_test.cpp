@@ -92,7 +92,7 @@ double open_length(const std::vector<Mesh>& meshes) {
 /// Length of the sides that the cutter rolls over.
 double open_to_cutter(const std::vector<Mesh>& meshes) {
   double length = 0.0;
-  const toolpath::DropField field(meshes);
+  const toolpath::DropField field(meshes, 1);
   for (const toolpath::FieldTriangle& t : field.triangles()) {
     for (std::size_t k = 0; k < 3; ++k) {
       if ((t.open >> (1 + k)) & 1U) length += norm(t.corners[(k + 1) % 3] - t.corners[k]);
