@@ -95,7 +95,7 @@ void add_rough_facts(const ToolpathReport& r, const std::string& unit, Facts& fa
 std::string entries_text(const ToolpathEntries& e, bool rough) {
   const std::string steepest =
       e.helical + e.ramped > 0
-          ? fmt::format(" (both at most {} degrees against the level, at {})",
+          ? fmt::format(" (both at most {} degrees against the level as planned, at {})",
                         significant(e.steepest_deg, 3), toolpath_place(e.steepest_place))
           : "";
   return fmt::format("{} helical and {} on ramps{}, {} straight down{}", e.helical, e.ramped,

@@ -45,6 +45,13 @@ class Way {
   std::vector<Vec3> points_;
 };
 
+/// Length seen from above.
+double length_from_above(const std::vector<Vec3>& way) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) length += level_distance(way[i - 1], way[i]);
+  return length;
+}
+
 }  // namespace
 
 std::optional<double> fall_of(const ToolpathOptions& options) {
@@ -75,8 +82,7 @@ std::optional<double> legs_of_ramp(double length, double height, double fall) {
 }
 
 std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, const Descent& descent) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < pass.size(); ++i) length += level_distance(pass[i - 1], pass[i]);
+  const double length = length_from_above(pass);
   const double total = descent.height / descent.fall;
   const auto legs = legs_of_ramp(length, descent.height, descent.fall);
   if (!legs) return std::nullopt;
@@ -98,10 +104,18 @@ std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, const 
   return way.down_to(pass.front());
 }
 
+std::optional<std::vector<Vec3>> flattest_ramp_over(const std::vector<Vec3>& pass,
+                                                    Descent descent) {
+  constexpr double kRounding = 1e-12;  // so that the ways of the flattest are 40, not 42
+  const double length = length_from_above(pass);
+  if (!(length > 0.0)) return std::nullopt;
+  descent.fall = std::max(descent.fall, (1.0 + kRounding) * descent.height / (kMostLegs * length));
+  return ramp_over(pass, descent);
+}
+
 std::optional<Helix> helix_over(const std::vector<Vec3>& ring, const Descent& descent,
                                 double least_turns) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < ring.size(); ++i) length += level_distance(ring[i - 1], ring[i]);
+  const double length = length_from_above(ring);
   const double turns = std::max(least_turns, std::ceil(descent.height / (descent.fall * length)));
   if (!(turns <= kMostTurns)) return std::nullopt;
   Way way(descent, turns * length);

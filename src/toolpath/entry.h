@@ -43,6 +43,11 @@ struct Descent {
 [[nodiscard]] std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass,
                                                          const Descent& descent);
 
+/// The same of finishing: where more ways than 40 would be needed it is as flat as 40 are. Nothing:
+/// the pass has no length seen from above.
+[[nodiscard]] std::optional<std::vector<Vec3>> flattest_ramp_over(const std::vector<Vec3>& pass,
+                                                                  Descent descent);
+
 /// Likewise around a closed ring (its last point is its first one).
 struct Helix {
   std::vector<Vec3> points;

@@ -144,7 +144,7 @@ class Layer {
                                                          double height) {
     const Vec3 start = points.front();
     Choice choice(*fall_);
-    if (choice.take(ramp_over(points, descent(height)))) return choice.best();
+    if (choice.take(flattest_ramp_over(points, descent(height)))) return choice.best();
     const auto along = direction_of(points);
     if (!along) return choice.best();
     const Vec2 beside = left_normal(*along), from{start.x, start.y};
@@ -154,7 +154,7 @@ class Layer {
       auto way = walker_.over({from, from + kRampWay * options_.cutter.diameter * to}, start.z);
       if (!way) continue;
       way->front() = start;
-      if (choice.take(ramp_over(*way, descent(height)))) return choice.best();
+      if (choice.take(flattest_ramp_over(*way, descent(height)))) return choice.best();
     }
     return choice.best();
   }

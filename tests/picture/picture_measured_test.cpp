@@ -280,6 +280,7 @@ TEST(Picture, SaysThatPointsLieWithinTheirTolerancesAndWhereCornersAre) {
   stored.contour.units = "mm";
   stored.contour.point_tolerance = {0.1, 0.1};
   stored.certificate->proved = true;
+  stored.certificate->joints = 3;
   stored.certificate->corners = 2;
   stored.certificate->largest_move = 0.03;
   const std::string svg = picture_svg(stored);

@@ -139,6 +139,7 @@ TEST(Picture, SaysWhatIsProvedAndWhatIsNot) {
   EXPECT_NE(picture_svg(stored).find("no certificate"), std::string::npos);
   stored.certificate = Certificate{};
   stored.certificate->proved = true;
+  stored.certificate->joints = 3;
   EXPECT_NE(picture_svg(stored).find("proved: monotone curvature, G2 joints"), std::string::npos);
   stored.certificate->gaps.slope = 1e-12;
   EXPECT_NE(picture_svg(stored).find("proved: monotone curvature, G3 joints"), std::string::npos);

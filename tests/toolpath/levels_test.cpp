@@ -236,6 +236,11 @@ TEST(Ramp, FallsEvenlyOverAPassAndIsLevelAtItsCeiling) {
   EXPECT_EQ(highest, 4.0);
   // 4 % of the way in each of 40 ways would be needed, and more
   EXPECT_FALSE(ramp_over({{0, 0, 0}, {1, 0, 0}}, {2.0, 0.04}));
+  // 40 ways over a length of 1 lose 2: 0.05 for each length, where 0.04 would take 50 ways
+  const auto flattest = flattest_ramp_over({{0, 0, 0}, {1, 0, 0}}, {2.0, 0.04});
+  ASSERT_TRUE(flattest);
+  EXPECT_NEAR(steepest_of(*flattest).fall, 0.05, 1e-9);
+  EXPECT_EQ(flattest->size(), 41U);
 }
 
 }  // namespace
