@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "fit/slope_step.h"
 #include "obvid/certify/certify.h"
 #include "obvid/core/internal/watch.h"
 #include "obvid/curve/internal/contour_path.h"
@@ -80,7 +79,7 @@ class Auditor {
     OBVID_TRY(take_samples());
     lay_joints();
     OBVID_TRY(lay_runs());
-    out_.certificate = certify(out_.contour, watch_);
+    certify_with_slopes();
     OBVID_TRY(goes_on());
     out_.vertices = out_.certificate.vertices;
     out_.inflections = out_.certificate.inflections;
@@ -270,12 +269,24 @@ class Auditor {
     });
   }
 
-  /// Whether the slope of curvature goes on at a joint.
+  /// Whether the slope of curvature goes on at a joint, by what the elements are.
   [[nodiscard]] bool slope_goes_on(std::size_t j) const {
     const std::size_t n = out_.contour.pieces.size();
-    if (in_transition(j)) return true;
-    if (slope_vanishes((j + n - 1) % n, true) && slope_vanishes(j % n, false)) return true;
-    return pipeline_detail::slope_step_before(out_.contour.pieces, j) <= kContinuousSlope;
+    return in_transition(j) ||
+           (slope_vanishes((j + n - 1) % n, true) && slope_vanishes(j % n, false));
+  }
+
+  /// Slopes of curvature are measured where a contour says that they go on.
+  void certify_with_slopes() {
+    out_.contour.continuity = Continuity::kG3;
+    out_.certificate = certify(out_.contour, watch_);
+    out_.contour.continuity = Continuity::kG2;
+    out_.certificate.gaps.slope.reset();
+    const bool measured = out_.certificate.joints > 0 || out_.contour.pieces.size() == 1;
+    if (!measured) out_.continuity = std::min(out_.continuity, 2);
+    for (const std::size_t j : out_.certificate.loose_slopes) {
+      if (!slope_goes_on(j)) out_.continuity = std::min(out_.continuity, 2);
+    }
   }
 
   /// Notes what is not continuous at a joint; true at a corner and where the curvature jumps, or is
@@ -297,7 +308,6 @@ class Auditor {
     place.size = 0.0;
     const bool jumps = !corner && jump > std::max(kMostCurvatureStep * larger, rounding_);
     if (jumps) add(place, 1);
-    if (!slope_goes_on(j)) out_.continuity = std::min(out_.continuity, 2);
     return corner || jumps || !std::isfinite(jump);
   }
 
