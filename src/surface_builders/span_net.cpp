@@ -66,10 +66,22 @@ VectorBall around(const std::vector<Vec3>& vectors) {
   return out;
 }
 
-double farthest_from_zero(const std::vector<double>& values) {
-  double out = 0.0;
-  for (const double x : values) out = std::max(out, std::abs(x));
-  return out;
+struct NumberBall {
+  double middle = 0.0, radius = 0.0;
+};
+
+NumberBall around(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return {0.5 * (*least + *most), 0.5 * (*most - *least)};
+}
+
+VectorBall operator*(const NumberBall& a, const VectorBall& b) {
+  return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.most()};
+}
+
+VectorBall operator-(const VectorBall& a, const VectorBall& b) {
+  return {a.middle - b.middle, a.radius + b.radius};
 }
 
 /// Differences of a net in one direction, times the degree: control values of the derivative.
@@ -200,16 +212,16 @@ void SpanNet::bound() {
   // S = C / w about the middle: S_u = (C_u - S w_u) / w, and so on
   const ValueNet<double> w{columns_, rows_, weights_};
   const ValueNet<double> wu_net = w.along_u(), wv_net = w.along_v();
-  const double wu = farthest_from_zero(wu_net.at), wv = farthest_from_zero(wv_net.at);
-  const double wuv = farthest_from_zero(wu_net.along_v().at);
-  const double wuu = columns_ > 2 ? farthest_from_zero(wu_net.along_u().at) : 0.0;
-  const double wvv = rows_ > 2 ? farthest_from_zero(wv_net.along_v().at) : 0.0;
-  du_ = divided({du_.middle, du_.radius + reach_ * wu}, weight_off_);
-  dv_ = divided({dv_.middle, dv_.radius + reach_ * wv}, weight_off_);
-  const double su = du_.most(), sv = dv_.most();
-  duu_ = divided({duu_.middle, duu_.radius + 2.0 * su * wu + reach_ * wuu}, weight_off_);
-  dvv_ = divided({dvv_.middle, dvv_.radius + 2.0 * sv * wv + reach_ * wvv}, weight_off_);
-  duv_ = divided({duv_.middle, duv_.radius + su * wv + sv * wu + reach_ * wuv}, weight_off_);
+  const NumberBall wu = around(wu_net.at), wv = around(wv_net.at);
+  const NumberBall wuv = around(wu_net.along_v().at);
+  const NumberBall wuu = columns_ > 2 ? around(wu_net.along_u().at) : NumberBall{};
+  const NumberBall wvv = rows_ > 2 ? around(wv_net.along_v().at) : NumberBall{};
+  const VectorBall place{{}, reach_};
+  du_ = divided(du_ - wu * place, weight_off_);
+  dv_ = divided(dv_ - wv * place, weight_off_);
+  duu_ = divided(duu_ - wu * du_ - wu * du_ - wuu * place, weight_off_);
+  dvv_ = divided(dvv_ - wv * dv_ - wv * dv_ - wvv * place, weight_off_);
+  duv_ = divided(duv_ - wu * dv_ - wv * du_ - wuv * place, weight_off_);
 }
 
 double SpanNet::least_distance(Vec3 from) const {
