@@ -160,49 +160,52 @@ struct NearestOnModel::Tree {
     return number;
   }
 
-  /// Downhill to a nearer place. True: there is no nearer one in the cell, if it has one valley.
-  bool go_down(const nearest_detail::Cell& cell, Vec3 p, nearest_detail::Found& best) const {
-    const NurbsSurface& s = *patches[cell.patch];
-    const auto found_at = [&](double u, double v) {
-      const Vec3 r = evaluate(s, u, v).point - p;
-      return nearest_detail::Found{dot(r, r), cell.patch, u, v};
+  /// From a place of the cell downhill to a nearer one. True: there is no nearer one in the cell,
+  /// if it has one valley.
+  bool go_down(const nearest_detail::Cell& cell, Vec3 p, double u, double v,
+               nearest_detail::Found& best) const {
+    struct Step {
+      double u = 0.0, v = 0.0;
+      SurfaceJet jet;
+      double distance = 0.0;
     };
-    nearest_detail::Found here = found_at(cell.u.at(0.5), cell.v.at(0.5));
-    for (const double a : {0.0, 1.0}) {
-      for (const double b : {0.0, 1.0}) {
-        const nearest_detail::Found corner = found_at(cell.u.at(a), cell.v.at(b));
-        if (corner.square < here.square) here = corner;
-      }
-    }
+    const auto at_place = [&](double to_u, double to_v) {
+      Step out{std::clamp(to_u, cell.u.from, cell.u.to),
+               std::clamp(to_v, cell.v.from, cell.v.to),
+               {},
+               0.0};
+      // derivatives of this span, not of one that begins at its end
+      out.jet =
+          evaluate(*patches[cell.patch], std::min(out.u, std::nextafter(cell.u.to, cell.u.from)),
+                   std::min(out.v, std::nextafter(cell.v.to, cell.v.from)));
+      out.distance = norm(out.jet.point - p);
+      return out;
+    };
     constexpr int kMostSteps = 30, kMostHalvings = 12;
     constexpr double kLastStep = 1e-8;  // of a cell: the next one is its square
     // what is no rise, but the rounding of coordinates
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
                             std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    const auto risen = [rounding](double square, double before) {
-      return !(std::sqrt(square) <= std::sqrt(before) + rounding);
-    };
+    Step here = at_place(u, v);
     bool arrived = false;
     for (int step = 0; step < kMostSteps && !arrived; ++step) {
-      // derivatives of this span, not of one that begins at its end
-      const SurfaceJet jet = evaluate(s, std::min(here.u, std::nextafter(cell.u.to, cell.u.from)),
-                                      std::min(here.v, std::nextafter(cell.v.to, cell.v.from)));
-      auto [du, dv] = nearest_detail::step_of(jet, jet.point - p, cell, here.u, here.v);
+      auto [du, dv] = nearest_detail::step_of(here.jet, here.jet.point - p, cell, here.u, here.v);
       const bool last = std::abs(du) <= kLastStep * cell.u.length() &&
                         std::abs(dv) <= kLastStep * cell.v.length();
-      nearest_detail::Found next;
+      Step next;
+      const auto risen = [&] { return !(next.distance <= here.distance + rounding); };
       for (int halving = 0; halving < kMostHalvings; ++halving) {
-        next = found_at(std::clamp(here.u + du, cell.u.from, cell.u.to),
-                        std::clamp(here.v + dv, cell.v.from, cell.v.to));
-        if (!risen(next.square, here.square)) break;
+        next = at_place(here.u + du, here.v + dv);
+        if (!risen()) break;
         du /= 2.0;
         dv /= 2.0;
       }
-      if (risen(next.square, here.square)) break;
+      if (risen()) break;
       here = next;
       arrived = last;
     }
-    if (here.square < best.square) best = here;
+    const double square = here.distance * here.distance;
+    if (square < best.square) best = {square, cell.patch, here.u, here.v};
     return arrived;
   }
 
@@ -212,9 +215,9 @@ struct NearestOnModel::Tree {
 
   void look_inside(const nearest_detail::Cell& cell, Vec3 p, nearest_detail::Looked& looked) const {
     const nearest_detail::SpanNet net(*patches[cell.patch], cell.u, cell.v);
-    const double least = net.least_distance(p);
+    const auto [least, u, v] = net.flat_foot(p);
     if (least >= decided_from(looked.best)) return;
-    const bool arrived = go_down(cell, p, looked.best);
+    const bool arrived = go_down(cell, p, cell.u.at(u), cell.v.at(v), looked.best);
     if (least >= decided_from(looked.best) || (arrived && net.one_valley(p))) return;
     looked.undecided.push_back({least, cell});
     std::push_heap(looked.undecided.begin(), looked.undecided.end());

@@ -188,7 +188,6 @@ void SpanNet::bound() {
   middle_ = a + 0.25 * ((b - a) + (c - a) + (d - a));
   along_u_ = 0.5 * ((b - a) + (d - c));
   along_v_ = 0.5 * ((c - a) + (d - b));
-  ValueNet<Vec3> homogeneous{columns_, rows_, {}};
   for (std::size_t j = 0; j < rows_; ++j) {
     const double y = static_cast<double>(j) / static_cast<double>(rows_ - 1) - 0.5;
     for (std::size_t i = 0; i < columns_; ++i) {
@@ -196,19 +195,25 @@ void SpanNet::bound() {
       const Vec3 r = points_[j * columns_ + i] - middle_;
       uneven_ = std::max(uneven_, norm(r - (x * along_u_ + y * along_v_)));
       reach_ = std::max(reach_, norm(r));
-      const double weight = weights_[j * columns_ + i];
-      weight_off_ = std::max(weight_off_, std::abs(weight - 1.0));
-      homogeneous.at.push_back(weight * r);
+      weight_off_ = std::max(weight_off_, std::abs(weights_[j * columns_ + i] - 1.0));
     }
   }
+}
+
+SpanSlopes SpanNet::slopes() const {
+  ValueNet<Vec3> homogeneous{columns_, rows_, {}};
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    homogeneous.at.push_back(weights_[k] * (points_[k] - middle_));
+  }
+  SpanSlopes out;
   const ValueNet<Vec3> u = homogeneous.along_u(), v = homogeneous.along_v();
   const ValueNet<Vec3> uv = u.along_v();
-  du_ = around(u.at);
-  dv_ = around(v.at);
-  duv_ = around(uv.at);
-  duu_ = columns_ > 2 ? around(u.along_u().at) : VectorBall{};
-  dvv_ = rows_ > 2 ? around(v.along_v().at) : VectorBall{};
-  if (!(weight_off_ > 0.0) || !(weight_off_ < 1.0)) return;
+  out.du = around(u.at);
+  out.dv = around(v.at);
+  out.duv = around(uv.at);
+  out.duu = columns_ > 2 ? around(u.along_u().at) : VectorBall{};
+  out.dvv = rows_ > 2 ? around(v.along_v().at) : VectorBall{};
+  if (!(weight_off_ > 0.0) || !(weight_off_ < 1.0)) return out;
   // S = C / w about the middle: S_u = (C_u - S w_u) / w, and so on
   const ValueNet<double> w{columns_, rows_, weights_};
   const ValueNet<double> wu_net = w.along_u(), wv_net = w.along_v();
@@ -217,31 +222,38 @@ void SpanNet::bound() {
   const NumberBall wuu = columns_ > 2 ? around(wu_net.along_u().at) : NumberBall{};
   const NumberBall wvv = rows_ > 2 ? around(wv_net.along_v().at) : NumberBall{};
   const VectorBall place{{}, reach_};
-  du_ = divided(du_ - wu * place, weight_off_);
-  dv_ = divided(dv_ - wv * place, weight_off_);
-  duu_ = divided(duu_ - wu * du_ - wu * du_ - wuu * place, weight_off_);
-  dvv_ = divided(dvv_ - wv * dv_ - wv * dv_ - wvv * place, weight_off_);
-  duv_ = divided(duv_ - wu * dv_ - wv * du_ - wuv * place, weight_off_);
+  out.du = divided(out.du - wu * place, weight_off_);
+  out.dv = divided(out.dv - wv * place, weight_off_);
+  out.duu = divided(out.duu - wu * out.du - wu * out.du - wuu * place, weight_off_);
+  out.dvv = divided(out.dvv - wv * out.dv - wv * out.dv - wvv * place, weight_off_);
+  out.duv = divided(out.duv - wu * out.dv - wv * out.du - wuv * place, weight_off_);
+  return out;
 }
 
-double SpanNet::least_distance(Vec3 from) const {
+FlatFoot SpanNet::flat_foot(Vec3 from) const {
   const Vec3 r = middle_ - from;
   const Bowl bowl{dot(along_u_, along_u_), dot(along_u_, along_v_), dot(along_v_, along_v_),
                   dot(r, along_u_), dot(r, along_v_)};
   const Range whole{-0.5, 0.5};
   const auto [x, y] = bowl.lowest_in(whole, whole);
-  return norm(r + x * along_u_ + y * along_v_) - uneven_;
+  return {norm(r + x * along_u_ + y * along_v_) - uneven_, x + 0.5, y + 0.5};
+}
+
+bool SpanNet::longer_along_u() const {
+  const SpanSlopes slope = slopes();
+  return slope.du.most() > slope.dv.most();
 }
 
 bool SpanNet::one_valley(Vec3 from) const {
   if (!(weight_off_ < 1.0)) return false;
+  const SpanSlopes slope = slopes();
   const VectorBall r{middle_ - from, reach_};
   const auto sum = [](const Interval& a, const Interval& b) {
     return Interval{a.low + b.low, a.high + b.high};
   };
-  const Interval uu = sum(product_of(du_, du_), product_of(r, duu_));
-  const Interval vv = sum(product_of(dv_, dv_), product_of(r, dvv_));
-  const Interval uv = sum(product_of(du_, dv_), product_of(r, duv_));
+  const Interval uu = sum(product_of(slope.du, slope.du), product_of(r, slope.duu));
+  const Interval vv = sum(product_of(slope.dv, slope.dv), product_of(r, slope.dvv));
+  const Interval uv = sum(product_of(slope.du, slope.dv), product_of(r, slope.duv));
   const double across = std::max(std::abs(uv.low), std::abs(uv.high));
   return uu.low > 0.0 && vv.low > 0.0 && uu.low * vv.low > across * across;
 }

@@ -30,20 +30,31 @@ struct VectorBall {
   [[nodiscard]] double most() const { return norm(middle) + radius; }
 };
 
+/// Where derivatives lie, by parameters from 0 to 1.
+struct SpanSlopes {
+  VectorBall du, dv, duu, duv, dvv;
+};
+
+struct FlatFoot {
+  double least = 0.0;       ///< no place of the part is nearer
+  double u = 0.0, v = 0.0;  ///< of the part's parameters, from 0 to 1: about where it is nearest
+};
+
 class SpanNet {
  public:
   /// `u` and `v` inside one span each.
   SpanNet(const NurbsSurface& surface, const Range& u, const Range& v);
 
-  /// No place of the part is nearer: the flat part beside it, less how far control points are off.
-  [[nodiscard]] double least_distance(Vec3 from) const;
+  /// From the flat part beside it, less how far control points are off that.
+  [[nodiscard]] FlatFoot flat_foot(Vec3 from) const;
   /// The squared distance is convex over the parameters: one place of the part is nearest, and
   /// downhill leads there.
   [[nodiscard]] bool one_valley(Vec3 from) const;
-  [[nodiscard]] bool longer_along_u() const { return du_.most() > dv_.most(); }
+  [[nodiscard]] bool longer_along_u() const;
 
  private:
   void bound();
+  [[nodiscard]] SpanSlopes slopes() const;
 
   std::size_t columns_, rows_;
   std::vector<Vec3> points_;
@@ -52,7 +63,6 @@ class SpanNet {
   double uneven_ = 0.0;  ///< control points from the flat part
   double reach_ = 0.0;   ///< likewise from the middle
   double weight_off_ = 0.0;
-  VectorBall du_, dv_, duu_, duv_, dvv_;  ///< derivatives by parameters from 0 to 1
 };
 
 }  // namespace obvid::nearest_detail
