@@ -327,7 +327,7 @@ class BlendMaker {
     face.patches.push_back({"", ball_.face(i).patch().surface});
     const NearestOnModel nearest(face);
     const double u = i == 0 ? 0.0 : 1.0;
-    struct Measured {
+    struct MeasuredAlong {
       double distance = 0.0, angle = 0.0;
       Vec3 point;
     };
@@ -336,7 +336,8 @@ class BlendMaker {
       const NearestPlace foot = nearest.at(jet.point);
       const SurfaceJet there = evaluate(face.patches[0].surface, foot.u, foot.v);
       const Vec3 a = cross(jet.du, jet.dv), b = cross(there.du, there.dv);
-      return Measured{foot.distance, std::atan2(norm(cross(a, b)), std::abs(dot(a, b))), jet.point};
+      return MeasuredAlong{foot.distance, std::atan2(norm(cross(a, b)), std::abs(dot(a, b))),
+                           jet.point};
     };
     std::vector<double> places{out.along.from};
     const std::vector<double> knots = distinct(surface_.knots_v);
@@ -347,26 +348,27 @@ class BlendMaker {
       }
     }
     places.push_back(out.along.to);
-    std::vector<Measured> found;
+    std::vector<MeasuredAlong> found;
     for (const double v : places) {
       OBVID_TRY(may_go_on(run_));
       found.push_back(at(v));
     }
     out.measured = places.size();
-    const auto climb = [&](double Measured::*figure, double& value, Vec3& where) {
+    const auto climb = [&](double MeasuredAlong::*figure, double& value, Vec3& where) {
       const auto best = std::max_element(
           found.begin(), found.end(),
-          [&](const Measured& a, const Measured& b) { return a.*figure < b.*figure; });
+          [&](const MeasuredAlong& a, const MeasuredAlong& b) { return a.*figure < b.*figure; });
       const auto k = static_cast<std::size_t>(best - found.begin());
       const double low = places[k > 0 ? k - 1 : k],
                    high = places[std::min(k + 1, places.size() - 1)];
-      const Measured top = at(highest_place(low, high, [&](double v) { return at(v).*figure; }));
-      const Measured& most = top.*figure > (*best).*figure ? top : *best;
+      const MeasuredAlong top =
+          at(highest_place(low, high, [&](double v) { return at(v).*figure; }));
+      const MeasuredAlong& most = top.*figure > (*best).*figure ? top : *best;
       value = most.*figure;
       where = most.point;
     };
-    climb(&Measured::distance, out.distance, out.distance_at);
-    climb(&Measured::angle, out.angle, out.angle_at);
+    climb(&MeasuredAlong::distance, out.distance, out.distance_at);
+    climb(&MeasuredAlong::angle, out.angle, out.angle_at);
     return {};
   }
 

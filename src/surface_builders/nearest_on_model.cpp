@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest place of many patches: a tree of boxes around the spans, Newton's steps inside.
+// The nearest place of many patches: a tree of boxes around the spans, Newton's steps inside, and
+// spans divided until none can hold a nearer place.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "obvid/curve/internal/basis.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/surface_builders/internal/deviation.h"
+#include "span_net.h"
 
 namespace obvid {
 namespace nearest_detail {
@@ -22,6 +24,11 @@ constexpr std::uint32_t kLeafCells = 4;
 constexpr double kAlongNormal = 1e-6;
 /// Of the coordinates: shorter residuals are rounding and have no direction.
 constexpr double kRounding = 1e-12;
+/// Of the model's size: how much nearer a place may be that is not looked for.
+constexpr double kNotNearer = 1e-10;
+/// Parts that are divided for one point: far more than are needed but beside centres of curvature,
+/// where many places are equally near.
+constexpr int kMostDivided = 1'000;
 
 struct Cell {
   Box3 box;
@@ -88,27 +95,32 @@ struct Found {
   double u = 0.0, v = 0.0;
 };
 
-/// Newton's step downhill inside the cell; a coordinate that is pressed against its end stays.
+/// A cell, or a part of one, that may hold a nearer place than was found: at least that far off.
+struct Undecided {
+  double least = 0.0;
+  Cell cell;
+
+  friend bool operator<(const Undecided& a, const Undecided& b) { return a.least > b.least; }
+};
+
+struct Looked {
+  Found best;
+  std::vector<Undecided> undecided;
+};
+
+/// Newton's step inside the cell, downhill: to where the parabola is least that the squared
+/// distance looks like, or that of the distances along the tangents where that has no least place.
 static std::array<double, 2> step_of(const SurfaceJet& jet, Vec3 r, const Cell& cell, double u,
                                      double v) {
-  const double gu = dot(r, jet.du), gv = dot(r, jet.dv);
-  const bool u_fast = (u <= cell.u.from && gu > 0.0) || (u >= cell.u.to && gu < 0.0);
-  const bool v_fast = (v <= cell.v.from && gv > 0.0) || (v >= cell.v.to && gv < 0.0);
   const double uu = dot(jet.du, jet.du), vv = dot(jet.dv, jet.dv), uv = dot(jet.du, jet.dv);
-  const double huu = uu + dot(r, jet.duu), hvv = vv + dot(r, jet.dvv), huv = uv + dot(r, jet.duv);
-  const auto alone = [](double g, double h, double gauss) {
-    const double by = h > 0.0 ? h : gauss;
-    return by > 0.0 ? -g / by : 0.0;
-  };
-  if (u_fast && v_fast) return {0.0, 0.0};
-  if (u_fast) return {0.0, alone(gv, hvv, vv)};
-  if (v_fast) return {alone(gu, huu, uu), 0.0};
-  double a = huu, b = huv, c = hvv;
-  if (!(a > 0.0 && a * c - b * b > 0.0)) a = uu, b = uv, c = vv;  // downhill all the same
-  const double det = a * c - b * b;
-  constexpr double kOneDirection = 1e-14;  // of a c: the two directions are one
-  if (!(det > kOneDirection * a * c)) return {alone(gu, a, uu), alone(gv, c, vv)};
-  return {-(c * gu - b * gv) / det, -(a * gv - b * gu) / det};
+  Bowl bowl{uu + dot(r, jet.duu), uv + dot(r, jet.duv), vv + dot(r, jet.dvv), dot(r, jet.du),
+            dot(r, jet.dv)};
+  if (!(bowl.a > 0.0 && bowl.a * bowl.c - bowl.b * bowl.b > 0.0)) {
+    bowl.a = uu;
+    bowl.b = uv;
+    bowl.c = vv;
+  }
+  return bowl.lowest_in({cell.u.from - u, cell.u.to - u}, {cell.v.from - v, cell.v.to - v});
 }
 
 }  // namespace nearest_detail
@@ -117,6 +129,7 @@ struct NearestOnModel::Tree {
   std::vector<const NurbsSurface*> patches;
   std::vector<nearest_detail::Cell> cells;
   std::vector<nearest_detail::Branch> branches;
+  double model_size = 0.0;
 
   std::uint32_t build(std::uint32_t first, std::uint32_t count) {
     const auto number = static_cast<std::uint32_t>(branches.size());
@@ -147,53 +160,95 @@ struct NearestOnModel::Tree {
     return number;
   }
 
-  void look_inside(const nearest_detail::Cell& cell, Vec3 p, nearest_detail::Found& best) const {
-    const NurbsSurface& s = *patches[cell.patch];
-    const auto found_at = [&](double u, double v) {
-      const Vec3 r = evaluate(s, u, v).point - p;
-      return nearest_detail::Found{dot(r, r), cell.patch, u, v};
+  /// From a place of the cell downhill to a nearer one. True: there is no nearer one in the cell,
+  /// if it has one valley.
+  bool go_down(const nearest_detail::Cell& cell, Vec3 p, double u, double v,
+               nearest_detail::Found& best) const {
+    struct Step {
+      double u = 0.0, v = 0.0;
+      SurfaceJet jet;
+      double distance = 0.0;
     };
-    nearest_detail::Found here = found_at(cell.u.at(0.5), cell.v.at(0.5));
-    for (const double a : {0.0, 1.0}) {
-      for (const double b : {0.0, 1.0}) {
-        const nearest_detail::Found corner = found_at(cell.u.at(a), cell.v.at(b));
-        if (corner.square < here.square) here = corner;
-      }
-    }
+    const auto at_place = [&](double to_u, double to_v) {
+      Step out{std::clamp(to_u, cell.u.from, cell.u.to),
+               std::clamp(to_v, cell.v.from, cell.v.to),
+               {},
+               0.0};
+      // derivatives of this span, not of one that begins at its end
+      out.jet =
+          evaluate(*patches[cell.patch], std::min(out.u, std::nextafter(cell.u.to, cell.u.from)),
+                   std::min(out.v, std::nextafter(cell.v.to, cell.v.from)));
+      out.distance = norm(out.jet.point - p);
+      return out;
+    };
     constexpr int kMostSteps = 30, kMostHalvings = 12;
     constexpr double kLastStep = 1e-8;  // of a cell: the next one is its square
     // what is no rise, but the rounding of coordinates
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
                             std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    const auto risen = [rounding](double square, double before) {
-      return !(std::sqrt(square) <= std::sqrt(before) + rounding);
-    };
-    for (int step = 0; step < kMostSteps; ++step) {
-      const SurfaceJet jet = evaluate(s, here.u, here.v);
-      auto [du, dv] = nearest_detail::step_of(jet, jet.point - p, cell, here.u, here.v);
+    Step here = at_place(u, v);
+    bool arrived = false;
+    for (int step = 0; step < kMostSteps && !arrived; ++step) {
+      auto [du, dv] = nearest_detail::step_of(here.jet, here.jet.point - p, cell, here.u, here.v);
       const bool last = std::abs(du) <= kLastStep * cell.u.length() &&
                         std::abs(dv) <= kLastStep * cell.v.length();
-      nearest_detail::Found next;
+      Step next;
+      const auto risen = [&] { return !(next.distance <= here.distance + rounding); };
       for (int halving = 0; halving < kMostHalvings; ++halving) {
-        next = found_at(std::clamp(here.u + du, cell.u.from, cell.u.to),
-                        std::clamp(here.v + dv, cell.v.from, cell.v.to));
-        if (!risen(next.square, here.square)) break;
+        next = at_place(here.u + du, here.v + dv);
+        if (!risen()) break;
         du /= 2.0;
         dv /= 2.0;
       }
-      if (risen(next.square, here.square)) break;
+      if (risen()) break;
       here = next;
-      if (last) break;
+      arrived = last;
     }
-    if (here.square < best.square) best = here;
+    const double square = here.distance * here.distance;
+    if (square < best.square) best = {square, cell.patch, here.u, here.v};
+    return arrived;
   }
 
-  void search(std::uint32_t number, Vec3 p, nearest_detail::Found& best) const {
+  [[nodiscard]] double decided_from(const nearest_detail::Found& best) const {
+    return std::sqrt(best.square) - nearest_detail::kNotNearer * model_size;
+  }
+
+  void look_inside(const nearest_detail::Cell& cell, Vec3 p, nearest_detail::Looked& looked) const {
+    const nearest_detail::SpanNet net(*patches[cell.patch], cell.u, cell.v);
+    const auto [least, u, v] = net.flat_foot(p);
+    if (least >= decided_from(looked.best)) return;
+    const bool arrived = go_down(cell, p, cell.u.at(u), cell.v.at(v), looked.best);
+    if (least >= decided_from(looked.best) || (arrived && net.one_valley(p))) return;
+    looked.undecided.push_back({least, cell});
+    std::push_heap(looked.undecided.begin(), looked.undecided.end());
+  }
+
+  /// Divides what may hold a nearer place, from the one that may hold the nearest on.
+  void decide(Vec3 p, nearest_detail::Looked& looked) const {
+    for (int divided = 0; !looked.undecided.empty(); ++divided) {
+      std::pop_heap(looked.undecided.begin(), looked.undecided.end());
+      const auto [least, cell] = looked.undecided.back();
+      looked.undecided.pop_back();
+      if (least >= decided_from(looked.best) || divided == nearest_detail::kMostDivided) return;
+      const bool along_u =
+          nearest_detail::SpanNet(*patches[cell.patch], cell.u, cell.v).longer_along_u();
+      nearest_detail::Cell first = cell, second = cell;
+      Range& before = along_u ? first.u : first.v;
+      Range& after = along_u ? second.u : second.v;
+      before.to = after.from = before.at(0.5);
+      if (!(before.length() > 0.0 && after.length() > 0.0)) continue;
+      look_inside(first, p, looked);
+      look_inside(second, p, looked);
+    }
+  }
+
+  void search(std::uint32_t number, Vec3 p, nearest_detail::Looked& looked) const {
+    const nearest_detail::Found& best = looked.best;
     const nearest_detail::Branch& branch = branches[number];
     if (branch.left == 0) {
       for (std::uint32_t k = branch.first; k < branch.first + branch.count; ++k) {
         if (nearest_detail::square_from(cells[k].box, p) < best.square)
-          look_inside(cells[k], p, best);
+          look_inside(cells[k], p, looked);
       }
       return;
     }
@@ -204,8 +259,8 @@ struct NearestOnModel::Tree {
       std::swap(near, far);
       std::swap(first, second);
     }
-    if (near < best.square) search(first, p, best);
-    if (far < best.square) search(second, p, best);
+    if (near < best.square) search(first, p, looked);
+    if (far < best.square) search(second, p, looked);
   }
 };
 
@@ -219,14 +274,20 @@ NearestOnModel::NearestOnModel(const SurfaceModel& model) : tree_(new Tree) {
     nearest_detail::add_cells(*tree_->patches[i], static_cast<std::uint32_t>(i), parts,
                               tree_->cells);
   }
-  if (!tree_->cells.empty()) tree_->build(0, static_cast<std::uint32_t>(tree_->cells.size()));
+  if (tree_->cells.empty()) return;
+  tree_->build(0, static_cast<std::uint32_t>(tree_->cells.size()));
+  tree_->model_size = tree_->branches.front().box.diagonal();
 }
 
 NearestOnModel::~NearestOnModel() = default;
 
 NearestPlace NearestOnModel::at(Vec3 point) const {
-  nearest_detail::Found found;
-  if (!tree_->branches.empty()) tree_->search(0, point, found);
+  nearest_detail::Looked looked;
+  if (!tree_->branches.empty()) {
+    tree_->search(0, point, looked);
+    tree_->decide(point, looked);
+  }
+  const nearest_detail::Found& found = looked.best;
   NearestPlace out;
   if (!std::isfinite(found.square)) return out;
   out.patch = found.patch;

@@ -89,6 +89,105 @@ TEST(NearestOnModel, FindsTheNearestOfManyPlacesLookedAtOneByOne) {
   }
 }
 
+/// One patch of 7 x 7 control points, cubic with inner knots that lie close to one end.
+NurbsSurface uneven_cubic() {
+  NurbsSurface s;
+  s.degree_u = s.degree_v = 3;
+  s.knots_u = s.knots_v = {0, 0, 0, 0, 0.02, 0.05, 0.6, 1, 1, 1, 1};
+  s.points.resize(49);
+  return s;
+}
+
+/// Waves higher than long, 0.3 wide: seen from beside, several are nearly equally near.
+NurbsSurface thin_waves() {
+  NurbsSurface s = uneven_cubic();
+  for (int j = 0; j < 7; ++j) {
+    for (int i = 0; i < 7; ++i) {
+      const double height = i % 2 == 0 ? 1.0 : -1.0;
+      s.points[static_cast<std::size_t>(7 * j + i)] = {0.25 * i, 0.05 * j, height + 0.03 * j};
+    }
+  }
+  return s;
+}
+
+/// A quarter of a cylinder of radius 1 about z whose weights differ by a factor of 400.
+NurbsSurface uneven_cylinder() {
+  NurbsSurface s;
+  s.degree_u = 2;
+  s.degree_v = 1;
+  s.knots_u = {0, 0, 0, 1, 1, 1};
+  s.knots_v = {0, 0, 1, 1};
+  s.points = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}};
+  // w0 w2 / w1^2 = 2 makes a quarter circle
+  s.weights = {1, 20 * std::sqrt(0.5), 400, 1, 20 * std::sqrt(0.5), 400};
+  return s;
+}
+
+/// All of one border is a point, and beside it the sheet bends back over itself.
+NurbsSurface degenerate() {
+  NurbsSurface s = uneven_cubic();
+  for (int j = 0; j < 7; ++j) {
+    for (int i = 0; i < 7; ++i) {
+      const double a = 0.5 * (i - 3), r = 0.4 * j * (6.5 - j) / 3.0;
+      s.points[static_cast<std::size_t>(7 * j + i)] = {r * std::cos(a), r * std::sin(a),
+                                                       0.3 * std::sin(2.0 * j)};
+    }
+  }
+  return s;
+}
+
+TEST(NearestOnModel, IsNeverFartherThanARasterNorRunsAheadOfThePoint) {
+  std::mt19937 random(19);
+  for (const NurbsSurface& s : {thin_waves(), uneven_cylinder(), degenerate()}) {
+    const SurfaceModel model = model_of({s});
+    const NearestOnModel nearest(model);
+    std::vector<Vec3> raster;
+    constexpr int kRaster = 200;  // also close to the beginnings, where the knots are
+    for (int j = 0; j <= kRaster; ++j) {
+      for (int i = 0; i <= kRaster; ++i) {
+        const double u = std::pow(i / double{kRaster}, 2), v = std::pow(j / double{kRaster}, 2);
+        raster.push_back(evaluate(s, u, v).point);
+      }
+    }
+    std::uniform_real_distribution<double> part(0.0, 1.0), beside(-1.0, 1.0);
+    const auto off = [&] { return Vec3{beside(random), beside(random), beside(random)}; };
+    for (int line = 0; line < 40; ++line) {
+      const double size = line % 2 == 0 ? 1.0 : 0.05;
+      const Vec3 from = evaluate(s, part(random), std::pow(part(random), 3)).point + size * off();
+      const Vec3 by = 0.002 * size * off();
+      double before = nearest.at(from).distance;
+      for (int k = 0; k < 20; ++k) {
+        const Vec3 p = from + static_cast<double>(k) * by;
+        const NearestPlace found = nearest.at(p);
+        EXPECT_NEAR(norm(evaluate(s, found.u, found.v).point - p), found.distance, 1e-12);
+        EXPECT_LE(std::abs(found.distance - before), norm(by) + 1e-9) << line;
+        before = found.distance;
+        if (k % 10 != 0) continue;
+        double least = HUGE_VAL;
+        for (const Vec3& q : raster) least = std::min(least, norm(q - p));
+        EXPECT_LE(found.distance, least + 1e-9) << line;
+      }
+    }
+  }
+}
+
+TEST(NearestOnModel, OfAPieceOfACylinderIsThatOfAnArcOrOfItsEnds) {
+  const SurfaceModel model = model_of({uneven_cylinder()});
+  const NearestOnModel nearest(model);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(-2.0, 3.0);
+  for (int k = 0; k < 300; ++k) {
+    const Vec3 p{place(random), place(random), place(random)};
+    const double along = std::max({-p.z, p.z - 2.0, 0.0});
+    const double round = p.x >= 0.0 && p.y >= 0.0
+                             ? std::abs(std::hypot(p.x, p.y) - 1.0)
+                             : std::min(std::hypot(p.x - 1.0, p.y), std::hypot(p.x, p.y - 1.0));
+    EXPECT_NEAR(nearest.at(p).distance, std::hypot(along, round), 1e-9) << k;
+  }
+  // as near everywhere: an end to the search all the same
+  EXPECT_NEAR(nearest.at({0, 0, 1}).distance, 1.0, 1e-12);
+}
+
 TEST(NearestOnModel, SaysWhatLiesBesideTheSurface) {
   const SurfaceModel model = model_of({flat(0, 1, 0), flat(2, 3, 0)});
   const NearestOnModel nearest(model);

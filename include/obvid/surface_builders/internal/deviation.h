@@ -23,8 +23,9 @@ struct NearestPlace {
 };
 
 /// Looks for the nearest places of a model, many times: spans of all patches in a tree of boxes,
-/// and in those that may hold a nearer place Newton's steps. The place is one of the model, so the
-/// true distance is not larger; that none is nearer is not proved inside a box. Reentrant.
+/// Newton's steps in those that may hold a nearer place, and such spans divided until bounds leave
+/// none that is nearer by more than 1e-10 of the model's size, or 1,000 are divided (beside centres
+/// of curvature). The place is one of the model, so the true distance is not larger. Reentrant.
 class NearestOnModel {
  public:
   /// `model` has to live as long as this, with one patch or more that `check` accepts.
