@@ -28,6 +28,9 @@ constexpr int kMostHalvingsOfParts = 10;
 /// The plane that tells wet cells from dry ones lies this far below the water, of the size and of
 /// the rounding of heights: a face in the waterplane is dry, and not cut.
 constexpr double kBelowOfSize = 1e-12, kBelowOfRounding = 16.0;
+/// Roundings of the wetted surface: a waterplane that is no more is what the parts of a closed
+/// surface, which cancel, leave of their sum.
+constexpr double kCancelled = 256.0;
 
 Integrals operator+(Integrals a, const Integrals& b) {
   for (std::size_t i = 0; i < kIntegrals; ++i) a[i] += b[i];
@@ -342,6 +345,10 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
     }
     all.add(part);
   }
+  const double nothing = kCancelled * std::numeric_limits<double>::epsilon();
+  if (std::abs(all.value[kFlat]) <= nothing * all.value[kArea]) {
+    for (const std::size_t k : {kFlat, kFlatX, kFlatY, kFlatYy}) all.value[k] = 0.0;
+  }
   // with the outward normal the flux of (0, 0, 1) through the hull is less than nothing
   const double flat_sign = -1.0, sides = options.mirror ? 2.0 : 1.0;
   const auto figure = [&](std::size_t k, double sign) {
@@ -358,7 +365,8 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
   out.centre_z = centre(kMomentZ, kVolume, origin.z);
   out.plane_x = centre(kFlatX, kFlat, origin.x);
   out.plane_y = options.mirror ? MeasuredFigure{} : centre(kFlatY, kFlat, origin.y);
-  const double off = options.mirror ? 0.0 : out.plane_y.value - origin.y;
+  const bool in_middle = options.mirror || all.value[kFlat] == 0.0;
+  const double off = in_middle ? 0.0 : out.plane_y.value - origin.y;
   out.inertia_x = {sides * (flat_sign * all.value[kFlatYy] -
                             (off == 0.0 ? 0.0 : off * off * flat_sign * all.value[kFlat])),
                    sides * (all.error[kFlatYy] + off * off * all.error[kFlat])};

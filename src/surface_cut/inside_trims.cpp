@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/surface_cut/internal/inside_trims.h"
+#include "inside_trims.h"
 
 #include <algorithm>
 #include <memory>
+#include <tuple>
 #include <utility>
 
+#include "obvid/geom/internal/box.h"
 #include "obvid/surface/internal/trim.h"
 #include "trim_line.h"
 
@@ -23,11 +25,15 @@ class TrimClipper {
   }
 
   void clip(const SectionBranch& branch, std::vector<SectionBranch>& out) const {
+    const auto take = [&](SectionBranch part) {
+      once_at_borders(part);
+      if (part.points.size() > 1) out.push_back(std::move(part));
+    };
     std::vector<Dense> places = dense(branch);
     const auto outside =
         std::find_if(places.begin(), places.end(), [](const Dense& one) { return !one.inside; });
     if (outside == places.end()) {
-      out.push_back(branch);
+      take(branch);
       return;
     }
     if (branch.closed) {
@@ -42,13 +48,17 @@ class TrimClipper {
       SectionBranch part;
       part.gap = branch.gap;
       part.deviation = branch.deviation;
-      if (i > 0) add_end(places[i].place, places[i - 1].place, part.points);
+      if (i > 0 && !places[i - 1].place.stands_again) {
+        add_end(places[i].place, places[i - 1].place, part.points);
+      }
       std::size_t end = i;
       for (; end < places.size() && places[end].inside; ++end) {
         if (places[end].given) part.points.push_back(places[end].place);
       }
-      if (end < places.size()) add_end(places[end - 1].place, places[end].place, part.points);
-      if (part.points.size() > 1) out.push_back(std::move(part));
+      if (end < places.size() && !places[end - 1].place.stands_again) {
+        add_end(places[end - 1].place, places[end].place, part.points);
+      }
+      take(std::move(part));
       i = end;
     }
   }
@@ -73,7 +83,7 @@ class TrimClipper {
       out.push_back({points[i], true, is_there(points[i])});
       if (i + 1 == points.size() && !branch.closed) break;
       const SectionPoint& next = points[(i + 1) % points.size()];
-      if (next.patch != points[i].patch || !regions_[next.patch]) continue;
+      if (points[i].stands_again || !regions_[next.patch]) continue;
       const NurbsSurface& s = model_.patches[next.patch].surface;
       for (std::size_t k = 1; k < parts; ++k) {
         const double part = static_cast<double>(k) / static_cast<double>(parts);
@@ -90,7 +100,6 @@ class TrimClipper {
   /// The place where the trim is crossed between one inside and one outside.
   void add_end(const SectionPoint& in, const SectionPoint& beyond,
                std::vector<SectionPoint>& into) const {
-    if (in.patch != beyond.patch) return;  // what is inside lies on the border already
     constexpr int kHalvings = 60;
     const NurbsSurface& s = model_.patches[in.patch].surface;
     const auto at = [&](double part) {
@@ -103,7 +112,18 @@ class TrimClipper {
       const double middle = 0.5 * (low + high);
       (is_there(at(middle)) ? low : high) = middle;
     }
-    if (low > 0.0) into.push_back(at(low));
+    into.push_back(low > 0.0 ? at(low) : in);
+  }
+
+  static void once_at_borders(SectionBranch& part) {
+    std::vector<SectionPoint> once;
+    for (std::size_t i = 0; i < part.points.size(); ++i) {
+      const bool goes_on = i + 1 < part.points.size() || part.closed;
+      if (goes_on && part.points[i].stands_again) continue;
+      once.push_back(part.points[i]);
+      once.back().stands_again = false;
+    }
+    part.points = std::move(once);
   }
 
   const SurfaceModel& model_;
@@ -111,15 +131,107 @@ class TrimClipper {
   std::vector<std::unique_ptr<TrimRegion>> regions_;
 };
 
+bool is_longer(const SectionBranch& branch, double length) {
+  Box3 box;
+  for (const SectionPoint& p : branch.points) box.add(p.point);
+  return box.diagonal() > length;
+}
+
+/// Open branches joined where their ends meet, the nearest first.
+class EndJoiner {
+ public:
+  EndJoiner(std::vector<SectionBranch> branches, double meet)
+      : branches_(std::move(branches)), meet_(meet), mate_(2 * branches_.size(), kNobody) {}
+
+  std::vector<SectionBranch> made() {
+    find_mates();
+    std::vector<SectionBranch> out;
+    std::vector<bool> seen(branches_.size(), false);
+    const auto walk_from = [&](std::size_t end) {
+      if (!seen[end / 2]) out.push_back(walked(end, seen));
+    };
+    // open chains from their free ends first, then rings
+    for (std::size_t end = 0; end < mate_.size(); ++end) {
+      if (mate_[end] == kNobody) walk_from(end);
+    }
+    for (std::size_t i = 0; i < branches_.size(); ++i) walk_from(2 * i);
+    return out;
+  }
+
+ private:
+  static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
+
+  /// Ends by number: 2 * branch, and 1 more for the last place.
+  [[nodiscard]] Vec3 place(std::size_t end) const {
+    const std::vector<SectionPoint>& points = branches_[end / 2].points;
+    return (end % 2 == 0 ? points.front() : points.back()).point;
+  }
+
+  void find_mates() {
+    std::vector<std::size_t> ends;
+    for (std::size_t i = 0; i < branches_.size(); ++i) {
+      if (!branches_[i].closed) ends.insert(ends.end(), {2 * i, 2 * i + 1});
+    }
+    std::sort(ends.begin(), ends.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair(place(a).x, a) < std::pair(place(b).x, b);
+    });
+    std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      for (std::size_t k = i + 1; k < ends.size(); ++k) {
+        const std::size_t a = std::min(ends[i], ends[k]), b = std::max(ends[i], ends[k]);
+        if (place(ends[k]).x - place(ends[i]).x > meet_) break;
+        const double far = norm(place(a) - place(b));
+        // a branch no longer than that does not close
+        if (far <= meet_ && (a / 2 != b / 2 || is_longer(branches_[a / 2], meet_))) {
+          pairs.emplace_back(far, a, b);
+        }
+      }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    for (const auto& [far, a, b] : pairs) {
+      if (mate_[a] != kNobody || mate_[b] != kNobody) continue;
+      mate_[a] = b;
+      mate_[b] = a;
+    }
+  }
+
+  SectionBranch walked(std::size_t start, std::vector<bool>& seen) {
+    SectionBranch whole;
+    whole.closed = branches_[start / 2].closed;
+    for (std::size_t here = start;;) {
+      seen[here / 2] = true;
+      SectionBranch& branch = branches_[here / 2];
+      if (here % 2 == 1) std::reverse(branch.points.begin(), branch.points.end());
+      whole.points.insert(whole.points.end(), branch.points.begin(), branch.points.end());
+      whole.gap = std::max(whole.gap, branch.gap);
+      whole.deviation = std::max(whole.deviation, branch.deviation);
+      const std::size_t next = mate_[here ^ 1U];
+      if (next == kNobody) return whole;
+      const Vec3 first = next == start ? whole.points.front().point : place(next);
+      whole.gap = std::max(whole.gap, norm(whole.points.back().point - first));
+      whole.points.pop_back();
+      if (next == start) {
+        whole.closed = true;
+        return whole;
+      }
+      here = next;
+    }
+  }
+
+  std::vector<SectionBranch> branches_;
+  double meet_;
+  std::vector<std::size_t> mate_;
+};
+
 }  // namespace
 
-PlaneSection inside_trims(PlaneSection section, const SurfaceModel& model, const CutPlane& plane) {
-  if (!is_trimmed(model)) return section;
+std::vector<SectionBranch> inside_trims(const std::vector<SectionBranch>& branches,
+                                        const SurfaceModel& model, const CutPlane& plane,
+                                        double meet) {
   const TrimClipper clipper(model, plane);
   std::vector<SectionBranch> inside;
-  for (const SectionBranch& branch : section.branches) clipper.clip(branch, inside);
-  section.branches = std::move(inside);
-  return section;
+  for (const SectionBranch& branch : branches) clipper.clip(branch, inside);
+  return EndJoiner(std::move(inside), meet).made();
 }
 
 }  // namespace obvid

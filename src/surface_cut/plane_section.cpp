@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "branches.h"
+#include "inside_trims.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/surface/internal/topology.h"
 
@@ -43,7 +44,8 @@ class Section {
         plane_(plane),
         beside_(std::max(kBesidePlane * parts.size, kRoundingsBeside * rounding())),
         foot_(plane_, rounding()),
-        tolerance_(kForBetween * options.tolerance) {}
+        tolerance_(kForBetween * options.tolerance),
+        trimmed_(is_trimmed(parts.model)) {}
 
   Result<PlaneSection> made(const RunContext& run) {
     find_borders_in_plane();
@@ -65,6 +67,9 @@ class Section {
     OBVID_TRY(may_go_on(run));
     walk_all();
     add_borders_in_plane();
+    if (trimmed_) {
+      out_.branches = inside_trims(out_.branches, parts_.model, plane_, kEndsMeet * parts_.size);
+    }
     for (SectionBranch& branch : out_.branches) tidy(branch);
     tell_touching();
     return std::move(out_);
@@ -254,7 +259,7 @@ class Section {
       const EndNumber next = mate_[out];
       if (next != kNoEnd) {
         branch.gap = std::max(branch.gap, norm(at_[out].point - at_[next].point));
-        places.pop_back();
+        leave(places);
       }
       branch.points.insert(branch.points.end(), places.begin(), places.end());
       branch.closed = next == start;
@@ -278,6 +283,16 @@ class Section {
       return;
     }
     out_.branches.push_back(std::move(branch));
+  }
+
+  /// The last place is the first one of what comes next: there once, but for trims, which need it
+  /// with the parameters of both patches.
+  void leave(std::vector<SectionPoint>& places) const {
+    if (trimmed_) {
+      places.back().stands_again = true;
+    } else {
+      places.pop_back();
+    }
   }
 
   /// Whether the tangent plane is the cutting one, as far as a branch beside it can tell.
@@ -319,16 +334,23 @@ class Section {
         }
         if (at == from && turn == 0) {
           branch.closed = true;
-          branch.points.pop_back();
+          leave(branch.points);
           break;
         }
         if (turn == 0) {
-          std::reverse(branch.points.begin(), branch.points.end());
+          turn_round(branch.points);
           at = from;
         }
       }
       out_.branches.push_back(std::move(branch));
     }
+  }
+  static void turn_round(std::vector<SectionPoint>& places) {
+    std::reverse(places.begin(), places.end());
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      places[i].stands_again = places[i + 1].stands_again;
+    }
+    places.back().stands_again = false;
   }
   [[nodiscard]] SectionPoint middle_of(const TopologyEdge& edge) const {
     const EdgeUse& use = edge.uses.front();
@@ -389,7 +411,7 @@ class Section {
     }
     // of closed ones and joints the first place is there already
     if (!along) std::reverse(places.begin(), places.end());
-    if (!branch.points.empty()) places.erase(places.begin());
+    if (!branch.points.empty()) leave(branch.points);
     branch.points.insert(branch.points.end(), places.begin(), places.end());
   }
 
@@ -421,6 +443,7 @@ class Section {
   double beside_;
   PlaneFoot foot_;
   double tolerance_;
+  bool trimmed_;
   std::vector<Strand> strands_;
   std::vector<EndNumber> mate_;
   std::vector<SectionPoint> at_;  ///< of each end

@@ -99,6 +99,56 @@ class Fillets(trims_test.Trims):
                     self.assertAlmostEqual(area / truth, 1.0, delta=2e-5)  # areas of whole patches are good to some 1e-4
                     self.assertTrue(floor["trims"] and wall["trims"])
 
+    def sections(self, source, *planes):
+        lines = self.work / "lines.json"
+        self.run_it("surface", "cut", source, *(part for one in planes for part in ("--plane", one)), "-o", lines, "-q")
+        return [one["branches"] for one in json.loads(lines.read_text())["sections"]]
+
+    def test_sections_of_rounded_edges_are_one_branch(self):
+        """Both plates and the arc between them, from end to end."""
+        length, width, r = 100.0, 60.0, 10.0
+        for degrees in (60, 120):
+            angle = math.radians(degrees)
+            foot, up = r / math.tan(angle / 2), np.array([math.cos(angle), math.sin(angle)])
+            _, _, out = self.filleted(corner(angle, length, width), "--faces", "floor,wall", "--radius", r)
+            stations = (10.0, 31.7, 50.0, 75.0, 99.0)
+            for at, branches in zip(stations, self.sections(out, *(f"0,1,0,{at}" for at in stations))):
+                with self.subTest(degrees=degrees, at=at):
+                    self.assertEqual(len(branches), 1)
+                    self.assertFalse(branches[0]["closed"])
+                    places = np.array([p[:3] for p in branches[0]["points"]])
+                    self.assertLessEqual(np.abs(places[:, 1] - at).max(), 1e-9)
+                    line = places[:, [0, 2]]
+                    if abs(line[0, 1]) > 1e-9:
+                        line = line[::-1]
+                    np.testing.assert_allclose(line[0], [width, 0.0], atol=1e-9)
+                    np.testing.assert_allclose(line[-1], width * up, atol=1e-9)
+                    for x, z in line:
+                        off = [abs(z) if x >= foot - 1e-9 else 1.0, abs(math.hypot(x - foot, z - r) - r),
+                               abs(up[0] * z - up[1] * x) if up @ (x, z) >= foot - 1e-9 else 1.0]
+                        self.assertLessEqual(min(off), 1e-9)
+                    for touch in (np.array([foot, 0.0]), foot * up):
+                        self.assertLessEqual(np.linalg.norm(line - touch, axis=1).min(), 1e-8)
+                    steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
+                    self.assertGreater(steps.min(), 0.0)
+                    self.assertAlmostEqual(steps.sum(), 2 * (width - foot) + r * (math.pi - angle), delta=1e-3 * r)
+            aslant = self.sections(out, "0.3,1,0.2,60")[0]
+            self.assertEqual([one["closed"] for one in aslant], [False])
+
+    def test_sections_go_round_blends_that_close(self):
+        """A tube whose floor is rounded inside: down, round, across, round, up; level cuts are circles."""
+        big, r = 2.0, 0.5
+        _, _, out = self.filleted([disc(5.0, 0.0), tube(big, 0.0, 4.0)], "--faces", "cap,tube", "--radius", r, "--sides", "front,back")
+        upright, through_blend, above = self.sections(out, "0,1,0,0.3", "0,0,1,0.2", "0,0,1,2")
+        self.assertEqual([one["closed"] for one in upright], [False])
+        ends = sorted((upright[0]["points"][0], upright[0]["points"][-1]))
+        x = math.sqrt(big ** 2 - 0.09)
+        np.testing.assert_allclose([p[:3] for p in ends], [[-x, 0.3, 4.0], [x, 0.3, 4.0]], atol=1e-9)
+        for circle, radius in ((through_blend, big - r + math.sqrt(r ** 2 - 0.09)), (above, big)):
+            self.assertEqual([one["closed"] for one in circle], [True])
+            for p in circle[0]["points"]:
+                self.assertAlmostEqual(math.hypot(p[0], p[1]), radius, delta=2e-6)
+
     def test_many_edges_beside_each_other_are_all_found_whichever_face_is_first(self):
         """A roof of twelve ridges through a plate: 24 edges, a cylinder along each, and 25 strips of the plate."""
         periods, r = 12, 0.05

@@ -11,6 +11,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -157,7 +158,35 @@ class Trims(unittest.TestCase):
         off = [p[2] - a - b * p[0] for line in self.outlines(part, 10.0) for p in line]
         self.assertLessEqual(max(off), 1.3e-5)  # 1e-6 of the size
 
+    def test_half_of_what_lies_on_both_sides_is_told(self):
+        r = 2.256
+        source = self.work / "in.json"
+        for shift, reach in ((0.0, r), (0.75 * r, 0.25 * r), (-0.75 * r, 0.25 * r)):
+            told = sphere(r)
+            told["points"] = [[x, y + shift, z] for x, y, z in told["points"]]
+            source.write_text(json.dumps(model(told)))
+            said = self.run_it("surface", "cut", source, "--draught", "0.7", "--half").stderr
+            self.assertIn("beyond y = 0", said)
+            self.assertAlmostEqual(float(re.search(r"reaches (\S+) mm", said)[1]), reach, delta=0.01 * r)
+            self.assertNotIn("beyond y = 0", self.run_it("surface", "cut", source, "--draught", "0.7").stderr)
+        # beside the plane, by no more than the tolerance over it
+        for over, tolerance, told_of in ((0.0, (), False), (1e-3, (), True), (1e-3, ("--tolerance", "0.01"), False)):
+            told = sphere(r)
+            told["points"] = [[x, y + r - over, z] for x, y, z in told["points"]]
+            source.write_text(json.dumps(model(told)))
+            said = self.run_it("surface", "cut", source, "--draught", "0.7", "--half", *tolerance).stderr
+            self.assertEqual("beyond y = 0" in said, told_of, said)
+
     def test_two_planes_cut_twice(self):
+        source = self.work / "in.json"
+        source.write_text(json.dumps(model(plane(4.0, 3.0))))
+        for planes, rows in ((("x=1",), ["left "]), (("x=1", "1,1,0,3"), ["left by the plane 1 ", "left by the plane 2 "])):
+            said = self.run_it("surface", "trim", source, *(part for one in planes for part in ("--plane", one)), "--keep", "above",
+                               "-o", self.work / "out.json").stdout
+            found = [line for line in said.splitlines() if line.startswith("left")]
+            self.assertEqual(len(found), len(rows), said)
+            for line, row in zip(found, rows):
+                self.assertTrue(line.startswith(row), line)
         _, path = self.trimmed(model(plane(4.0, 3.0)), "--plane", "x=1", "--plane", "1,1,0,3", "--keep", "above")
         # right of x = 1 and above x + y = 3: the rest of 3 x 3 without a triangle of 2 x 2
         self.assertAlmostEqual(self.area(path)[0], 9.0 - 2.0, delta=1e-9)

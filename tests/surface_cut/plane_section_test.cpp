@@ -238,6 +238,12 @@ TEST(DisplacedVolume, OfWhatDoesNotReachTheWaterIsNothing) {
   const auto below = displaced(sphere(1.0), {5.0, false});
   EXPECT_NEAR(below->volume.value, 4.0 / 3.0 * kPi, 1e-11);
   EXPECT_TRUE(std::isnan(below->plane_x.value));
+  for (const double r : {1e-3, 1.0, 2.256, 1e5}) {  // nothing, not what rounding leaves of it
+    const auto sunk = displaced(sphere(r), {1.5 * r, false});
+    ASSERT_TRUE(sunk);
+    EXPECT_EQ(sunk->waterplane.value, 0.0);
+    EXPECT_EQ(sunk->inertia_x.value, 0.0);
+  }
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "obvid/core/internal/parallel.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/pipeline/fit.h"
-#include "obvid/surface_cut/internal/inside_trims.h"
 
 namespace obvid {
 namespace {
@@ -156,6 +155,34 @@ void add_warnings(MadeSurfaceCut& made) {
   }
 }
 
+/// units: how far a model reaches on that side of y = 0 where it reaches less far, at places of a
+/// raster in each span; 0 where its control points show that it is no more than `enough`.
+double lesser_reach_across(const SurfaceModel& model, double enough) {
+  constexpr std::size_t kPlaces = 8;  // a span
+  const auto less = [](const Box3& box) { return std::max(0.0, std::min(-box.low.y, box.high.y)); };
+  const auto raster = [](const std::vector<double>& knots, Range all) {
+    std::vector<double> out{all.from};
+    for (std::size_t i = 1; i < knots.size(); ++i) {
+      if (!(knots[i] > knots[i - 1]) || knots[i - 1] < all.from || knots[i] > all.to) continue;
+      for (std::size_t k = 1; k <= kPlaces; ++k) {
+        out.push_back(Range{knots[i - 1], knots[i]}.at(static_cast<double>(k) / kPlaces));
+      }
+    }
+    return out;
+  };
+  Box3 hull, there;
+  for (const NurbsSurface* surface : surfaces_of(model)) hull.add_all(surface->points);
+  if (less(hull) <= enough) return 0.0;
+  for (const NurbsSurface* surface : surfaces_of(model)) {
+    for (const SurfacePoint& p :
+         evaluate_raster(*surface, raster(surface->knots_u, domain_u(*surface)),
+                         raster(surface->knots_v, domain_v(*surface)))) {
+      there.add(p.point);
+    }
+  }
+  return less(there);
+}
+
 Result<void> measure(const SurfaceModel& model, const SurfaceCutJob& job, const RunContext& run,
                      MadeSurfaceCut& made) {
   if (is_trimmed(model)) {
@@ -163,6 +190,16 @@ Result<void> measure(const SurfaceModel& model, const SurfaceCutJob& job, const 
                  "what floats is measured of whole patches, these are trimmed")
         .where(model.name)
         .hint("the draught itself needs no trim: give the surface as it was before");
+  }
+  if (job.half) {
+    const double reach = lesser_reach_across(model, made.tolerance);
+    if (reach > made.tolerance) {
+      made.warnings.push_back(
+          fmt::format("the half reaches {} {} beyond y = 0 on either side, as measured; the two "
+                      "halves overlap there, and what they have in common counts twice (a whole "
+                      "body is measured without --half)",
+                      significant(reach, 3), made.units.text()));
+    }
   }
   auto found = displaced(model, {*job.draught, job.half}, run);
   OBVID_TRY(found);
@@ -224,7 +261,7 @@ Result<MadeSurfaceCut> cut_surface(const SurfaceModel& model, const SurfaceCutJo
         failed[i] = found.error();
         return;
       }
-      one.section = inside_trims(std::move(*found), model, one.plane);
+      one.section = std::move(*found);
       if (!job.fair) return;
       for (const SectionBranch& branch : one.section.branches) {
         one.fair.push_back(fair_branch(one, branch, *job.fair, made.units, asked));

@@ -55,11 +55,13 @@ Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
   MadeSurface made = std::move(*read);
   const TrimOptions options{job.tolerance.value_or(kTrimTolerance * obvid::size_of(made.model)),
                             by.keep_positive};
-  const auto take = [&](Result<TrimmedModel> part) -> Result<void> {
+  const std::size_t cuts = by.planes.size() + (by.contour ? 1 : 0);
+  const auto take = [&](const std::string& cut, Result<TrimmedModel> part) -> Result<void> {
     OBVID_TRY(part);
     made.deviation = std::max(made.deviation, part->deviation);
-    made.facts.emplace_back("left", fmt::format("{} whole, {} trimmed, {} gone", part->whole,
-                                                part->cut, part->dropped));
+    made.facts.emplace_back(
+        cuts == 1 ? "left" : "left by the " + cut,
+        fmt::format("{} whole, {} trimmed, {} gone", part->whole, part->cut, part->dropped));
     made.model = std::move(part->model);
     return {};
   };
@@ -69,11 +71,13 @@ Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
     const std::array both{made.model.units, curve->units};
     OBVID_TRY(common_units(both, curve->name));
     made.warnings.insert(made.warnings.end(), curve->warnings.begin(), curve->warnings.end());
-    OBVID_TRY(take(trimmed(made.model, projected(curve->curve, by.along), options, run)));
+    OBVID_TRY(
+        take("contour", trimmed(made.model, projected(curve->curve, by.along), options, run)));
     made.kind = fmt::format("part {} a contour", by.keep_positive ? "inside" : "outside");
   }
-  for (const CutPlane& plane : by.planes) {
-    OBVID_TRY(take(trimmed(made.model, plane, options, run)));
+  for (std::size_t i = 0; i < by.planes.size(); ++i) {
+    const std::string cut = by.planes.size() == 1 ? "plane" : fmt::format("plane {}", i + 1);
+    OBVID_TRY(take(cut, trimmed(made.model, by.planes[i], options, run)));
     made.kind = fmt::format("part {} {}", by.keep_positive ? "above" : "below",
                             by.planes.size() == 1 ? "a plane" : "planes");
   }

@@ -20,7 +20,7 @@ struct MeasuredFigure {
 struct Displaced {
   MeasuredFigure volume;                        ///< units^3
   MeasuredFigure wetted;                        ///< units^2, of the surfaces that are there
-  MeasuredFigure waterplane;                    ///< units^2
+  MeasuredFigure waterplane;                    ///< units^2; 0 where it is rounding only
   MeasuredFigure centre_x, centre_y, centre_z;  ///< of the volume, units
   MeasuredFigure plane_x, plane_y;              ///< centre of the waterplane, units
   MeasuredFigure

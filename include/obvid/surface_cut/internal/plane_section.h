@@ -23,13 +23,16 @@ struct SectionPoint {
   Vec3 point;
   std::size_t patch = 0;
   double u = 0.0, v = 0.0;  ///< native parameters of the patch
+  /// The next place is the same one with the parameters of the patch that the branch goes on in;
+  /// only while a section is made.
+  bool stands_again = false;
 };
 
 /// One branch of a section.
 struct SectionBranch {
   std::vector<SectionPoint> points;  ///< of closed ones the first is not repeated
   bool closed = false;
-  double gap = 0.0;        ///< units: largest distance of borders of patches that it passes
+  double gap = 0.0;        ///< units: largest distance of borders and trims that it passes
   double deviation = 0.0;  ///< units: largest distance of the chords from the section, as measured
 };
 
@@ -70,6 +73,12 @@ struct PlaneSectionOptions {
 /// - A border that lies in the plane is a branch (or a part of one), exactly.
 /// - Branches go on across borders that `topology_of` joins, in the order along the border; other
 ///   ends are joined when nearer than 1e-6 of the size.
+/// - Of trimmed patches there is what lies inside of the trims. Branches end where the chord
+/// between
+///   the last place inside and the first outside, moved into the plane, crosses the trim: to
+///   rounding along the surface. Ends at trims are joined with others as those of patches are. A
+///   branch that leaves what is there and comes back between two neighbours of at least 512 places
+///   along it is not parted.
 /// The parameters of a point that two patches have are those of one of them. Same model, same
 /// sections. Reentrant.
 class ModelCutter {
