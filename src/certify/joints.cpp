@@ -9,6 +9,7 @@
 
 #include "double_double.h"
 #include "end_data.h"
+#include "obvid/certify/internal/loose_slopes.h"
 
 namespace obvid {
 namespace {
@@ -370,6 +371,11 @@ class JointWalk {
 JointSurvey survey_joints(const Contour& contour, const PieceBends& bends,
                           const std::vector<KnownPiece>* known) {
   return JointWalk(contour, bends, known).run();
+}
+
+std::vector<std::size_t> joints_with_loose_slopes(Contour contour) {
+  contour.continuity = Continuity::kG3;
+  return survey_joints(contour).loose_slopes;
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "obvid/certify/certify.h"
+#include "obvid/certify/internal/loose_slopes.h"
 #include "obvid/core/internal/watch.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/curve/internal/curvature_extent.h"
@@ -79,8 +80,9 @@ class Auditor {
     OBVID_TRY(take_samples());
     lay_joints();
     OBVID_TRY(lay_runs());
-    certify_with_slopes();
+    out_.certificate = certify(out_.contour, watch_);
     OBVID_TRY(goes_on());
+    compare_slopes();
     out_.vertices = out_.certificate.vertices;
     out_.inflections = out_.certificate.inflections;
     out_.counted =
@@ -276,15 +278,14 @@ class Auditor {
            (slope_vanishes((j + n - 1) % n, true) && slope_vanishes(j % n, false));
   }
 
-  /// Slopes of curvature are measured where a contour says that they go on.
-  void certify_with_slopes() {
-    out_.contour.continuity = Continuity::kG3;
-    out_.certificate = certify(out_.contour, watch_);
-    out_.contour.continuity = Continuity::kG2;
-    out_.certificate.gaps.slope.reset();
+  /// Whether slopes of curvature go on; nothing is known of them where nothing can be proved.
+  void compare_slopes() {
     const bool measured = out_.certificate.joints > 0 || out_.contour.pieces.size() == 1;
-    if (!measured) out_.continuity = std::min(out_.continuity, 2);
-    for (const std::size_t j : out_.certificate.loose_slopes) {
+    if (!measured) {
+      out_.continuity = std::min(out_.continuity, 2);
+      return;
+    }
+    for (const std::size_t j : joints_with_loose_slopes(out_.contour)) {
       if (!slope_goes_on(j)) out_.continuity = std::min(out_.continuity, 2);
     }
   }
