@@ -871,12 +871,12 @@ Result<Fit> proved_without_slopes(const PointSeries& series, FitJob job, Fit smo
   job.continuity = Continuity::kG2;
   auto made = formed_and_proved(series, job, chains, watch);
   if (!made) return smooth;
-  if (!made->certificate.proved) return made;  // the simpler of two that are not
-  made->report.chain.g2_because = "the G3 contour was not proved: " + smooth.certificate.reason;
   if (asked) {
     made->warnings.push_back("the G3 contour was not proved, so this one is G2: " +
                              smooth.certificate.reason);
   }
+  if (!made->certificate.proved) return made;  // the simpler of two that are not
+  made->report.chain.g2_because = "the G3 contour was not proved: " + smooth.certificate.reason;
   return made;
 }
 
