@@ -112,6 +112,13 @@ void in_parallel(std::size_t count, std::size_t threads,
   shared_out(count, threads, work, {});
 }
 
+void in_lots(std::size_t count, std::size_t together, std::size_t threads,
+             const std::function<void(std::size_t, std::size_t)>& work) {
+  in_parallel((count + together - 1) / together, threads, [&](std::size_t lot) {
+    work(lot * together, std::min(count, (lot + 1) * together));
+  });
+}
+
 Result<void> in_parallel(std::size_t count, std::size_t threads, const RunContext& run,
                          const std::function<void(std::size_t, const RunContext&)>& work) {
   if (!run.cancelled) {

@@ -263,10 +263,9 @@ void PatchMesher::sample_nodes(std::size_t threads) {
   const auto& cells = tree_.cells();
   std::vector<std::atomic<std::uint32_t>> first(nodes_.size());
   for (auto& one : first) one = kNone;
-  in_parallel((cells.size() + kTogether - 1) / kTogether, threads, [&](std::size_t lot) {
-    const std::size_t end = std::min(cells.size(), (lot + 1) * kTogether);
+  in_lots(cells.size(), kTogether, threads, [&](std::size_t from, std::size_t to) {
     std::vector<Id> outline;
-    for (std::size_t c = lot * kTogether; c < end; ++c) {
+    for (std::size_t c = from; c < to; ++c) {
       for (const PatchSide side : kPatchSides) {
         side_of(cells[c], side, outline);
         for (const Id id : outline) {
@@ -278,9 +277,8 @@ void PatchMesher::sample_nodes(std::size_t threads) {
     }
   });
   normals_.resize(nodes_.size());
-  in_parallel((nodes_.size() + kTogether - 1) / kTogether, threads, [&](std::size_t lot) {
-    const std::size_t end = std::min(nodes_.size(), (lot + 1) * kTogether);
-    for (std::size_t id = lot * kTogether; id < end; ++id) {
+  in_lots(nodes_.size(), kTogether, threads, [&](std::size_t from, std::size_t to) {
+    for (std::size_t id = from; id < to; ++id) {
       Node& node = nodes_[id];
       if (node.on_edge || first[id] == kNone) continue;
       const Sample s = sample_in(cells[first[id]], node);

@@ -99,6 +99,7 @@ struct Found {
 struct Undecided {
   double least = 0.0;
   Cell cell;
+  bool longer_along_u = false;  ///< where it is divided
 
   friend bool operator<(const Undecided& a, const Undecided& b) { return a.least > b.least; }
 };
@@ -219,7 +220,7 @@ struct NearestOnModel::Tree {
     if (least >= decided_from(looked.best)) return;
     const bool arrived = go_down(cell, p, cell.u.at(u), cell.v.at(v), looked.best);
     if (least >= decided_from(looked.best) || (arrived && net.one_valley(p))) return;
-    looked.undecided.push_back({least, cell});
+    looked.undecided.push_back({least, cell, net.longer_along_u()});
     std::push_heap(looked.undecided.begin(), looked.undecided.end());
   }
 
@@ -227,11 +228,9 @@ struct NearestOnModel::Tree {
   void decide(Vec3 p, nearest_detail::Looked& looked) const {
     for (int divided = 0; !looked.undecided.empty(); ++divided) {
       std::pop_heap(looked.undecided.begin(), looked.undecided.end());
-      const auto [least, cell] = looked.undecided.back();
+      const auto [least, cell, along_u] = looked.undecided.back();
       looked.undecided.pop_back();
       if (least >= decided_from(looked.best) || divided == nearest_detail::kMostDivided) return;
-      const bool along_u =
-          nearest_detail::SpanNet(*patches[cell.patch], cell.u, cell.v).longer_along_u();
       nearest_detail::Cell first = cell, second = cell;
       Range& before = along_u ? first.u : first.v;
       Range& after = along_u ? second.u : second.v;

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <memory>
-#include <tuple>
 #include <utility>
 
+#include "meeting_ends.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/surface/internal/trim.h"
+#include "strands.h"
 #include "trim_line.h"
 
 namespace obvid {
@@ -141,7 +142,7 @@ bool is_longer(const SectionBranch& branch, double length) {
 class EndJoiner {
  public:
   EndJoiner(std::vector<SectionBranch> branches, double meet)
-      : branches_(std::move(branches)), meet_(meet), mate_(2 * branches_.size(), kNobody) {}
+      : branches_(std::move(branches)), meet_(meet), mate_(2 * branches_.size(), kNoEnd) {}
 
   std::vector<SectionBranch> made() {
     find_mates();
@@ -152,15 +153,13 @@ class EndJoiner {
     };
     // open chains from their free ends first, then rings
     for (std::size_t end = 0; end < mate_.size(); ++end) {
-      if (mate_[end] == kNobody) walk_from(end);
+      if (mate_[end] == kNoEnd) walk_from(end);
     }
     for (std::size_t i = 0; i < branches_.size(); ++i) walk_from(2 * i);
     return out;
   }
 
  private:
-  static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
-
   /// Ends by number: 2 * branch, and 1 more for the last place.
   [[nodiscard]] Vec3 place(std::size_t end) const {
     const std::vector<SectionPoint>& points = branches_[end / 2].points;
@@ -172,24 +171,12 @@ class EndJoiner {
     for (std::size_t i = 0; i < branches_.size(); ++i) {
       if (!branches_[i].closed) ends.insert(ends.end(), {2 * i, 2 * i + 1});
     }
-    std::sort(ends.begin(), ends.end(), [&](std::size_t a, std::size_t b) {
-      return std::pair(place(a).x, a) < std::pair(place(b).x, b);
-    });
-    std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      for (std::size_t k = i + 1; k < ends.size(); ++k) {
-        const std::size_t a = std::min(ends[i], ends[k]), b = std::max(ends[i], ends[k]);
-        if (place(ends[k]).x - place(ends[i]).x > meet_) break;
-        const double far = norm(place(a) - place(b));
-        // a branch no longer than that does not close
-        if (far <= meet_ && (a / 2 != b / 2 || is_longer(branches_[a / 2], meet_))) {
-          pairs.emplace_back(far, a, b);
-        }
-      }
-    }
-    std::sort(pairs.begin(), pairs.end());
-    for (const auto& [far, a, b] : pairs) {
-      if (mate_[a] != kNobody || mate_[b] != kNobody) continue;
+    const auto mates = meeting_ends(
+        std::move(ends), meet_, [&](std::size_t end) { return place(end); },
+        [&](std::size_t a, std::size_t b) {  // a branch no longer than that does not close
+          return a / 2 != b / 2 || is_longer(branches_[a / 2], meet_);
+        });
+    for (const auto& [a, b] : mates) {
       mate_[a] = b;
       mate_[b] = a;
     }
@@ -206,7 +193,7 @@ class EndJoiner {
       whole.gap = std::max(whole.gap, branch.gap);
       whole.deviation = std::max(whole.deviation, branch.deviation);
       const std::size_t next = mate_[here ^ 1U];
-      if (next == kNobody) return whole;
+      if (next == kNoEnd) return whole;
       const Vec3 first = next == start ? whole.points.front().point : place(next);
       whole.gap = std::max(whole.gap, norm(whole.points.back().point - first));
       whole.points.pop_back();

@@ -11,6 +11,7 @@
 
 #include "branches.h"
 #include "inside_trims.h"
+#include "meeting_ends.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/surface/internal/topology.h"
 
@@ -214,25 +215,10 @@ class Section {
     for (EndNumber e = 0; e < mate_.size(); ++e) {
       if (mate_[e] == kNoEnd) left.push_back(e);
     }
-    std::vector<std::pair<double, std::pair<EndNumber, EndNumber>>> pairs;
-    std::sort(left.begin(), left.end(), [&](EndNumber a, EndNumber b) {
-      return std::pair(at_[a].point.x, a) < std::pair(at_[b].point.x, b);
-    });
-    const double near = kEndsMeet * parts_.size;
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      for (std::size_t k = i + 1; k < left.size(); ++k) {
-        const Vec3 a = at_[left[i]].point, b = at_[left[k]].point;
-        if (b.x - a.x > near) break;
-        const double far = norm(a - b);
-        if (far <= near && left[i] / 2 != left[k] / 2)
-          pairs.push_back({far, std::minmax(left[i], left[k])});
-      }
-    }
-    std::sort(pairs.begin(), pairs.end());
-    for (const auto& [far, both] : pairs) {
-      if (mate_[both.first] == kNoEnd && mate_[both.second] == kNoEnd)
-        join(both.first, both.second);
-    }
+    const auto mates = meeting_ends(
+        std::move(left), kEndsMeet * parts_.size, [&](EndNumber e) { return at_[e].point; },
+        [](EndNumber a, EndNumber b) { return a / 2 != b / 2; });
+    for (const auto& [a, b] : mates) join(a, b);
   }
 
   // ------------------------------------------------------------------------------------- walking

@@ -59,14 +59,12 @@ std::vector<double> bulges(const Part& part, const std::optional<Vec2>& directio
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const auto& vertices = meshes[m].vertices;
     of_vertex[m].resize(vertices.size());
-    in_parallel(
-        (vertices.size() + kVerticesTogether - 1) / kVerticesTogether, threads, [&](std::size_t k) {
-          const std::size_t end = std::min(vertices.size(), (k + 1) * kVerticesTogether);
-          for (std::size_t i = k * kVerticesTogether; i < end; ++i) {
-            of_vertex[m][i] =
-                bulge_at(part.model().patches[m].surface, vertices[i].u, vertices[i].v, direction);
-          }
-        });
+    in_lots(vertices.size(), kVerticesTogether, threads, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) {
+        of_vertex[m][i] =
+            bulge_at(part.model().patches[m].surface, vertices[i].u, vertices[i].v, direction);
+      }
+    });
   }
   std::vector<double> out;
   out.reserve(triangles.size());

@@ -11,7 +11,6 @@ namespace obvid::toolpath {
 namespace {
 
 constexpr double kRampDeg = 5.0;
-constexpr double kMostLegs = 40.0;                            // of a ramp up and down one stretch
 constexpr double kMostTurns = 100.0;                          // of a helix
 constexpr double kLeastCorners = 16.0, kMostCorners = 720.0;  // of a circle
 
@@ -106,7 +105,7 @@ std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass, const 
 
 std::optional<std::vector<Vec3>> flattest_ramp_over(const std::vector<Vec3>& pass,
                                                     Descent descent) {
-  constexpr double kRounding = 1e-12;  // so that the ways of the flattest are 40, not 42
+  constexpr double kRounding = 1e-12;  // so that the flattest has no two ways more
   const double length = length_from_above(pass);
   if (!(length > 0.0)) return std::nullopt;
   descent.fall = std::max(descent.fall, (1.0 + kRounding) * descent.height / (kMostLegs * length));

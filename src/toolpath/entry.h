@@ -10,6 +10,8 @@
 
 namespace obvid::toolpath {
 
+/// Of a ramp up and down one stretch.
+inline constexpr double kMostLegs = 40.0;
 /// Of a cutter's radius, in this order: of helices, less than 1, so that they leave no core.
 inline constexpr std::array kHelixRadii = {0.9, 0.45};
 
@@ -27,7 +29,7 @@ struct Steepest {
 [[nodiscard]] Steepest steepest_of(const std::vector<Vec3>& way);
 
 /// Even number of ways back and forth over the beginning of a pass of this length; nothing: more
-/// than 40.
+/// than `kMostLegs`.
 [[nodiscard]] std::optional<double> legs_of_ramp(double length, double height, double fall);
 
 /// A way down over a pass: from so far over its first point, by `fall` for each length seen from
@@ -43,8 +45,8 @@ struct Descent {
 [[nodiscard]] std::optional<std::vector<Vec3>> ramp_over(const std::vector<Vec3>& pass,
                                                          const Descent& descent);
 
-/// The same of finishing: where more ways than 40 would be needed it is as flat as 40 are. Nothing:
-/// the pass has no length seen from above.
+/// The same of finishing: where more ways than `kMostLegs` would be needed it is as flat as so many
+/// are. Nothing: the pass has no length seen from above.
 [[nodiscard]] std::optional<std::vector<Vec3>> flattest_ramp_over(const std::vector<Vec3>& pass,
                                                                   Descent descent);
 

@@ -68,9 +68,8 @@ template <class T>
 LargeList<T> large_list(std::size_t count, const T& value, std::size_t threads) {
   constexpr std::size_t kTogether = std::size_t{1} << 14;
   LargeList<T> out(count);
-  in_parallel((count + kTogether - 1) / kTogether, threads, [&](std::size_t k) {
-    const auto first = out.begin() + static_cast<std::ptrdiff_t>(k * kTogether);
-    std::fill_n(first, std::min(kTogether, count - k * kTogether), value);
+  in_lots(count, kTogether, threads, [&](std::size_t from, std::size_t to) {
+    std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(from), to - from, value);
   });
   return out;
 }

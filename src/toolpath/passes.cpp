@@ -276,19 +276,16 @@ Result<Pass> Walker::walk(const Rail& rail) {
   const std::size_t threads = ts.size() < kStationsShared ? 1 : threads_;
   std::vector<Station> ends(ts.size());
   std::vector<Stretch> stretches(ts.size() - 1);
-  in_parallel((stretches.size() + kStretchesTogether - 1) / kStretchesTogether, threads,
-              [&](std::size_t lot) {
-                const std::size_t first = lot * kStretchesTogether;
-                const std::size_t end = std::min(stretches.size(), first + kStretchesTogether);
-                Station from = at(rail, ts[first]);
-                if (lot == 0) ends.front() = from;
-                for (std::size_t i = first; i < end; ++i) {
-                  ends[i + 1] = at(rail, ts[i + 1]);
-                  stretches[i].most = most_points_ - std::min(most_points_, points_);
-                  fill(rail, from, ts[i], ends[i + 1], ts[i + 1], 0, stretches[i]);
-                  from = ends[i + 1];
-                }
-              });
+  in_lots(stretches.size(), kStretchesTogether, threads, [&](std::size_t first, std::size_t end) {
+    Station from = at(rail, ts[first]);
+    if (first == 0) ends.front() = from;
+    for (std::size_t i = first; i < end; ++i) {
+      ends[i + 1] = at(rail, ts[i + 1]);
+      stretches[i].most = most_points_ - std::min(most_points_, points_);
+      fill(rail, from, ts[i], ends[i + 1], ts[i + 1], 0, stretches[i]);
+      from = ends[i + 1];
+    }
+  });
   Pass pass;
   pass.rail = rail;
   bool open = false;

@@ -264,8 +264,9 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
     out.warnings.push_back(fmt::format(
         "entries go down at up to {:.3g} degrees against the level, at {}, where {:g} were asked "
         "for: there is no room for a flatter way over the pass or beside it, back and forth up to "
-        "40 times",
-        r.entries.steepest_deg, place_text(r.entries.steepest_place), r.entries.asked_deg));
+        "{:g} times",
+        r.entries.steepest_deg, place_text(r.entries.steepest_place), r.entries.asked_deg,
+        kMostLegs));
   }
   if (r.unreached_area > 0.0) {
     add(fmt::format(

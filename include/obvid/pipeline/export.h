@@ -38,8 +38,8 @@ struct ExportOptions {
   std::string asked{};  ///< what .html pages say was asked for; empty: nothing
   ToldBeside told{};
   std::optional<double> tolerance;  ///< of curves that a format cannot hold exactly [1e-6 of the
-                                    ///< size; of arcs, G-code and SVG drawings 2e-5, of G-code at least
-                                    ///< 0.002 mm]
+                                    ///< size; of arcs, G-code and SVG drawings 2e-5, of G-code at
+                                    ///< least 0.002 mm]
   CadFormat step = CadFormat::kStepAp214;
   bool drawing = false;  ///< .svg: a drawing in true scale in place of the picture
   DxfProfile dxf = DxfProfile::kExact;

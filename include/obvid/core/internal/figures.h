@@ -11,11 +11,11 @@ namespace obvid {
 /// exponent; "-" for NaN, "inf" for infinity.
 [[nodiscard]] std::string significant(double value, int digits = 5);
 
-/// Digits of a bound that is told beside the figures that it holds for.
-inline constexpr int kDigitsOfBounds = 3;
-
 /// The same of a bound above 0: never below it.
 [[nodiscard]] std::string significant_above(double bound, int digits);
+
+/// Digits of a bound that is told beside the figures that it holds for.
+inline constexpr int kDigitsOfBounds = 3;
 
 /// "1 vertex", "2 vertices".
 [[nodiscard]] std::string counted(std::size_t count, const char* one, const char* many);

@@ -17,9 +17,14 @@ namespace obvid {
 void in_parallel(std::size_t count, std::size_t threads,
                  const std::function<void(std::size_t)>& work);
 
-/// The same for work that whoever waits may stop: the calling thread, which works too, asks after
-/// each of its numbers, and every few milliseconds while it waits for others. Error: E103; some
-/// numbers are left out then.
+/// work(from, to) for lots [from, to) of so many neighbours of [0, count), the last of them
+/// shorter: where one alone is too little to be shared out.
+void in_lots(std::size_t count, std::size_t together, std::size_t threads,
+             const std::function<void(std::size_t, std::size_t)>& work);
+
+/// `in_parallel` for work that whoever waits may stop: the calling thread, which works too, asks
+/// after each of its numbers, and every few milliseconds while it waits for others. Error: E103;
+/// some numbers are left out then.
 [[nodiscard]] Result<void> in_parallel(std::size_t count, std::size_t threads,
                                        const RunContext& run,
                                        const std::function<void(std::size_t)>& work);

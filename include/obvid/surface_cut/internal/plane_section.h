@@ -73,10 +73,10 @@ struct PlaneSectionOptions {
 /// - A border that lies in the plane is a branch (or a part of one), exactly.
 /// - Branches go on across borders that `topology_of` joins, in the order along the border; other
 ///   ends are joined when nearer than 1e-6 of the size.
-/// - Of trimmed patches there is what lies inside of the trims. Branches end where the chord
-/// between
-///   the last place inside and the first outside, moved into the plane, crosses the trim: to
-///   rounding along the surface. Ends at trims are joined with others as those of patches are. A
+/// - Of trimmed patches there is what lies inside of the trims. Branches end where the chord from
+/// the
+///   last place inside to the first outside, moved into the plane, crosses the trim: to rounding
+///   along the surface. Ends at trims are joined with others as those of patches are. A
 ///   branch that leaves what is there and comes back between two neighbours of at least 512 places
 ///   along it is not parted.
 /// The parameters of a point that two patches have are those of one of them. Same model, same
