@@ -12,6 +12,7 @@
 
 #include "obvid/geom/vec2.h"
 #include "obvid/numeric/internal/median.h"
+#include "obvid/numeric/internal/wide.h"
 
 namespace obvid {
 
@@ -25,34 +26,40 @@ struct MiddleResidual {
 };
 
 /// Of the middle of five points from the cubic through the others; nothing where these do not
-/// advance along their chord.
+/// advance along their chord. Points of a curve that is no more than rounded are off by the last
+/// digits of their coordinates; these are kept.
 inline std::optional<MiddleResidual> middle_residual(const std::array<Vec2, 5>& p) {
   constexpr std::array<std::size_t, 4> kOthers = {0, 1, 3, 4};
   const Vec2 chord = p[4] - p[0];
   const double length = norm(chord);
   if (!(length > 0.0)) return std::nullopt;
   const Vec2 along = (1.0 / length) * chord, across = left_normal(along);
-  std::array<double, 5> u{};
-  for (std::size_t k = 0; k < 5; ++k) u[k] = dot(p[k] - p[2], along);
+  const auto part_of = [&](std::size_t k, Vec2 direction) {
+    const auto from = [](double a, double b) { return numeric::Wide(b) - numeric::Wide(a); };
+    return from(p[2].x, p[k].x) * direction.x + from(p[2].y, p[k].y) * direction.y;
+  };
+  const numeric::Wide zero;
+  std::array<numeric::Wide, 5> u{};
+  for (std::size_t k = 0; k < 5; ++k) u[k] = part_of(k, along);
   if (!(u[0] < u[1] && u[1] < u[3] && u[3] < u[4])) return std::nullopt;
   MiddleResidual out;
-  out.between = u[1] < 0.0 && 0.0 < u[3];
+  out.between = u[1] < zero && zero < u[3];
   if (!out.between) {
     const Vec2 side = p[3] - p[1], from = p[2] - p[1];
     const double part = std::clamp(dot(from, side) / dot(side, side), 0.0, 1.0);
     out.off = norm(from - part * side);
     return out;
   }
-  double miss = 0.0;
+  numeric::Wide miss;
   for (const std::size_t k : kOthers) {
-    double weight = 1.0;
+    numeric::Wide weight(1.0);
     for (const std::size_t j : kOthers) {
       if (j != k) weight *= -u[j] / (u[k] - u[j]);
     }
-    miss -= weight * dot(p[k] - p[2], across);
-    out.variance += weight * weight;
+    miss -= weight * part_of(k, across);
+    out.variance += static_cast<double>(weight) * static_cast<double>(weight);
   }
-  out.off = std::abs(miss);
+  out.off = std::abs(static_cast<double>(miss));
   return out;
 }
 

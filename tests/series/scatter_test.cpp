@@ -76,6 +76,38 @@ TEST(Scatter, HoldsAllPointsNineteenTimesOutOfTwenty) {
   EXPECT_GE(held, all * 95 / 100);
 }
 
+/// Of equally spaced points across their line: the middle of five is off the cubic through the
+/// others by a sixth of the fourth difference, whose variance is 70 (Abramowitz, Stegun
+/// 1964, 25.1.1).
+double deviation_of_differences(const std::vector<double>& across, std::size_t stride) {
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i + 4 * stride < across.size(); ++i) {
+    const auto e = [&](std::size_t k) { return across[i + k * stride]; };
+    sizes.push_back(std::abs(e(0) - 4.0 * e(1) + 6.0 * e(2) - 4.0 * e(3) + e(4)));
+  }
+  return 1.482602218505602 * middle_of(std::move(sizes)) / std::sqrt(70.0);
+}
+
+TEST(Scatter, KeepsTheDigitsOfErrorsFarBelowTheCoordinates) {
+  // steps of 5 * 2^16 along (3, 4), errors of 5 * 2^-30 across or none: all of them exact
+  constexpr int kCount = 41;
+  constexpr double kStep = 0x1p16, kError = 0x1p-30;
+  std::mt19937 random(11);
+  std::vector<Vec2> points;
+  std::vector<double> across;
+  for (int k = 0; k < kCount; ++k) {
+    const double e = kError * (static_cast<double>(random() % 3) - 1.0);
+    points.push_back({3.0 * kStep * k - 4.0 * e, 4.0 * kStep * k + 3.0 * e});
+    across.push_back(5.0 * e);
+  }
+  const double near = deviation_of_differences(across, 1),
+               far = deviation_of_differences(across, 2);
+  const auto one = scatter_of(points);
+  ASSERT_TRUE(one);
+  const double expected = std::sqrt((256.0 * near * near - far * far) / 255.0);
+  EXPECT_NEAR(one->deviation, expected, 1e-9 * expected);
+}
+
 TEST(Scatter, IsTakenFromMostPointsWhateverTheOthersAre) {
   std::vector<Vec2> points = measured(&meander, 400, 1e-3, 7);
   for (std::size_t k = 10; k < points.size(); k += 40) points[k].y += 2.0;
