@@ -15,7 +15,7 @@ endforeach()
 set_source_files_properties(${first_objects} PROPERTIES GENERATED TRUE EXTERNAL_OBJECT TRUE)
 file(GLOB first_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/first/*.cpp")
 obvid_unity(first_units obvid_first ${OBVID_BATCH} ${first_sources})
-add_executable(obvid_first ${first_units} ${first_objects})
+add_executable(obvid_first ${first_units} "${obvid_style_texts}" ${first_objects})
 set_target_properties(obvid_first PROPERTIES
   OUTPUT_NAME obvid-first RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
 target_include_directories(obvid_first PRIVATE "${PROJECT_SOURCE_DIR}/apps/first"

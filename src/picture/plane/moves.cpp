@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 
+#include "obvid/picture/internal/styles.h"
 #include "plane/axis.h"
 #include "plane/frame.h"
 
@@ -241,14 +242,9 @@ const char* move_css(MoveClass kind) {
 
 void draw_deviations(PictureCanvas& canvas, const PictureTrack& track, const PictureMoves& moves,
                      const PictureView& view) {
-  constexpr const char* kDeviationStyle =
-      "<style>.deviation{stroke-width:1.2}"
-      ".half{stroke:#2e8b3d}.within{stroke:#d98200}.beyond{stroke:#c62828}\n"
-      "@media (prefers-color-scheme:dark){"
-      ".half{stroke:#57d27a}.within{stroke:#ffb74d}.beyond{stroke:#ff7b72}}</style>\n";
   constexpr double kLongest = 2.0;    // tolerances
   constexpr double kLeastStep = 0.5;  // px; a tooth beside another one that is as long adds nothing
-  canvas.add("{}", kDeviationStyle);
+  canvas.add("{}", picture::style_element(picture::deviations_style()));
   for (const MoveClass kind : kMoveClasses) {
     PicturePath path;
     Vec2 last{HUGE_VAL, HUGE_VAL};

@@ -11,24 +11,10 @@
 
 #include "obvid/core/internal/picture_mark.h"
 #include "obvid/core/internal/shown_text.h"
+#include "obvid/picture/internal/styles.h"
 
 namespace obvid::picture {
 namespace {
-
-/// Lines in tenths of a px (`kPathTransform`).
-constexpr const char* kSheetStyle = R"(<style>
-text{font-family:"Helvetica Neue",Arial,"Liberation Sans","DejaVu Sans",sans-serif;font-size:12px;fill:#1c2733}
-.title{font-size:20px;font-weight:600}.facts{font-size:13px;fill:#5b6773}.name{font-weight:600}.note{fill:#5b6773}
-.lines path{fill:none;stroke:#1c2733;stroke-linejoin:round;stroke-linecap:round}
-.lines .iso{stroke-width:6;stroke-opacity:.3}.lines .u{stroke:#15498f;stroke-width:9;stroke-opacity:.9}
-.lines .v{stroke:#9c3412;stroke-width:9;stroke-opacity:.9}
-.lines .border{stroke-width:11}.lines .outline{stroke-width:12}
-.lines .section{stroke:#b3131c;stroke-width:16}.lines .behind{stroke-opacity:.3;stroke-width:8}
-.lines .toolpath{stroke:#c2510a;stroke-width:7}.lines .rapid{stroke:#5b6773;stroke-width:6;stroke-dasharray:30 30}
-.lines .other{stroke:#0b7a75;stroke-width:12}
-.bar{stroke:#1c2733;stroke-width:1.4;fill:none}.axis{stroke-width:2;stroke-linecap:round}
-</style>
-)";
 
 constexpr double kAxis = 26.0;            // px, an axis parallel to the sheet
 constexpr double kAxisName = 37.0;        // px, its letter
@@ -168,7 +154,7 @@ std::string sheet(const SheetTexts& texts, const SurfacePictureOptions& options,
       "{6}=\"{7}\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
       "{4}<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#fff\"/>\n{5}</svg>\n",
       options.width, options.height, escaped_xml(texts.title), escaped_xml(texts.facts),
-      kSheetStyle, body, kPictureAttribute, kPictureValue);
+      style_element(space_sheet_style()), body, kPictureAttribute, kPictureValue);
 }
 
 }  // namespace obvid::picture

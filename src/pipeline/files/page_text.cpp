@@ -9,31 +9,13 @@
 
 #include "obvid/core/internal/shown_text.h"
 #include "obvid/core/version.h"
+#include "obvid/picture/internal/styles.h"
 
 namespace obvid {
 namespace {
 
 constexpr std::size_t kMostRows = 1000;
 constexpr int kPageDigits = 10;
-
-constexpr const char* kPageStyle = R"(<style>
-:root { color-scheme: light dark; --ink: #1c2733; --faint: #5b6773; --paper: #fff; --line: #d5dbe1; --good: #1a7f37; --bad: #c62828; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e6eaee; --faint: #9aa6b2; --paper: #14191f; --line: #39434f; --good: #57d27a; --bad: #ff7b72; } }
-body { margin: 2em auto; max-width: 1000px; padding: 0 1em; background: var(--paper); color: var(--ink); font: 15px/1.5 system-ui, sans-serif; }
-svg { display: block; width: 100%; height: auto; margin: 1em 0; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-caption { text-align: left; font-weight: 600; font-size: 1.15em; padding: 1em 0 .3em; }
-th, td { text-align: left; padding: .2em 1.5em .2em 0; border-bottom: 1px solid var(--line); vertical-align: top; font-weight: normal; }
-th { color: var(--faint); }
-.numbers { display: block; max-width: 100%; overflow-x: auto; }
-.numbers th, .numbers td { text-align: right; padding-right: .8em; font-size: .93em; }
-#warnings { color: var(--bad); }
-#verdict { font-weight: 600; }
-#verdict.kept { color: var(--good); }
-#verdict.broken { color: var(--bad); }
-footer { color: var(--faint); margin-top: 2em; }
-@media print { body { margin: 0; } .numbers { display: table; } thead { display: table-header-group; } tr, svg { break-inside: avoid; } }
-</style>)";
 
 std::string figure_row(const std::string& label, const std::string& value) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped_xml(label),
@@ -89,8 +71,8 @@ std::string page_text(const ReportPage& page) {
   const std::string name = escaped_xml(page.title);
   std::string out = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   out += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
-  out +=
-      fmt::format("<title>{}</title>\n{}\n</head>\n<body>\n<h1>{}</h1>\n", name, kPageStyle, name);
+  out += fmt::format("<title>{}</title>\n{}</head>\n<body>\n<h1>{}</h1>\n", name,
+                     picture::style_element(picture::report_page_style()), name);
   constexpr std::array kClasses = {"", " class=\"kept\"", " class=\"broken\""};
   out += fmt::format("<p id=\"verdict\"{}>{}</p>\n", kClasses[static_cast<std::size_t>(page.kind)],
                      escaped_xml(page.verdict));
