@@ -67,7 +67,7 @@ std::optional<int> run_in_space(const FitOptions& options) {
 
 // ---- files of others
 // ------------------------------------------------------------------------------
-OBVID_LATER(Result<StoredContour> contour_from_json(std::string_view, std::string_view))
+OBVID_LATER(Result<StoredContour> contour_from_json(std::string_view, std::string_view, Watch*))
 OBVID_LATER(Result<ParsedSections> parse_sections(std::string_view, std::string_view,
                                                   const SectionOptions&, const RunContext&))
 OBVID_LATER(Result<PrivateCopy> PrivateCopy::of(std::string_view, const std::string&))

@@ -202,7 +202,8 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
     out->profile = std::move(drawn->profile);
     out->picture = std::move(drawn->picture);
   } else {
-    auto stored = contour_from_json(input.text, input.name);
+    Watch watch({{}, run.cancelled});
+    auto stored = contour_from_json(input.text, input.name, &watch);
     OBVID_TRY(stored);
     out->stored = std::move(*stored);
     out->picture.name = std::filesystem::path(input.name).filename().string();

@@ -659,15 +659,17 @@ Result<StoredContour> ContourReader::read(const json& document) {
   }
   if (error_) return fail(std::move(*error_));
   stored_.unread = unread_fields(document);
+  if (has_ended(watch_)) return fail(cancelled_error());
   return std::move(stored_);
 }
 
 }  // namespace
 
-Result<StoredContour> contour_from_json(std::string_view text, std::string_view name) {
-  const Result<json> document = parse_json(text, name);
+Result<StoredContour> contour_from_json(std::string_view text, std::string_view name,
+                                        Watch* watch) {
+  const Result<json> document = parse_json(text, name, watch);
   OBVID_TRY(document);
-  return ContourReader(name).read(*document);
+  return ContourReader(name, watch).read(*document);
 }
 
 }  // namespace obvid

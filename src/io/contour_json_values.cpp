@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -40,11 +42,16 @@ std::string place_of_byte(string_view text, string_view name, std::size_t byte) 
                         text::column_of(last, last.data() + last.size()));
 }
 
+// Between two questions whether the work goes on.
+constexpr std::size_t kBytesOfStep = 1U << 16U;
+constexpr std::size_t kFieldsOfStep = 1U << 12U;
+
 // Refuses brackets nested deeper than any contour file: what walks over the values may recurse.
-Result<void> check_depth(string_view text, string_view name) {
+Result<void> check_depth(string_view text, string_view name, Watch* watch) {
   int depth = 0;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
+    if (i % kBytesOfStep == 0 && is_to_end(watch)) return fail(cancelled_error());
     const char c = text[i];
     if (in_string) {
       if (c == '\\') ++i;
@@ -71,6 +78,33 @@ std::string detail_of(string_view message) {
   return text::to_utf8(message.substr(0, kMaxDetail));
 }
 
+struct Cancelled {};
+
+/// The bytes of a text, for a parser that knows of no watch: throws `Cancelled` when it says stop.
+class WatchedBytes {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  WatchedBytes(const char* at, Watch* watch) : at_(at), watch_(watch) {}
+
+  reference operator*() const { return *at_; }
+  WatchedBytes& operator++() {
+    ++at_;
+    if (++read_ % kBytesOfStep == 0 && is_to_end(watch_)) throw Cancelled{};
+    return *this;
+  }
+  friend bool operator==(const WatchedBytes& a, const WatchedBytes& b) { return a.at_ == b.at_; }
+
+ private:
+  const char* at_;
+  Watch* watch_;
+  std::size_t read_ = 0;
+};
+
 /// Name of a field, as its text between the quotes means it.
 std::string unescaped(string_view quoted) {
   if (quoted.find('\\') == string_view::npos) return std::string(quoted);
@@ -87,13 +121,14 @@ struct Field {
 };
 
 /// A field that its object names twice, at its second place: the parsed document has the last one
-/// alone. Of several the first, in the object that ends first. The text is valid JSON. (A callback of the
-/// parser would be told of every name too, but then it looks through a whole array again behind
-/// each object in it.)
+/// alone. Of several the first, in the object that ends first. The text is valid JSON. (A callback
+/// of the parser would be told of every name too, but then it looks through a whole array again
+/// behind each object in it.)
 class RepeatedField {
  public:
-  explicit RepeatedField(string_view text) : text_(text) {}
+  RepeatedField(string_view text, Watch* watch) : text_(text), watch_(watch) {}
 
+  /// Nothing, too, where the watch says stop.
   std::optional<Field> find() {
     std::vector<std::size_t> first;  // names of the objects that are open begin there
     std::size_t string_at = 0, string_end = 0;
@@ -106,6 +141,7 @@ class RepeatedField {
           break;
         case ':':
           add({string_at, string_end});
+          if (++met_ % kFieldsOfStep == 0 && is_to_end(watch_)) return std::nullopt;
           break;
         case '{':
           first.push_back(count_);
@@ -141,25 +177,30 @@ class RepeatedField {
   }
 
   string_view text_;
+  Watch* watch_;
   std::vector<Field> fields_;  ///< of the objects that are open, the first `count_`
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, met_ = 0;
 };
 
 }  // namespace
 
-Result<nlohmann::json> parse_json(string_view text, string_view name) {
-  OBVID_TRY(check_depth(text, name));
+Result<nlohmann::json> parse_json(string_view text, string_view name, Watch* watch) {
+  OBVID_TRY(check_depth(text, name, watch));
   if (const std::size_t zero = text.find('\0'); zero != string_view::npos) {
     // the parser would end there
     return fail(bad_json("the file is not valid JSON: a zero byte stands in it",
                          place_of_byte(text, name, zero)));
   }
   try {
-    json document = json::parse(text.begin(), text.end());
-    const auto twice = RepeatedField(text).find();
+    json document = json::parse(WatchedBytes(text.data(), watch),
+                                WatchedBytes(text.data() + text.size(), watch));
+    const auto twice = RepeatedField(text, watch).find();
+    if (has_ended(watch)) return fail(cancelled_error());
     if (!twice) return document;
     return fail(bad_json("the field " + text::shown(twice->name) + " stands twice in its object",
                          place_of_byte(text, name, twice->at)));
+  } catch (const Cancelled&) {
+    return fail(cancelled_error());
   } catch (const json::parse_error& error) {
     // The parser counts from 1 and names the last byte that it read.
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;
@@ -211,7 +252,8 @@ constexpr std::size_t kMostUnread = 50;
 
 class UnreadFields {
  public:
-  explicit UnreadFields(const std::vector<const json*>& taken) : taken_(taken) {}
+  UnreadFields(const std::vector<const json*>& taken, Watch* watch)
+      : taken_(taken), watch_(watch) {}
 
   void visit(const json& value, const std::string& path) {
     if (value.is_array()) {
@@ -220,6 +262,7 @@ class UnreadFields {
       }
     }
     if (!value.is_object()) return;
+    if (++objects_ % kFieldsOfStep == 0 && is_to_end(watch_)) return;
     for (auto item = value.begin(); item != value.end(); ++item) {
       const bool known = std::binary_search(taken_.begin(), taken_.end(), &*item, std::less<>());
       if (!known) {
@@ -247,6 +290,8 @@ class UnreadFields {
   }
 
   const std::vector<const json*>& taken_;  ///< sorted
+  Watch* watch_;
+  std::size_t objects_ = 0;
   std::set<std::string> seen_;
   std::vector<std::string> names_;
   std::size_t others_ = 0;
@@ -254,9 +299,26 @@ class UnreadFields {
 
 }  // namespace
 
+/// Half by half, so that a watch is asked in between.
+void JsonValues::sort_taken() {
+  const std::size_t n = taken_.size();
+  const auto at = [&](std::size_t i) {
+    return taken_.begin() + static_cast<std::ptrdiff_t>(std::min(i, n));
+  };
+  for (std::size_t i = 0; i < n && !is_to_end(watch_); i += kFieldsOfStep) {
+    std::sort(at(i), at(i + kFieldsOfStep), std::less<>());
+  }
+  for (std::size_t length = kFieldsOfStep; length < n; length *= 2) {
+    for (std::size_t i = 0; i < n && !is_to_end(watch_); i += 2 * length) {
+      std::inplace_merge(at(i), at(i + length), at(i + 2 * length), std::less<>());
+    }
+  }
+}
+
 std::vector<std::string> JsonValues::unread_fields(const json& document) {
-  std::sort(taken_.begin(), taken_.end(), std::less<>());
-  UnreadFields unread(taken_);
+  sort_taken();
+  if (has_ended(watch_)) return {};
+  UnreadFields unread(taken_, watch_);
   unread.visit(document, "");
   return unread.take();
 }

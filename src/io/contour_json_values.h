@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/core/units.h"
 #include "obvid/geom/vec2.h"
@@ -21,8 +22,9 @@ inline constexpr long long kMaxInteger = 1LL << 53;
 inline constexpr int kMaxInt = std::numeric_limits<int>::max();
 
 /// The parsed text. Errors: E308 with line and column, also where an object names a field twice:
-/// other programs might take the other one.
-[[nodiscard]] Result<nlohmann::json> parse_json(std::string_view text, std::string_view name);
+/// other programs might take the other one; E103.
+[[nodiscard]] Result<nlohmann::json> parse_json(std::string_view text, std::string_view name,
+                                                Watch* watch);
 
 /// A value with the way to it, so that errors can name it ("/pieces/3/weights/2").
 struct JsonNode {
@@ -38,7 +40,7 @@ struct JsonNode {
 /// return at once, so that each step reads like the format.
 class JsonValues {
  public:
-  explicit JsonValues(std::string_view name) : name_(name) {}
+  JsonValues(std::string_view name, Watch* watch) : watch_(watch), name_(name) {}
 
  protected:
   using Node = JsonNode;
@@ -67,21 +69,30 @@ class JsonValues {
   bool optional_flag(const Node& object, std::string_view key, bool otherwise);
 
   /// Fields below `document` that nothing took, the same ones of several items once, with `*` for
-  /// the number of the item.
+  /// the number of the item; none of a document that was cancelled.
   [[nodiscard]] std::vector<std::string> unread_fields(const nlohmann::json& document);
 
   template <class Read>
   void each(const Node& array, Read read) {
     if (failed()) return;
     if (!array.value->is_array()) return refuse(array, "an array is expected");
+    constexpr std::size_t kItemsOfStep = 256;  // between two questions whether the work goes on
     for (std::size_t i = 0; i < array.value->size() && !failed(); ++i) {
+      if (i % kItemsOfStep == kItemsOfStep - 1 && is_to_end(watch_)) {
+        error_ = cancelled_error();
+        return;
+      }
       read(Node{&(*array.value)[i], &array, {}, i});
     }
   }
 
   std::optional<Error> error_;
 
+  Watch* watch_;
+
  private:
+  void sort_taken();
+
   std::string_view name_;
   std::vector<const nlohmann::json*> taken_;
 };

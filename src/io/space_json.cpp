@@ -21,7 +21,7 @@ constexpr std::size_t kPlacesOfFormat = 4096;  // bytes within which a file name
 
 class SpaceReader : private JsonValues {
  public:
-  explicit SpaceReader(std::string_view name) : JsonValues(name), file_(name) {}
+  SpaceReader(std::string_view name, Watch* watch) : JsonValues(name, watch), file_(name) {}
 
   Result<StoredSpace> read(const nlohmann::json& document) {
     const Node root{&document, nullptr, {}, 0};
@@ -42,6 +42,7 @@ class SpaceReader : private JsonValues {
     for (std::string& one : unread_fields(document)) {
       if (!is_of_contour(one)) out_.unread.push_back(std::move(one));
     }
+    if (has_ended(watch_)) return fail(cancelled_error());
     if (auto good = check(out_.curve); !good) {
       Error error = good.error();
       error.code = ErrorCode::kBadJson;
@@ -116,7 +117,7 @@ class SpaceReader : private JsonValues {
   StoredContour contour(const Node& root, std::string_view key) {
     const Node node = field(root, key);
     if (failed()) return {};
-    auto stored = contour_from_json(node.value->dump(), fmt::format("{}: /{}", file_, key));
+    auto stored = contour_from_json(node.value->dump(), fmt::format("{}: /{}", file_, key), watch_);
     if (!stored) {
       error_ = stored.error();
       return {};
@@ -139,7 +140,7 @@ class SpaceReader : private JsonValues {
 
 class SpaceChainReader : private JsonValues {
  public:
-  explicit SpaceChainReader(std::string_view name) : JsonValues(name), file_(name) {}
+  SpaceChainReader(std::string_view name, Watch* watch) : JsonValues(name, watch), file_(name) {}
 
   Result<StoredSpaceChain> read(const nlohmann::json& document) {
     const Node root{&document, nullptr, {}, 0};
@@ -165,6 +166,7 @@ class SpaceChainReader : private JsonValues {
     for (std::string& one : unread_fields(document)) {
       if (one != "/parts" && !one.starts_with("/parts/")) out_.unread.push_back(std::move(one));
     }
+    if (has_ended(watch_)) return fail(cancelled_error());
     return std::move(out_);
   }
 
@@ -185,8 +187,8 @@ class SpaceChainReader : private JsonValues {
 
   void part(const Node& node) {
     if (failed()) return;
-    auto stored =
-        SpaceReader(fmt::format("{}: /parts/{}", file_, out_.parts.size())).read(*node.value);
+    auto stored = SpaceReader(fmt::format("{}: /parts/{}", file_, out_.parts.size()), watch_)
+                      .read(*node.value);
     if (!stored) {
       error_ = stored.error();
       return;
@@ -230,20 +232,21 @@ bool is_space_json(std::string_view text) {
           head.find(fmt::format("\"{}\"", kChainFormat)) != std::string_view::npos);
 }
 
-Result<StoredSpace> space_from_json(std::string_view text, std::string_view name) {
-  const auto document = parse_json(text, name);
+Result<StoredSpace> space_from_json(std::string_view text, std::string_view name, Watch* watch) {
+  const auto document = parse_json(text, name, watch);
   OBVID_TRY(document);
-  return SpaceReader(name).read(*document);
+  return SpaceReader(name, watch).read(*document);
 }
 
-Result<StoredSpaceChain> space_chain_from_json(std::string_view text, std::string_view name) {
-  const auto document = parse_json(text, name);
+Result<StoredSpaceChain> space_chain_from_json(std::string_view text, std::string_view name,
+                                               Watch* watch) {
+  const auto document = parse_json(text, name, watch);
   OBVID_TRY(document);
   const auto format = document->is_object() ? document->find("format") : document->end();
   if (format != document->end() && *format == kChainFormat) {
-    return SpaceChainReader(name).read(*document);
+    return SpaceChainReader(name, watch).read(*document);
   }
-  auto one = SpaceReader(name).read(*document);
+  auto one = SpaceReader(name, watch).read(*document);
   OBVID_TRY(one);
   StoredSpaceChain out;
   out.name = one->name;

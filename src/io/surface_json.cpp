@@ -204,10 +204,10 @@ std::string surface_json(const SurfaceModel& model) {
   return out;
 }
 
-Result<SurfaceModel> surface_from_json(std::string_view text, std::string_view name) {
-  const auto document = parse_json(text, name);
+Result<SurfaceModel> surface_from_json(std::string_view text, std::string_view name, Watch* watch) {
+  const auto document = parse_json(text, name, watch);
   OBVID_TRY(document);
-  return SurfaceReader(name).read(*document);
+  return SurfaceReader(name, watch).read(*document);
 }
 
 }  // namespace obvid

@@ -21,7 +21,8 @@ namespace obvid {
 
 /// Reads a contour file. `name` stands in errors. Errors: E308 with line and column or the path of
 /// the field, E309 for numbers beyond what `fit` forms (`out_of_range`), E310 for a version or
-/// piece type that this program does not know. Never throws on any input.
-[[nodiscard]] Result<StoredContour> contour_from_json(std::string_view text, std::string_view name);
+/// piece type that this program does not know, E103. Never throws on any input.
+[[nodiscard]] Result<StoredContour> contour_from_json(std::string_view text, std::string_view name,
+                                                      Watch* watch = nullptr);
 
 }  // namespace obvid

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/report/stored_space.h"
 
@@ -20,11 +21,13 @@ namespace obvid {
 
 /// Errors: E308 with the path of the field, E309, E310 as for contours; those of `check` for the
 /// NURBS curve.
-[[nodiscard]] Result<StoredSpace> space_from_json(std::string_view text, std::string_view name);
+[[nodiscard]] Result<StoredSpace> space_from_json(std::string_view text, std::string_view name,
+                                                  Watch* watch = nullptr);
 
 /// A curve in space, or a chain of them. Errors: those of `space_from_json`; E308 where corners do
 /// not ascend or the number of parts does not belong to them.
 [[nodiscard]] Result<StoredSpaceChain> space_chain_from_json(std::string_view text,
-                                                             std::string_view name);
+                                                             std::string_view name,
+                                                             Watch* watch = nullptr);
 
 }  // namespace obvid

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
 #include "obvid/surface/surface.h"
 
@@ -15,6 +16,7 @@ namespace obvid {
 
 /// Reads a stored surface. Fields of other programs are passed over. `name` stands in errors.
 /// Errors: E308 with the way to the value for everything that the format does not allow.
-[[nodiscard]] Result<SurfaceModel> surface_from_json(std::string_view text, std::string_view name);
+[[nodiscard]] Result<SurfaceModel> surface_from_json(std::string_view text, std::string_view name,
+                                                     Watch* watch = nullptr);
 
 }  // namespace obvid

@@ -51,8 +51,10 @@ std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-Result<Drawing> drawing_of_contour(const std::string& text, const std::string& path) {
-  auto stored = contour_from_json(text, path);
+Result<Drawing> drawing_of_contour(const std::string& text, const std::string& path,
+                                   const RunContext& run) {
+  Watch watch({{}, run.cancelled});
+  auto stored = contour_from_json(text, path, &watch);
   OBVID_TRY(stored);
   Contour& contour = stored->contour;
   Drawing out;
@@ -88,7 +90,7 @@ Result<Drawing> parsed_by_kind(const std::string& text, const std::string& path,
   OBVID_TRY(check_no_planes(planes, path));
   switch (kind) {
     case FileKind::kContour:
-      return drawing_of_contour(text, path);
+      return drawing_of_contour(text, path, run);
     case FileKind::kSvg:
       return parse_svg(text, path);
     case FileKind::kGpx:

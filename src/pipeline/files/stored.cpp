@@ -9,14 +9,16 @@
 
 namespace obvid {
 
-Result<Stored> parse_stored(const std::string& text, const std::string& name) {
+Result<Stored> parse_stored(const std::string& text, const std::string& name,
+                            const RunContext& run) {
+  Watch watch({{}, run.cancelled});
   if (is_space_json(text)) {
-    auto chain = space_chain_from_json(text, name);
+    auto chain = space_chain_from_json(text, name, &watch);
     OBVID_TRY(chain);
     return Stored(std::move(*chain));
   }
-  auto contour = contour_from_json(text, name);
-  if (!contour && parse_points(text, name, {.two = TwoPoints::kDo})) {
+  auto contour = contour_from_json(text, name, &watch);
+  if (!contour && !watch.was_cancelled() && parse_points(text, name, {.two = TwoPoints::kDo})) {
     return error(contour.error().code, "this is a list of points, not a contour")
         .where(name)
         .hint("`obvid fit` forms a contour through them, and writes all formats");

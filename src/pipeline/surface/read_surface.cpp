@@ -26,7 +26,10 @@ Result<SurfaceModel> read_trimmed(const SurfaceInput& input, std::vector<std::st
   }
   const Result<std::string> text = input.text ? *input.text : read_file(path);
   OBVID_TRY(text);
-  if (is_json_text(*text)) return surface_from_json(*text, path);
+  if (is_json_text(*text)) {
+    Watch watch({{}, run.cancelled});
+    return surface_from_json(*text, path, &watch);
+  }
   if (!needs_cad(*text)) {
     auto net = parse_control_net(*text, path);
     if (!net) return net;

@@ -85,11 +85,13 @@ struct CurveFile {
   std::function<Result<std::string>()> text;
 };
 
-/// Points of the series that a stored contour was formed through; 0 for other drawings.
-std::size_t points_behind(const CurveFile& source) {
+/// Points of the series that a stored contour was formed through; 0 for other drawings. Error:
+/// E103.
+Result<std::size_t> points_behind(const CurveFile& source, const RunContext& run) {
   const auto text = source.text();
   if (!text || file_kind(*text) != FileKind::kContour) return 0;
-  const auto stored = parse_stored(*text, source.name);
+  const auto stored = parse_stored(*text, source.name, run);
+  if (!stored && stored.error().code == ErrorCode::kCancelled) return fail(stored.error());
   if (!stored || !std::holds_alternative<StoredContour>(*stored)) return 0;
   return std::get<StoredContour>(*stored).contour.points.size();
 }
@@ -104,7 +106,9 @@ Result<CurveInput> curve_from(const CurveFile& source, const ReadCurveOptions& h
     if (*chosen < drawing->curves.size()) {
       auto made = drawn_curve(std::move(*drawing), how, run);
       if (!made) return fail(at_input(made.error(), source.name));
-      made->curve.points = points_behind(source);
+      const auto points = points_behind(source, run);
+      OBVID_TRY(points);
+      made->curve.points = *points;
       return made;
     }
   }
