@@ -596,6 +596,51 @@ TEST(ContourJson, OnePointOrPieceStandsOnALine) {
             std::string::npos);
 }
 
+/// Lines through points of a parabola, with corners.
+Contour lines_through(std::size_t count) {
+  Contour out;
+  out.carrier = Carrier::kArcs;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = static_cast<double>(i);
+    out.points.push_back({x, x * x});
+  }
+  double heading = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Joint joint{{out.points[i], heading, 0.0}, i, std::nullopt};
+    if (i + 1 < count) {
+      const Vec2 to = out.points[i + 1] - out.points[i];
+      heading = std::atan2(to.y, to.x);
+      (i > 0 ? joint.leaving.emplace(joint.element) : joint.element).theta = heading;
+      out.pieces.push_back(LinePiece{out.points[i], out.points[i + 1]});
+      out.runs.push_back({i, i, 0});
+    }
+    out.joints.push_back(joint);
+  }
+  return out;
+}
+
+TEST(ContourJson, LongTextsAskWhetherToGoOnAndEndWhereTheyAreToldTo) {
+  const std::string text = contour_to_json({lines_through(3000), std::nullopt, std::nullopt});
+  int asked = 0, last = 1 << 30;
+  const auto read = [&] {
+    asked = 0;
+    Watch watch({{}, [&] { return ++asked >= last; }});
+    return contour_from_json(text, "f", &watch);
+  };
+  const auto whole = read();
+  ASSERT_TRUE(whole) << to_line(whole.error());
+  const int in_all = asked;
+  // three passes over all bytes, each item of five lists, unknown fields
+  EXPECT_GE(in_all, static_cast<int>(2 * text.size() / 65536 + 5 * 3000 / 256));
+  for (const int stop : {1, in_all / 4, in_all / 2, 3 * in_all / 4, in_all}) {
+    last = stop;
+    const auto cancelled = read();
+    ASSERT_FALSE(cancelled) << last;
+    EXPECT_EQ(cancelled.error().code, ErrorCode::kCancelled) << last;
+    EXPECT_EQ(asked, last);
+  }
+}
+
 TEST(ContourJson, TextThatIsNotUtf8IsWrittenAsValidJson) {
   auto read = contour_from_json(kSmall, "f");
   ASSERT_TRUE(read.has_value());

@@ -362,9 +362,21 @@ Place Path::nearest(Vec p, Real from, Real to) const {
     const Real order = static_cast<Real>(k) / per;
     if (order >= from && order <= to) bound = std::min(bound, norm(places_[k] - p));
   }
+  const auto may_hold = [&](std::size_t b, Real within) {
+    return norm(blocks_[b].middle - p) - blocks_[b].radius <= within;
+  };
+  // first all ends of legs that matter, so that few legs are refined
+  for (std::size_t b = first / kBlock; b < blocks; ++b) {
+    if (!may_hold(b, bound)) continue;
+    const std::size_t end = std::min((b + 1) * kBlock, last);
+    for (std::size_t k = std::max(b * kBlock, first); k < end; ++k) {
+      const Real order = static_cast<Real>(k) / per;
+      if (order >= from && order <= to) bound = std::min(bound, norm(places_[k] - p));
+    }
+  }
   Place best{0, 0.0L, std::numeric_limits<Real>::max()};
   for (std::size_t b = first / kBlock; b < blocks; ++b) {
-    if (norm(blocks_[b].middle - p) - blocks_[b].radius > std::min(bound, best.distance)) continue;
+    if (!may_hold(b, std::min(bound, best.distance))) continue;
     const std::size_t end = std::min((b + 1) * kBlock, last);
     for (std::size_t k = std::max(b * kBlock, first); k < end; ++k) {
       const Real away = norm(places_[k] - p), beyond = norm(places_[k + 1] - p);
