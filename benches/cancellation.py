@@ -80,6 +80,16 @@ def main():
                             ("dxf", {"dxf": "arcs"}), ("dxf", {"dxf": "cubic"}), ("nc", {}), ("csv", {}), ("html", {})]:
         measured(" ".join(["export", ending, *options.values()]), lambda: export(ending, options))
 
+    def stored():
+        files, size, text, read = C.c_void_p(), C.c_size_t(), C.c_void_p(), C.c_void_p()
+        lib.obvid_export(contour, b"json", b"{}", None, C.byref(files), None)
+        lib.obvid_files_data.restype = C.c_void_p
+        data = lib.obvid_files_data(files, C.c_size_t(0), C.byref(size))
+        lib.obvid_read_text(C.c_void_p(data), size, b"contour.json", C.byref(text), None)
+        asked[:] = [now()]
+        return lib.obvid_stored(text, b"{}", C.byref(run), C.byref(read), None)
+
+    measured("a contour file, read", stored)
     examples = pathlib.Path(__file__).resolve().parent.parent / "examples"
 
     def opened(paths):
