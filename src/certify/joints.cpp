@@ -381,7 +381,8 @@ std::vector<std::size_t> joints_with_loose_slopes(Contour contour) {
 namespace {
 
 /// Whether a joint is where the point that it names may be: on it, or where points have tolerances
-/// within that of it or nearer to it than to its neighbours (ends of arcs may lie farther along).
+/// within that of it or nearer to it than to its neighbours (ends of arcs may lie farther along);
+/// nearer by less than the tolerance tells nothing.
 bool stands_on(Vec2 place, const Contour& contour, std::size_t point) {
   const auto& points = contour.points;
   if (place == points[point]) return true;
@@ -389,10 +390,11 @@ bool stands_on(Vec2 place, const Contour& contour, std::size_t point) {
     return false;
   const std::size_t n = points.size();
   const double off = norm(place - points[point]);
-  if (off <= contour.point_tolerance[point]) return true;
+  const double reach = contour.point_tolerance[point];
+  if (off <= reach) return true;
   const std::size_t before = point > 0 ? point - 1 : contour.closed ? n - 1 : point;
   const std::size_t behind = point + 1 < n ? point + 1 : contour.closed ? 0 : point;
-  return off <= norm(place - points[before]) && off <= norm(place - points[behind]);
+  return off - reach <= norm(place - points[before]) && off - reach <= norm(place - points[behind]);
 }
 
 }  // namespace

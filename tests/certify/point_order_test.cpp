@@ -77,6 +77,17 @@ TEST(PointOrder, MeetingEachPointAsEarlyAsPossibleFindsAnOrderThatNearestPlacesH
   EXPECT_FALSE(certify(contour).through_points);
 }
 
+TEST(PointOrder, AJointMayNameEitherOfTwoPointsThatTheirTolerancesDoNotTellApart) {
+  // a joint at angle 1, 0.0665 before the point that it names and 0.0655 before another one
+  Contour contour = circle(6, points_at({0.1, 1.0131, 1.0133, 2.2}), 0.066);
+  contour.joints[2].source = 2;
+  EXPECT_TRUE(certify(contour).through_points) << certify(contour).reason;
+  contour.points[1] = on_ring(0.9, 5.0);
+  EXPECT_TRUE(certify(contour).through_points) << certify(contour).reason;
+  contour.joints[2].source = 3;
+  EXPECT_FALSE(certify(contour).through_points);
+}
+
 TEST(PointOrder, MeasuredPointsWhoseNoiseIsLargerThanTheirSpacingAreMet) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> noise(-1.0, 1.0);
