@@ -333,28 +333,6 @@ TEST(PointsOnlyError, IsNothingOnFourPointsOfOneCircle) {
   for (const SegmentReport& row : f->report.segments) EXPECT_EQ(row.points_only_error, 0.0);
 }
 
-TEST(PointsOnlyError, IsThatOfTheAnalysisOrUnknownWherePointsOfALineAreLeft) {
-  // the rounded points 4 to 7 lie on a line, which no contour of one curvature fits to the others
-  const std::vector<double> y = {0, 2, 9, 19, 33, 53, 73, 93, 135, 172, 209, 259};
-  std::vector<Vec2> points;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    points.push_back({0.01 * static_cast<double>(i), 1e-4 * y[i]});
-  }
-  const auto f = fit_carrier(points, Carrier::kSpiral);
-  ASSERT_TRUE(f) << to_line(f.error());
-  const auto alone = analyse(points);
-  ASSERT_TRUE(alone);
-  EXPECT_EQ(alone->points_only_error[4], 0.0);
-  std::size_t known = 0;
-  for (std::size_t i = 0; i < f->report.segments.size(); ++i) {
-    const double error = f->report.segments[i].points_only_error;
-    if (std::isnan(error) || std::isnan(alone->points_only_error[i])) continue;
-    ++known;
-    EXPECT_EQ(error, alone->points_only_error[i]) << i;
-  }
-  EXPECT_GT(known, 0U);
-}
-
 TEST(PointsOnlyError, IsUnknownWhereTheContourIsNotMonotone) {
   std::vector<Vec2> wave;
   for (int i = 0; i <= 24; ++i) wave.push_back({0.25 * i, std::sin(0.25 * i)});

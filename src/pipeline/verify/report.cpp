@@ -320,8 +320,7 @@ std::vector<std::vector<std::size_t>> sections_of(const Contour& contour) {
 }
 
 /// Errors of chords; `direction` is that of the contour beside each of them. Points of one circle
-/// leave nothing open where the contour is monotone along all of them: it is that circle. Elsewhere
-/// nothing is said of them: `analyse` speaks of curves that are.
+/// leave nothing open where the contour is monotone along all of them: it is that circle.
 std::vector<double> errors_of(const Analysis& analysis, const std::vector<int>& direction) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < analysis.chords.size(); ++i) {
@@ -333,9 +332,8 @@ std::vector<double> errors_of(const Analysis& analysis, const std::vector<int>& 
     for (std::size_t i = s.first; i < s.last && common != kNotMonotone; ++i) {
       common = common_direction(common, direction[i]);
     }
-    for (std::size_t i = s.first; i < s.last; ++i) {
-      if (analysis.points_only_error[i] != 0.0) continue;
-      errors[i] = common != kNotMonotone ? 0.0 : kUnknown;
+    for (std::size_t i = s.first; i < s.last && common != kNotMonotone; ++i) {
+      if (analysis.points_only_error[i] == 0.0) errors[i] = 0.0;
     }
   }
   return errors;
