@@ -101,6 +101,17 @@ def facts_of(text):
     return dict(re.findall(r"^(\S.*?)  +(\S.*)$", text, re.M))
 
 
+def keeps_circle(stored, circular, point):
+    """Whether a contour is monotone along all points of a line or circle on which `point` begins a chord."""
+    at = {e["source"]: k for k, e in enumerate(stored["elements"]) if "source" in e}
+    for stretch in circular:
+        first, last = stretch["first_point"], stretch["last_point"]
+        if first <= point < last:
+            kinds = {stored["certificate"]["monotone"][k]["verdict"] for k in range(at[first], at[last])}
+            return len(kinds - {"constant"}) < 2
+    return True
+
+
 def labels_of(picture):
     """What is written in a picture, without the numbers of its axes; 3·10⁻⁶ becomes 3e-6."""
     raised = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
@@ -542,8 +553,10 @@ class Subject:
             return  # points that stand twice were merged
         for row in stored["report"]["segments"]:
             alone = answer["segments"][row["points"][0]]["points_only_error"]
-            # a contour that turns back elsewhere than the points is known where they tell nothing
-            if row["points_only_error"] is not None and alone is not None:
+            # a contour that turns back elsewhere than the points is known where they tell nothing,
+            # and one that leaves their line or circle is not one of the curves that have no choice
+            left = alone == 0 and not keeps_circle(stored, answer["circular"], row["points"][0])
+            if row["points_only_error"] is not None and alone is not None and not left:
                 self.same(f"points-only error of fit and analyse at {row['points']}",
                           row["points_only_error"], alone)
         self.same("bounds of fit and analyse", stored["report"]["vertices_lower_bound"],
