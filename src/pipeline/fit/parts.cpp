@@ -24,7 +24,7 @@ bool ahead(const Station& a, const Station& b) {
 class Stations {
  public:
   Stations(const Contour& contour, Watch* watch)
-      : contour_(contour), questions_(watch, kFeetBetweenQuestions) {}
+      : contour_(contour), questions_(watch, kPiecesBetweenQuestions) {}
 
   std::vector<Station> run() {
     const std::size_t n = contour_.pieces.size();
@@ -58,12 +58,12 @@ class Stations {
   }
 
   /// The place nearest to a point between the last station and the next one.
-  [[nodiscard]] Station foot_of(std::size_t point, const Station& next) const {
+  [[nodiscard]] Station foot_of(std::size_t point, const Station& next) {
     const Vec2 p = contour_.points[point];
     Station best = stations_.back();
     double least = HUGE_VAL;
     const std::size_t last = next.t > 0.0 ? next.piece : next.piece - 1;
-    for (std::size_t k = stations_.back().piece; k <= last; ++k) {
+    for (std::size_t k = stations_.back().piece; k <= last && !questions_.end(); ++k) {
       const Piece near = moved(contour_.pieces[k], Vec2{} - p);  // large coordinates blur distances
       const double t = nearest_on(near);
       const double away = norm(evaluate(near, t).point);
@@ -90,7 +90,7 @@ class Stations {
     return best;
   }
 
-  static constexpr std::size_t kFeetBetweenQuestions = 16;
+  static constexpr std::size_t kPiecesBetweenQuestions = 64;
   /// Pieces this much farther than the nearest one so far lead away from the point.
   static constexpr double kPassed = 8.0;
 
