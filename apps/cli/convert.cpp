@@ -7,6 +7,7 @@
 #include "obvid/core/files.h"
 #include "obvid/core/internal/file_ending.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/airfoil_file.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
 #include "obvid/pipeline/stored.h"
 #include "outputs.h"
@@ -121,6 +122,7 @@ Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
     return out;
   }
   out.warnings = done->warnings;
+  out.cells = airfoil_cells(done->files);
   out.verdict = "written " + listed(done->files);
   return out;
 }

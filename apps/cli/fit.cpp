@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
+#include "obvid/pipeline/internal/airfoil_file.h"
 
 #include <filesystem>
 #include <optional>
@@ -131,6 +132,7 @@ Summary summary_of_fit(const FitOptions& all, const OneOf& one,
   if (!written) return failed(written.error());
   out.warnings = made->warnings;
   out.cells = summary_cells(*made);
+  for (SummaryCell& cell : airfoil_cells(*written)) out.cells.push_back(std::move(cell));
   out.verdict = made->certificate.proved ? "proved" : "formed";
   if (!options.construction) out.error = broken_promise(*made);
   return out;

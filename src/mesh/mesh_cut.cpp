@@ -170,9 +170,23 @@ class Chains {
     if (chain.closed && chain.points.size() > 1 && chain.points.front() == chain.points.back()) {
       chain.points.pop_back();
     }
+    if (!chain.closed) close_seam(chain);
     if (against > along) std::reverse(chain.points.begin(), chain.points.end());
     chain.turned = std::min(against, along);
     return chain;
+  }
+
+  /// A seam of a mesh, along which its corners are two but for rounding, opens no section.
+  static void close_seam(MeshSection& chain) {
+    constexpr std::size_t kFewest = 4;
+    constexpr double kOfSeam = 1e-9;  // of the section: single precision of files is coarser, but
+                                      // there corners of a seam are the same
+    if (chain.points.size() < kFewest) return;
+    double size = 0.0;
+    for (const Vec2 p : chain.points) size = std::max(size, norm(p - chain.points.front()));
+    if (norm(chain.points.back() - chain.points.front()) > kOfSeam * size) return;
+    chain.closed = true;
+    chain.points.pop_back();
   }
 
   static void add(MeshSection chain, std::vector<MeshSection>& out) {

@@ -13,17 +13,9 @@
 
 #include "obvid/core/internal/figures.h"
 #include "outline_tour.h"
+#include "spanning_tree.h"
 
 namespace obvid {
-namespace {
-
-constexpr std::size_t kMostOrdered = 20'000;
-constexpr std::size_t kFewestCompared = 8, kMostOfTour = 3'000;
-constexpr std::size_t kFewestOfTour = 12;  // fewer have hardly any rival to look at
-
-using Edge = std::pair<std::size_t, std::size_t>;
-
-/// Edges of the shortest spanning tree; of equal ones those of the points that come first.
 std::vector<Edge> shortest_tree(const std::vector<Vec2>& points) {
   const std::size_t n = points.size();
   std::vector<double> distance(n, std::numeric_limits<double>::infinity());
@@ -49,6 +41,12 @@ std::vector<Edge> shortest_tree(const std::vector<Vec2>& points) {
   }
   return out;
 }
+
+namespace {
+
+constexpr std::size_t kMostOrdered = 20'000;
+constexpr std::size_t kFewestCompared = 8, kMostOfTour = 3'000;
+constexpr std::size_t kFewestOfTour = 12;  // fewer have hardly any rival to look at
 
 /// From the end of the longest step that comes first in the list.
 CurveOrder opened_at_the_longest_step(const std::vector<Vec2>& points,

@@ -11,22 +11,12 @@
 #include <utility>
 
 #include "middle_residual.h"
+#include "outlier_rules.h"
 
 namespace obvid {
 namespace {
 
-constexpr std::size_t kLeastCompared = 20;
-/// Of the deviations that no point of a normal series exceeds.
-constexpr double kClearly = 2.0;
-/// Of what is left out, what may be left beside it: at a corner it is a third.
-constexpr double kRest = 0.25;
-/// Cosine of the most that a curve turns over a gap, once on each side.
-constexpr double kStraight = 0.7071067811865476;
-/// Points on each side whose residuals tell how well cubics follow the curve there.
-constexpr std::size_t kAround = 20;
-constexpr std::size_t kMostInARow = 3;
 constexpr std::size_t kSide = 2;  ///< neighbours of a cubic on each side
-constexpr double kMostOfAll = 0.1;
 
 class Search {
  public:

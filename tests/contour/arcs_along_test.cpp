@@ -257,5 +257,42 @@ TEST(PolylineAlong, RefusesMoreThanTenMillionPoints) {
   EXPECT_EQ(polyline_along(Contour{}, 1.0).error().code, ErrorCode::kNothingThere);
 }
 
+Contour whole_ellipse(double a, double b) {
+  Contour out = contour_of({quarter_ellipse(a, b, 0), quarter_ellipse(a, b, 1),
+                            quarter_ellipse(a, b, 2), quarter_ellipse(a, b, 3)});
+  out.closed = true;
+  out.joints.pop_back();
+  for (std::size_t k = 0; k < 4; ++k) out.runs.push_back({k, k, k % 2 == 0 ? -1 : 1});
+  return out;
+}
+
+/// Arcs that the change of curvature of an ellipse asks for: the integral of (r / (125 e))^(1/3),
+/// docs/methods/gcode.md.
+double best_count(double a, double b, double tolerance) {
+  constexpr int kPlaces = 4000;
+  double sum = 0.0;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double t = 2.0 * std::numbers::pi * (k + 0.5) / kPlaces;
+    const double g = std::pow(a * std::sin(t), 2) + std::pow(b * std::cos(t), 2);
+    const double rate =
+        std::abs(3.0 * a * b * (a * a - b * b) * std::sin(t) * std::cos(t)) / std::pow(g, 3);
+    sum += std::cbrt(rate / (124.7 * tolerance)) * std::sqrt(g) * 2.0 * std::numbers::pi / kPlaces;
+  }
+  return sum;
+}
+
+TEST(ArcsAlong, OfAWholeEllipseAreHardlyMoreThanTheBest) {
+  const Contour ellipse = whole_ellipse(12.37, 7.42);
+  for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    const auto made = arcs_along(ellipse, tolerance);
+    ASSERT_TRUE(made);
+    EXPECT_LE(made->deviation, tolerance);
+    // pairs, and as many on each quarter: a few more where they are few
+    EXPECT_LE(static_cast<double>(made->pieces.size()),
+              1.16 * best_count(12.37, 7.42, tolerance) + 5.0)
+        << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace obvid

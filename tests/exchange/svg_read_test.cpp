@@ -401,5 +401,31 @@ TEST(SvgPublicFiles, CutAnywhereTheyAreRefusedOrRead) {
   EXPECT_EQ(refused, text.size() - 8);
 }
 
+TEST(SvgRead, LayersOfInkscapeLieInEachOtherAndGroupsAreNone) {
+  const std::string layer =
+      "<g xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' "
+      "inkscape:groupmode='layer' id='x' inkscape:label=";
+  const Drawing d = read_svg_text(sheet("<path id='a' d='M0 0h1'/>" + layer +
+                                        "'Part'><path id='b' d='M0 0h1'/><g id='g'>" + layer +
+                                        "'Holes'><path id='c' d='M0 0h1'/></g></g></g>"));
+  ASSERT_EQ(d.curves.size(), 3U);
+  EXPECT_EQ(d.curves[0].layer, "");
+  EXPECT_EQ(d.curves[0].label, "path a");
+  EXPECT_EQ(d.curves[1].layer, "Part");
+  EXPECT_EQ(d.curves[2].layer, "Part/Holes");
+  EXPECT_EQ(d.curves[2].label, "path c on layer Part/Holes");
+}
+
+TEST(SvgRead, GroupsWithNamesAreLayersOfOtherPrograms) {
+  const Drawing d = read_svg_text(sheet(
+      "<g id='Outer'><g><path d='M0 0h1'/></g><polygon points='60,30 59.5,33.1 58.1,35.9 55.9,38.1 "
+      "53.1,39.5 50,40 46.9,39.5 44.1,38.1 41.9,35.9 40.5,33.1 40,30 40.5,26.9 41.9,24.1 44.1,21.9 "
+      "46.9,20.5 50,20 53.1,20.5 55.9,21.9 58.1,24.1 59.5,26.9'/></g>"));
+  ASSERT_EQ(d.curves.size(), 1U);
+  EXPECT_EQ(d.curves[0].layer, "Outer");
+  ASSERT_EQ(d.series.size(), 1U);
+  EXPECT_EQ(d.series[0].layer, "Outer");
+}
+
 }  // namespace
 }  // namespace obvid

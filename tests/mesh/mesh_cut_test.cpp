@@ -277,5 +277,29 @@ TEST(MeshCut, RefusesCornersWithoutPointsAndPointsThatAreNotFinite) {
   EXPECT_EQ(bounds->high, (Vec3{2, 3, 5}));
 }
 
+TEST(MeshCut, ASeamThatDiffersByRoundingOpensNoSection) {
+  TriangleMesh seamed = box({3.0, 2.0, 1.0});
+  // the edge from 0 to 4 once more, as another corner of its last side
+  const auto copy = [&](std::uint32_t corner, double by) {
+    Vec3 p = seamed.points[corner];
+    p.x += by;
+    seamed.points.push_back(p);
+    return static_cast<std::uint32_t>(seamed.points.size() - 1);
+  };
+  for (const double by : {1e-15, 1e-3}) {
+    seamed = box({3.0, 2.0, 1.0});
+    const std::uint32_t low = copy(0, by), high = copy(4, by);
+    for (std::size_t i = seamed.triangles.size() - 2; i < seamed.triangles.size(); ++i) {
+      for (std::uint32_t& corner : seamed.triangles[i]) {
+        corner = corner == 0 ? low : corner == 4 ? high : corner;
+      }
+    }
+    const auto sections = cut_mesh(seamed, level(0.5));
+    ASSERT_TRUE(sections);
+    ASSERT_EQ(sections->size(), 1U);
+    EXPECT_EQ(sections->front().closed, by < 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace obvid

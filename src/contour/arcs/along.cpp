@@ -28,7 +28,10 @@ constexpr double kManyArcs = 1000.0;      // from here on only the first of them
 constexpr double kOfArcTolerance = 0.99;  // what sampling may miss
 constexpr double kSpanAccuracy = 0.01;    // of a pair: how exactly its end is found
 constexpr double kShortestArc = 1e-12;    // of a contour: arcs of that length are rounding
-constexpr double kMostLean = 0.2;         // rad, between a node's heading and the contour's
+/// Of a stretch: where the search for the length of arcs begins. Curvatures at the ends and in the
+/// middle of a whole symmetric contour are equal, as if it were a circle.
+constexpr double kFirstPeriod = 1.0 / 64.0;
+constexpr double kMostLean = 0.2;  // rad, between a node's heading and the contour's
 constexpr std::size_t kMostArcs = 1000000;
 constexpr std::size_t kEvened = 20;  // pairs before the end of a stretch that are made alike
 constexpr int kEvenings = 5;         // bisections for that
@@ -49,7 +52,7 @@ class StretchArcs {
         tolerance_(tolerance),
         parts_(parts),
         watch_(watch),
-        period_(to_ - from_) {
+        period_(kFirstPeriod * (to_ - from_)) {
     if (closed_) seam_lean_ = kParts.front() * lean(from_, tolerance_);
   }
 

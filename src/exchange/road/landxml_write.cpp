@@ -86,6 +86,8 @@ Vec2 tangents_meet(const RoadElement& e, Transition kind) {
   return e.start + cross(e.end - e.start, b) / cross(a, b) * a;
 }
 
+constexpr double kNoCoordinate = 1e-15;  // of the length: of sums along an alignment
+
 class LandXmlWriter {
  public:
   /// `ratio`: units of the format in one of the contour.
@@ -96,6 +98,7 @@ class LandXmlWriter {
   std::string run() {
     double length = 0.0;
     for (const RoadLine& line : lines_) length += line.length;
+    nothing_ = kNoCoordinate * length;
     const std::string name = escaped_xml(options_.name);
     put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<LandXML xmlns=\"http://www.landxml.org/schema/LandXML-1.2\" version=\"1.2\" date=\"{}\" "
@@ -136,8 +139,15 @@ class LandXmlWriter {
     format_into(out_, text, std::forward<Args>(args)...);
   }
 
+  /// A coordinate; what rounding leaves of 0 is 0.
+  [[nodiscard]] double place_of(double value) const {
+    return std::abs(value) <= nothing_ ? 0.0 : value;
+  }
+
   /// Northing first.
-  void point(const char* kind, Vec2 p) { put("          <{0}>{1} {2}</{0}>\n", kind, p.y, p.x); }
+  void point(const char* kind, Vec2 p) {
+    put("          <{0}>{1} {2}</{0}>\n", kind, place_of(p.y), place_of(p.x));
+  }
 
   static std::string radius(double kappa) {
     return kappa == 0.0 ? "INF" : fmt::format("{}", 1.0 / std::abs(kappa));
@@ -211,7 +221,7 @@ class LandXmlWriter {
   void profile(const VerticalProfile& profile, const std::string& name) {
     put("      <Profile name=\"{0}\">\n        <ProfAlign name=\"{0}\">\n", name);
     const auto place = [&](const char* opening, const char* kind, Vec2 at) {
-      put("          <{}>{} {}</{}>\n", opening, ratio_ * at.x, ratio_ * at.y, kind);
+      put("          <{}>{} {}</{}>\n", opening, place_of(ratio_ * at.x), ratio_ * at.y, kind);
     };
     place("PVI", "PVI", {profile.elements.front().station, profile.elements.front().height});
     double steepest = 0.0;
@@ -251,6 +261,7 @@ class LandXmlWriter {
   std::string_view unit_;  ///< one of the format's
   double ratio_;           ///< of these in one of the contour
   const LandXmlOptions& options_;
+  double nothing_ = 0.0;  ///< below, a coordinate is 0
   std::string out_;
 };
 

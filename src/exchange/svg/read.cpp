@@ -63,6 +63,7 @@ struct State {
   Affine to_sheet;
   SvgViewport viewport;
   int depth = 0;
+  std::string layer{};  ///< those around it, from the outermost one: "Part/Holes"
 };
 
 class SvgReader {
@@ -98,7 +99,23 @@ class SvgReader {
       open.pop_back();
       for (const pugi::xml_node child : node.children()) open.push_back(child);
       if (const auto id = node.attribute("id")) ids_.try_emplace(id.value(), node);
+      has_layers_ = has_layers_ || is_layer(node);
     }
+  }
+
+  /// What Inkscape calls a layer.
+  static bool is_layer(pugi::xml_node node) {
+    return string_view(attribute_of(node, "groupmode").value()) == "layer";
+  }
+
+  /// Groups with a name are layers where the file has none of Inkscape's: of other programs.
+  [[nodiscard]] std::string layer_inside(pugi::xml_node group, const std::string& outer) const {
+    if (has_layers_ && !is_layer(group)) return outer;
+    string_view name = has_layers_ ? attribute_of(group, "label").value() : "";
+    if (name.empty()) name = group.attribute("id").value();
+    constexpr std::size_t kLongestPath = 200;  // of groups that lie in each other without end
+    if (name.empty() || outer.size() > kLongestPath) return outer;
+    return (outer.empty() ? "" : outer + "/") + shortened(name);
   }
 
   /// Pixels of the sheet to millimetres with y up.
@@ -184,11 +201,13 @@ class SvgReader {
     if (whole.substr(0, whole.size() - name.size()) != prefix_ || is_silent(name)) return;
     if (is_hidden(node)) return warnings_.add("hidden elements (display: none) left out", node);
     if (!afford(node)) return;
-    const State state = {outer.to_sheet * own_transform(node), outer.viewport, outer.depth + 1};
+    State state = {outer.to_sheet * own_transform(node), outer.viewport, outer.depth + 1,
+                   outer.layer};
     if (!state.to_sheet.is_finite() || state.to_sheet.determinant() == 0.0) {
       return warnings_.add("elements with a transform that flattens them left out", node);
     }
     if (SvgShape::knows(name)) return shape(node, name, state);
+    if (name == "g") state.layer = layer_inside(node, outer.layer);
     if (name == "g" || name == "a" || name == "switch") return children(node, state);
     if (name == "svg") return nested(node, state, {}, node);
     if (name == "use") return use(node, state);
@@ -197,8 +216,9 @@ class SvgReader {
 
   void shape(pugi::xml_node node, string_view name, const State& state) {
     const string_view id = node.attribute("id").value();
-    const std::string label = id.empty() ? fmt::format("{} {}", name, ++numbers_[std::string(name)])
-                                         : fmt::format("{} {}", name, shortened(id));
+    std::string label = id.empty() ? fmt::format("{} {}", name, ++numbers_[std::string(name)])
+                                   : fmt::format("{} {}", name, shortened(id));
+    if (!state.layer.empty()) label += " on layer " + state.layer;
     exchange::SvgPathBuilder builder(state.to_sheet, label);
     SvgShape drawn(node, state.viewport, builder, warnings_);
     drawn.draw(name);
@@ -211,7 +231,12 @@ class SvgReader {
       return warnings_.add(fmt::format("{} draws nothing", label), node);
     }
     // vertices of a polyline are points of a curve, or its edges are what is drawn
-    if (is_sampled(drawn.points())) return series(drawn.points(), state.to_sheet, label);
+    if (is_sampled(drawn.points())) {
+      series(drawn.points(), state.to_sheet, label);
+      drawing_.series.back().layer = state.layer;
+      return;
+    }
+    for (DrawnCurve& curve : curves) curve.layer = state.layer;
     std::move(curves.begin(), curves.end(), std::back_inserter(drawing_.curves));
   }
 
@@ -302,6 +327,7 @@ class SvgReader {
   std::vector<pugi::xml_node> active_;  ///< targets of use that are being drawn
   std::size_t budget_;                  ///< of what is drawn through use
   std::size_t empty_segments_ = 0;
+  bool has_layers_ = false;  ///< Inkscape's
   std::map<std::string, int> numbers_;
   Drawing drawing_;
 };

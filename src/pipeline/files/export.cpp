@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/export.h"
+#include "obvid/pipeline/internal/airfoil_file.h"
 
 #include <fmt/format.h>
 
@@ -317,6 +318,13 @@ Result<Exported> airfoil_file(const ContourExport& e) {
         fmt::format("trailing edge of the file {:.4f} chords thick: sides moved apart by the "
                     "difference times (x/chord)^2",
                     *write.trailing_thickness));
+  }
+  if (const auto file = figures_of_airfoil_file(out.files.front().text)) {
+    out.remarks.push_back(fmt::format(
+        "the file, straight lines between its points: thickness {:.3f} % at {:.2f} %, {}, trailing "
+        "edge {:.3f} % thick",
+        100.0 * file->thickness, 100.0 * file->thickness_at, camber_text(*file),
+        100.0 * file->trailing_thickness));
   }
   const bool longer = made->closed && made->closed->gone_on > kPrintedChords;
   const char* measured = longer ? "contour with the side that goes on" : "contour";

@@ -39,6 +39,16 @@ struct LargestError {
   }
 };
 
+/// A coordinate with so many digits that a thousandth of the chord there shows: far from the origin
+/// that is more than usual.
+std::string beside(double value, double chord) {
+  constexpr int kUsual = 5, kMost = 15;
+  constexpr double kShown = 1e-3;
+  if (!(chord > 0.0) || value == 0.0) return significant(value);
+  const double digits = std::ceil(std::log10(std::abs(value) / (kShown * chord)));
+  return significant(value, static_cast<int>(std::clamp<double>(digits, kUsual, kMost)));
+}
+
 /// What the points alone leave open, and what is left once tangents and curvatures are chosen.
 std::string error_text(const FitReport& report, const std::string& units) {
   LargestError points_only;
@@ -62,7 +72,7 @@ std::string error_text(const FitReport& report, const std::string& units) {
   if (chosen.segment != nullptr) {
     const Vec2 at = chosen.segment->deviation_at;
     text += fmt::format(" (points {}, at {}, {})", points_of_segment(*chosen.segment),
-                        significant(at.x), significant(at.y));
+                        beside(at.x, chosen.segment->chord), beside(at.y, chosen.segment->chord));
   }
   return text;
 }

@@ -274,8 +274,9 @@ std::vector<std::string> idle_options(const FormatValues& typed,
   look(typed.step.has_value(), written({kStep}), "--step", "STEP file");
   look(typed.dxf.has_value(), written({kDxf}), "--dxf", "DXF file");
   look(typed.svg.has_value(), svg, "--svg", ".svg");
-  look(typed.plot.has_value(), svg, "--plot", ".svg");
-  look(typed.curvature_range.has_value(), svg, "--curvature-range", ".svg");
+  const bool picture = written({kPicture, kPage});
+  look(typed.plot.has_value(), picture, "--plot", ".svg or .html");
+  look(typed.curvature_range.has_value(), picture, "--curvature-range", ".svg or .html");
   look(typed.samples.has_value(), samples || foil, "--samples", "file of samples");
   look(typed.sample_step.has_value(), samples, "--sample-step", "file of samples");
   look(typed.airfoil.has_value(), foil, "--airfoil", ".dat");

@@ -39,6 +39,7 @@
 #include "obvid/pipeline/internal/mesh_sections.h"
 #include "obvid/series/internal/order.h"
 #include "obvid/series/internal/outliers.h"
+#include "obvid/series/internal/strays.h"
 
 namespace obvid {
 namespace {
@@ -179,6 +180,13 @@ const std::string& layer_of(const Drawing& drawing, std::size_t i) {
   return i < curves ? drawing.curves[i].layer : drawing.series[i - curves].layer;
 }
 
+/// Whether a layer is the one of that name, or lies in it: layers of SVG files lie in each other,
+/// "Part/Holes".
+bool is_on_layer(const std::string& layer, const std::string& name) {
+  return layer == name || layer.starts_with(name + "/") || layer.ends_with("/" + name) ||
+         layer.find("/" + name + "/") != std::string::npos;
+}
+
 /// Whether `word` stands in `text` between blanks, commas or the ends; upper and lower case are
 /// the same.
 bool has_word(const std::string& text, const std::string& word) {
@@ -234,8 +242,9 @@ void leave_out(const std::vector<bool>& flagged, PointSeries& series) {
   if (!series.fixed.empty()) series.fixed.resize(stay);
 }
 
-/// Every point once, where a list in no order has it twice; the first of them stays.
-void drop_repeated_points(PointSeries& series) {
+/// Every point once, where a list in no order has it twice; the first of them stays. Indices of
+/// those that are left.
+std::vector<std::size_t> drop_repeated_points(PointSeries& series) {
   std::vector<std::size_t> sorted(series.points.size());
   std::iota(sorted.begin(), sorted.end(), std::size_t{0});
   const auto place_of = [&](std::size_t i) {
@@ -249,7 +258,19 @@ void drop_repeated_points(PointSeries& series) {
     repeated[sorted[k]] = series.points[sorted[k]] == series.points[sorted[k - 1]];
   }
   leave_out(repeated, series);
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < repeated.size(); ++i) {
+    if (!repeated[i]) left.push_back(i);
+  }
+  return left;
 }
+
+/// What stands in a list in no order.
+struct InOrder {
+  PointSeries series;
+  std::vector<std::size_t> numbers;  ///< of the points in the list, from 0; none: as they stand
+  std::size_t strays = 0;            ///< that were left out
+};
 
 std::string order_text(const PointSeries& series, const CurveOrder& found) {
   constexpr double kMayClose = 2.0;  // steps
@@ -267,17 +288,74 @@ std::string order_text(const PointSeries& series, const CurveOrder& found) {
   return text;
 }
 
-Result<PointSeries> in_order(Result<PointSeries> series, const ImportOptions& options) {
-  if (!series || !options.unordered) return series;
+std::string deviations_text(const Outliers& found, const std::string& unit) {
+  return fmt::format("{} {} ({} deviations of the others)",
+                     significant(found.limit * found.deviation, 3), unit,
+                     significant(found.limit, 3));
+}
+
+/// Points by their numbers in the list and their places.
+std::string strays_text(const PointSeries& series, const std::vector<Outlier>& strays,
+                        const std::vector<std::size_t>& numbers) {
+  constexpr std::size_t kMostNamed = 8;
+  const std::string unit = series.units.text();
+  std::string text = strays.size() == 1 ? "point" : fmt::format("{} points:", strays.size());
+  for (std::size_t k = 0; k < std::min(strays.size(), kMostNamed); ++k) {
+    const Vec2 at = series.points[strays[k].index];
+    text += fmt::format("{} {} of the list (at {}, {}, {} {} off the curve of the others)",
+                        k > 0 ? "," : "", numbers[strays[k].index] + 1, significant(at.x),
+                        significant(at.y), significant(strays[k].off, 4), unit);
+  }
+  if (strays.size() > kMostNamed) text += fmt::format(" and {} more", strays.size() - kMostNamed);
+  return text;
+}
+
+/// An order, of all points or without those that stray.
+Result<CurveOrder> order_of(const PointSeries& series, const std::vector<std::size_t>& numbers,
+                            const ImportOptions& options, InOrder& out) {
+  auto whole = order_along_curve(series.points);
+  if (!whole && whole.error().code != ErrorCode::kOutOfOrder) return whole;
+  if (whole && !options.drop_outliers && !whole->is_outline) return whole;
+  auto found = order_beside_strays(series.points);
+  if (!found) return whole;
+  const std::string strays = strays_text(series, found->strays.points, numbers);
+  if (whole && !options.drop_outliers) {
+    out.series.warnings.push_back("--unordered: " + strays + ": --drop-outliers leaves " +
+                                  (found->strays.points.size() == 1 ? "it" : "them") + " out");
+    return whole;
+  }
+  if (!options.drop_outliers) {
+    whole.error().hint = fmt::format(
+        "without {} the points have an order: --drop-outliers leaves "
+        "{} out",
+        strays, found->strays.points.size() == 1 ? "it" : "them");
+    return whole;
+  }
+  out.strays = found->strays.points.size();
+  out.series.warnings.push_back(fmt::format(
+      "--drop-outliers: left out {} before the points were put in order; the others deviate by "
+      "{} {}",
+      strays, significant(found->strays.deviation, 3), series.units.text()));
+  return std::move(found->order);
+}
+
+Result<InOrder> in_order(Result<PointSeries> series, const ImportOptions& options) {
+  OBVID_TRY(series);
+  InOrder whole;
+  if (!options.unordered) {
+    whole.series = std::move(*series);
+    return whole;
+  }
   if (!series->kept.empty()) {
     return error(ErrorCode::kBadOption, "pieces of a drawing have their order")
         .where("--unordered")
         .hint("leave it out, or take points alone with --drawing points");
   }
-  drop_repeated_points(*series);
-  const auto found = order_along_curve(series->points);
+  const std::vector<std::size_t> numbers = drop_repeated_points(*series);
+  whole.series = std::move(*series);
+  PointSeries& out = whole.series;
+  const auto found = order_of(out, numbers, options, whole);
   OBVID_TRY(found);
-  PointSeries& out = *series;
   const std::vector<Vec2> points = std::move(out.points);
   const std::vector<FixedData> fixed = std::move(out.fixed);
   out.points.clear();
@@ -285,20 +363,22 @@ Result<PointSeries> in_order(Result<PointSeries> series, const ImportOptions& op
   for (const std::size_t i : found->order) {
     out.points.push_back(points[i]);
     if (!fixed.empty()) out.fixed.push_back(fixed[i]);
+    whole.numbers.push_back(numbers[i]);
   }
   out.warnings.push_back(order_text(out, *found));
-  return series;
+  return whole;
 }
 
-std::string outliers_text(const PointSeries& series, const Outliers& found) {
+/// `numbers`: of the points in the list where they were put in order, from 0.
+std::string outliers_text(const PointSeries& series, const Outliers& found,
+                          const std::vector<std::size_t>& numbers) {
   constexpr std::size_t kMostNamed = 8;
   const std::string unit = series.units.text();
   const std::size_t count = found.points.size();
   if (count == 0) {
     return fmt::format(
-        "--drop-outliers: no point lies {} deviations of the others or more ({} {}) off the curve "
-        "of its neighbours",
-        significant(found.limit, 3), significant(found.limit * found.deviation, 3), unit);
+        "--drop-outliers: all points stay: none lies {} or more off the curve of its neighbours",
+        deviations_text(found, unit));
   }
   std::string text =
       fmt::format("--drop-outliers: left out {}",
@@ -307,9 +387,11 @@ std::string outliers_text(const PointSeries& series, const Outliers& found) {
                                            "neighbours:",
                                            count));
   for (std::size_t k = 0; k < std::min(count, kMostNamed); ++k) {
-    text += fmt::format("{} {} ({} {}{})", k > 0 ? "," : "", found.points[k].index + 1,
-                        significant(found.points[k].off, 4), unit,
-                        count == 1 ? " off the curve of its neighbours" : "");
+    const std::size_t index = found.points[k].index;
+    text += fmt::format("{} {}{} ({} {}{})", k > 0 ? "," : "",
+                        (numbers.empty() ? index : numbers[index]) + 1,
+                        numbers.empty() ? "" : " of the list", significant(found.points[k].off, 4),
+                        unit, count == 1 ? " off the curve of its neighbours" : "");
   }
   if (count > kMostNamed) text += fmt::format(" and {} more", count - kMostNamed);
   return text + fmt::format("; the others deviate by {} {}", significant(found.deviation, 3), unit);
@@ -362,25 +444,28 @@ Result<Outliers> outliers_around(const std::vector<Vec2>& points, const std::vec
   return out;
 }
 
-Result<PointSeries> without_outliers(Result<PointSeries> series, const ImportOptions& options) {
-  if (!series || !options.drop_outliers) return series;
-  if (!series->kept.empty()) {
+Result<PointSeries> without_outliers(Result<InOrder> ordered, const ImportOptions& options) {
+  OBVID_TRY(ordered);
+  PointSeries& out = ordered->series;
+  if (!options.drop_outliers) return std::move(out);
+  if (!out.kept.empty()) {
     return error(ErrorCode::kBadOption, "a drawing's pieces are not measured points")
         .where("--drop-outliers")
         .hint("leave it out, or take points alone with --drawing points");
   }
-  PointSeries& out = *series;
   std::vector<bool> given;
   for (const FixedData& data : out.fixed) {
     given.push_back(data.theta || data.kappa || data.thetas || data.kappas || data.corner);
   }
   const auto found = outliers_around(out.points, given);
   OBVID_TRY(found);
-  out.warnings.push_back(outliers_text(out, *found));
+  if (ordered->strays == 0 || !found->points.empty()) {
+    out.warnings.push_back(outliers_text(out, *found, ordered->numbers));
+  }
   std::vector<bool> off(out.points.size(), false);
   for (const Outlier& one : found->points) off[one.index] = true;
   leave_out(off, out);
-  return series;
+  return std::move(out);
 }
 
 Result<PointSeries> placed(Result<PointSeries> series, const ImportOptions& options) {
@@ -435,7 +520,7 @@ Result<std::vector<std::size_t>> chosen_curves(const Drawing& drawing, const Cur
   for (const std::string& item : items) {
     bool any = false;
     for (std::size_t i = 0; i < count; ++i) {
-      if (label_of(drawing, i) != item && layer_of(drawing, i) != item) continue;
+      if (label_of(drawing, i) != item && !is_on_layer(layer_of(drawing, i), item)) continue;
       out.insert(i);
       any = true;
     }

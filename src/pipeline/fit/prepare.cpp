@@ -272,10 +272,12 @@ class Preparation {
     return norm(normal) / std::hypot(normal.x / axes.x, normal.y / axes.y);
   }
 
-  /// Ends as near as neighbours, with the curve going on over the gap: an outline that was left
-  /// open. At a trailing edge it turns back instead.
+  /// Ends as near as neighbours, or as a fiftieth of the length, with the curve going on over the
+  /// gap: an outline that was left open (docs/methods/series.md). At a trailing edge it turns back
+  /// instead.
   void hint_at_closing() {
-    constexpr double kMayClose = 2.0;                 // middle chords
+    constexpr double kMayClose = 2.0;  // middle chords
+    constexpr double kOfLength = 0.025, kPercent = 100.0;
     constexpr double kLeastLength = 10.0;             // of the whole, gaps
     constexpr double kGoesOn = std::numbers::pi / 3;  // at either end, rad
     if (job_.closing != Closing::kAutomatic || !out_.kept.empty() || out_.points.size() < 4) return;
@@ -283,16 +285,18 @@ class Preparation {
     const Vec2 first = out_.points[1] - out_.points.front();
     const Vec2 last = out_.points.back() - out_.points[out_.points.size() - 2];
     const std::vector<double> lengths = chords();
-    const double apart = norm(gap);
-    if (apart > kMayClose * median_of(lengths) ||
-        std::accumulate(lengths.begin(), lengths.end(), 0.0) < kLeastLength * apart ||
+    const double apart = norm(gap), length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+    const bool near = apart <= kMayClose * median_of(lengths);
+    if ((!near && apart > kOfLength * length) || length < kLeastLength * apart ||
         std::abs(turning(last, gap)) > kGoesOn || std::abs(turning(gap, first)) > kGoesOn) {
       return;
     }
     out_.warnings.push_back(fmt::format(
-        "the ends are {:.4g} {} apart, hardly farther than neighbours, and the curve would go on "
-        "there: --closed closes it, --open says that it ends",
-        apart, series_.units.text()));
+        "the ends are {:.4g} {} apart, {}, and the curve would go on there: --closed closes it, "
+        "--open says that it ends",
+        apart, series_.units.text(),
+        near ? "hardly farther than neighbours"
+             : fmt::format("{} % of its length", significant(kPercent * apart / length, 2))));
   }
 
   Result<void> close() {
