@@ -48,7 +48,7 @@ struct MadeCut {
 /// Outlines, the way of the tool with its width, rapid moves, and the order: for .svg and .dxf.
 [[nodiscard]] Sketch cut_sketch(const MadeCut& made, const CutJob& job);
 
-/// {"outlines": [...], "report": {...}, "warnings"}: docs/schema/cut.schema.json.
+/// {"outlines": [...], "report": {...}, "left_out", "warnings"}: docs/schema/cut.schema.json.
 [[nodiscard]] std::string cut_json(const MadeCut& made);
 
 /// A row for each outline that is cut, in the order of the program, with all digits.

@@ -297,6 +297,7 @@ std::string cut_json(const MadeCut& made) {
       .pair("blending", r.blending)
       .pair("left_in_corners", r.left_in_corners);
   json.end_object();
+  json.pair("left_out", made.left_out);
   add_list(json, "warnings", made.warnings).end_object();
   return json.take();
 }
