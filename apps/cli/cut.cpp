@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -83,8 +84,10 @@ Facts cut_facts(const MadeCut& made) {
             fmt::format("{} blocks at feed, {} of them arcs, {}in {}", r.blocks, r.arc_blocks,
                         r.spline_blocks > 0 ? fmt::format("{} splines, ", r.spline_blocks) : "",
                         counted(static_cast<std::size_t>(r.levels), "pass", "passes")));
-  facts.add("length", fmt::format("{} {} at feed, {} {} rapid", significant(r.cut_length, 5), unit,
-                                  significant(r.rapid_length, 5), unit));
+  facts.add("length",
+            fmt::format("{} {} at feed, {} {} rapid, seen from above: the time counts "
+                        "ways straight up and down, too",
+                        significant(r.cut_length, 5), unit, significant(r.rapid_length, 5), unit));
   facts.add("time", fmt::format("about {} minutes, with acceleration", significant(r.minutes, 3)));
   facts.add(
       "read back",
@@ -92,6 +95,15 @@ Facts cut_facts(const MadeCut& made) {
           "at most {} {} beyond an outline and {} {} short of one, found at places {} {} apart",
           significant(r.beyond, 2), unit, significant(r.short_of, 2), unit,
           significant(r.spacing, 2), unit));
+  if (r.blending > 0.0) {
+    facts.add(
+        "blending",
+        fmt::format("the controller may round corners by {} {} more (G64 P): {} of a tolerance "
+                    "of {} {} in all",
+                    significant(r.blending, 2), unit,
+                    significant(std::max(r.beyond, r.short_of) + r.blending, 2),
+                    significant(made.tolerance, 2), unit));
+  }
   if (r.left_in_corners > 0.0) {
     facts.add("inner corners", fmt::format("the round tool leaves up to {} {} in them",
                                            significant(r.left_in_corners, 3), unit));
@@ -145,7 +157,10 @@ int run(const CutCommand& command) {
            cut_text(*made, *written);
   }
   if (auto done = put(text); !done) return report(done.error());
-  return 0;
+  auto missing = not_cut(*made);
+  if (!missing) return 0;
+  if (!written->empty()) missing->hint = "the files were written; " + missing->hint;
+  return report(*missing);
 }
 
 }  // namespace obvid

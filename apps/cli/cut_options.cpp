@@ -139,7 +139,8 @@ Result<Command> parse_cut(int argc, const char* const* argv) {
           "Which curves are cut, separated by commas: numbers from 1, names, layers, or words of a "
           "name that no other has; the others still say what lies in what [all]")
       .add("--drawing", raw.reading.drawing, "NAME",
-           "auto, or exact: edges of polylines are curves too [auto]");
+           "auto, or exact: polylines of many vertices are meant as drawn, points are joined "
+           "[auto]");
   add_planes(app, raw.reading, kReadingGroup);
   add_placement(app, raw.reading);
   app.add_option("--units", raw.units, "Unit of the drawing [as the file says; else mm]")

@@ -145,9 +145,11 @@ constexpr std::array kTexts{
         ErrorCode::kSurfaceFolds, "The surface would fold back on itself",
         "At the distance that was asked for, the offset passes a centre of curvature of the "
         "surface and turns inside out there. The error names the places and the largest distance "
-        "on this side at which it does not. Of scattered points: neighbours in the plane lie at such "
+        "on this side at which it does not. Of scattered points: neighbours in the plane lie at "
+        "such "
         "different heights that a surface over this plane would have to be a wall.",
-        "Take a smaller distance, or smooth the surface where it bends most. For points give another "
+        "Take a smaller distance, or smooth the surface where it bends most. For points give "
+        "another "
         "direction of the heights, leave outliers out, or raise the tolerance above the noise."},
     ErrorText{
         ErrorCode::kToolTooLarge, "The tool does not fit",
@@ -174,6 +176,12 @@ constexpr std::array kTexts{
               "A figure or a verdict in the file does not agree with what its curve really is. The "
               "file was changed after it was written, or written by a faulty program.",
               "Do not use the file. Form the contour again from its points with `obvid fit`."},
+    ErrorText{ErrorCode::kNotAllCut, "Not all of the drawing is in the program",
+              "The program for the machine was made and written, but entities of the drawing that "
+              "are curves could not be read; warnings name the first of each kind and why. What "
+              "they outline is not cut.",
+              "Mend or explode these entities in the CAD system, or choose the curves to cut with "
+              "`--curve`."},
 };
 
 }  // namespace

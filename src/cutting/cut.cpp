@@ -34,8 +34,12 @@ struct Defaults {
   double plunge, rapid, safe_z, clear_z;
 };
 constexpr Defaults kMillimetres{300.0, 3000.0, 5.0, 1.0}, kInches{12.0, 120.0, 0.2, 0.04};
+/// Of the tolerance, for arcs in place of curves: printing and small turns take the rest. What is
+/// tried where that was too much.
+constexpr double kOfTolerance = 0.8, kSafeOfTolerance = 0.5;
 constexpr double kMostBlocks = 3e5;
 constexpr double kTooLittleToTell = 1e-9;            // of the tolerance: rounding
+constexpr double kLeftIsRounding = 1e-6;             // of the tolerance: corners of no angle
 constexpr double kOrderAt = 0.4, kReadBackAt = 0.7;  // of the work
 
 class Cutting {
@@ -53,8 +57,17 @@ class Cutting {
     decimals_ = options_.decimals.value_or(exchange::decimals_of_digit(
         exchange::kDigitOfTolerance * (options_.tolerance * scale_), inches_));
     OBVID_TRY(check_lengths());
+    blending_ = exchange::blending_of(options_.controller, options_.tolerance * scale_);
+    auto out = with_share(kOfTolerance - blending_ / (options_.tolerance * scale_));
+    // coarse digits, and drawings whose pieces meet with small turns, take more than their part
+    if (out || out.error().code != ErrorCode::kToleranceNotReached) return out;
+    return with_share(kSafeOfTolerance);
+  }
+
+ private:
+  Result<CutProgram> with_share(double share) {
     watch_.tell("outlines", 0.0);
-    auto tracks = tracks_of(outlines_, options_, scale_, watch_);
+    auto tracks = tracks_of(outlines_, options_, scale_, share, watch_);
     OBVID_TRY(tracks);
     tracks_ = std::move(*tracks);
     rules_ = rules();
@@ -67,7 +80,7 @@ class Cutting {
     if (watch_.cancelled()) return fail(cancelled_error());
     CutBlocks blocks = blocks_of(tracks_.all, visits, rules_);
     if (options_.motion == GcodeMotion::kSplines) {
-      const SplineRules splines{spline_tolerance(options_.tolerance) * scale_,
+      const SplineRules splines{spline_tolerance(options_.tolerance, share) * scale_,
                                 std::pow(10.0, -decimals_)};
       blocks.blocks = with_splines(std::move(blocks.blocks), rules_, splines, watch_);
       if (watch_.was_cancelled()) return fail(cancelled_error());
@@ -87,7 +100,6 @@ class Cutting {
     return finished(visits, blocks, text);
   }
 
- private:
   [[nodiscard]] std::optional<Vec2> scaled(std::optional<Vec2> place) const {
     if (place) *place = scale_ * *place;
     return place;
@@ -173,7 +185,8 @@ class Cutting {
     const bool mill = options_.process == CutProcess::kMill;
     const double levels = mill ? levels_of(rules_) : options_.passes;
     const double around = mill && rules_.fall > 0.0 ? rules_.depth / (rules_.fall * shortest) : 0.0;
-    const double blocks = (pieces + 2.0 * options_.tabs.count) * (levels + around);
+    const double blocks =
+        (pieces + 2.0 * options_.tabs.count) * (levels + around * (1.0 + options_.tabs.count));
     if (blocks <= kMostBlocks) return {};
     return error(ErrorCode::kBadOption, fmt::format("that would be some {:.2g} blocks", blocks))
         .hint("check the units of the drawing, --pass-depth, --ramp, --passes and --tabs")
@@ -199,7 +212,7 @@ class Cutting {
     const exchange::MotionRules times{
         options_.rapid_feed.value_or(defaults_.rapid),
         exchange::machine_acceleration(options_.acceleration, inches_),
-        options_.tolerance * scale_};
+        blending_ > 0.0 ? blending_ : options_.tolerance * scale_};
     out.report.minutes =
         seconds_of(blocks.blocks, times, options_.pierce_seconds) / exchange::kSecondsOfMinute;
     out.report.levels = blocks.levels;
@@ -210,6 +223,17 @@ class Cutting {
     for (std::string& one : idle_cut_options(options_)) out.warnings.push_back(std::move(one));
     for (const std::size_t track : blocks.without_tabs) {
       out.warnings.push_back(tracks_.all[track].name + " has no room for its tabs: it has none");
+    }
+    if (!blocks.straight_down.empty()) {
+      const CutBlocks::Place& first = blocks.straight_down.front();
+      out.warnings.push_back(fmt::format(
+          "--ramp: straight down {} behind tabs, where there is no room for a ramp: first on {}, "
+          "at "
+          "{}, {}",
+          blocks.straight_down.size() == 1 ? "once"
+                                           : fmt::format("{} times", blocks.straight_down.size()),
+          tracks_.all[first.track].name, significant(first.at.x / scale_, 6),
+          significant(first.at.y / scale_, 6)));
     }
     for (const Visit& visit : visits) {
       if (!visit.lead_left_out) continue;
@@ -234,7 +258,8 @@ class Cutting {
     out.report.beyond = told(found->beyond);
     out.report.short_of = told(found->short_of);
     out.report.spacing = spacing / scale_;
-    const double worst = std::max(out.report.beyond, out.report.short_of);
+    out.report.blending = blending_ / scale_;
+    const double worst = std::max(out.report.beyond, out.report.short_of) + out.report.blending;
     if (worst <= options_.tolerance) return {};
     return fail(too_few_digits(fmt::format("the printed program would be {} {} off the outlines",
                                            significant(worst, 3), units_.text())));
@@ -253,6 +278,7 @@ class Cutting {
     for (const auto& corner : track.corners) {
       out.left_in_corners = std::max(out.left_in_corners, corner.left / scale_);
     }
+    if (out.left_in_corners <= kLeftIsRounding * options_.tolerance) out.left_in_corners = 0.0;
     return out;
   }
 
@@ -311,7 +337,7 @@ class Cutting {
     for (std::string& one : exchange::gcode_unit_remarks(units_)) {
       remarks.push_back(std::move(one));
     }
-    return exchange::gcode_head(options_.controller, inches_, remarks);
+    return exchange::gcode_head(options_.controller, inches_, options_.tolerance * scale_, remarks);
   }
 
   const std::vector<CutOutline>& outlines_;
@@ -323,6 +349,7 @@ class Cutting {
   Defaults defaults_;
   BlockRules rules_;
   int decimals_ = 0;
+  double blending_ = 0.0;  ///< by the controller
   Tracks tracks_;
 };
 

@@ -17,6 +17,8 @@ namespace {
 constexpr double kNothing = 1e-12;
 /// What tabs may take of a path.
 constexpr double kMostOfPath = 0.5;
+/// To and fro behind a tab; a ramp that asks for more is a mistake.
+constexpr double kMostWays = 100.0;
 
 /// A path by its length, around and around when it is closed.
 class Along {
@@ -270,6 +272,50 @@ class Blocks {
     return std::nullopt;
   }
 
+  /// Along pieces, down or level to a height.
+  void follow(const std::vector<Piece>& pieces, double z) {
+    double length = 0.0, done = 0.0;
+    for (const Piece& piece : pieces) length += length_of(piece);
+    const double from = z_;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      done += length_of(pieces[i]);
+      cut(pieces[i], i + 1 == pieces.size() ? z : from + (z - from) * (done / length));
+    }
+  }
+
+  /// How far the path goes on from a place before the next tab.
+  [[nodiscard]] double room_behind(double place, double whole) const {
+    double out = whole;
+    for (const Tab& tab : tabs_) {
+      const double way = std::fmod(tab.from - place, whole);
+      out = std::min(out, way < 0.0 ? way + whole : way);
+    }
+    return out;
+  }
+
+  /// Behind a tab, down into what stands there: straight, or with ramps to and fro along the path,
+  /// as often as its room asks for, back to where it began.
+  void sink(const Along& along, double place, double z) {
+    if (!(rules_.fall > 0.0) || tabs_.empty() || !(z < z_)) return down(z);
+    const double length = (z_ - z) / rules_.fall, whole = along.length();
+    const double room = room_behind(place, whole);
+    const double ways = std::ceil(0.5 * length / room);
+    if (!(ways <= kMostWays)) {
+      out_.straight_down.push_back({track_, along.at(place)});
+      return down(z);
+    }
+    const std::vector<Piece> forth = along.between(place, place + 0.5 * length / ways);
+    std::vector<Piece> back;
+    for (auto piece = forth.rbegin(); piece != forth.rend(); ++piece) {
+      back.push_back(reversed(*piece));
+    }
+    const double from = z_;
+    for (int k = 1; k <= static_cast<int>(ways); ++k) {
+      follow(forth, from + (z - from) * ((k - 0.5) / ways));
+      follow(back, from + (z - from) * (k / ways));
+    }
+  }
+
   /// Along the path between two lengths of it; the height changes evenly, but stays above tabs.
   void walk(const Along& along, double from, double to, double z_from, double z_to) {
     const double whole = along.length(), tab_z = -rules_.depth + rules_.tabs.height;
@@ -297,7 +343,7 @@ class Blocks {
         return middle > tab.from && middle < tab.to;
       });
       const auto kept = [&](double z) { return over ? std::max(z, tab_z) : z; };
-      down(kept(height(a)));
+      sink(along, a, kept(height(a)));
       over_tab_ = over && z_from == z_to && z_to == -rules_.depth;
       const std::vector<Piece> pieces = along.between(a, b);
       double done = a;

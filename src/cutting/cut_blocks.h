@@ -47,6 +47,11 @@ struct CutBlocks {
   std::vector<CutBlock> blocks;
   int levels = 1;
   std::vector<std::size_t> without_tabs;  ///< tracks that are too short for them
+  struct Place {
+    std::size_t track = 0;
+    Vec2 at;
+  };
+  std::vector<Place> straight_down;  ///< behind tabs, where there is no room for a ramp
 };
 
 /// The feed where the path has a curvature.

@@ -16,9 +16,7 @@
 namespace obvid::cutting {
 namespace {
 
-/// Of the tolerance, for arcs in place of contours; printing takes the rest.
-constexpr double kOfTolerance = 0.5;
-/// The same where cubics take the place of the arcs: they take the rest of that half.
+/// Of the tolerance, for arcs whose place cubics take: these take the rest of the share.
 constexpr double kUnderSplines = 0.1;
 /// Of the tolerance, what drawings whose pieces meet with small turns may cost.
 constexpr double kSmallTurns = 0.1;
@@ -71,10 +69,11 @@ double turn_around(const Piece& piece, Vec2 point) {
 class TrackMaker {
  public:
   TrackMaker(const std::vector<CutOutline>& outlines, const CutOptions& options, double scale,
-             Watch& watch)
+             double share, Watch& watch)
       : outlines_(outlines),
         options_(options),
         scale_(scale),
+        share_(share),
         radius_(0.5 * options.diameter * scale),
         watch_(watch) {}
 
@@ -101,7 +100,7 @@ class TrackMaker {
  private:
   Result<void> add(std::size_t i) {
     const Contour& contour = outlines_[i].contour;
-    const double part = options_.motion == GcodeMotion::kSplines ? kUnderSplines : kOfTolerance;
+    const double part = options_.motion == GcodeMotion::kSplines ? kUnderSplines : share_;
     auto along = arcs_along(contour, part * options_.tolerance, &watch_);
     if (!along) return fail(named(along.error(), outlines_[i].name));
     Track track;
@@ -421,7 +420,7 @@ class TrackMaker {
 
   const std::vector<CutOutline>& outlines_;
   const CutOptions& options_;
-  double scale_, radius_, spacing_ = 0.0;
+  double scale_, share_, radius_, spacing_ = 0.0;
   Watch& watch_;
   Tracks out_;
 };
@@ -434,7 +433,9 @@ bool is_inside(const ArcPath& path, Vec2 point) {
   return std::abs(turn) > std::numbers::pi;
 }
 
-double spline_tolerance(double tolerance) { return (kOfTolerance - kUnderSplines) * tolerance; }
+double spline_tolerance(double tolerance, double share) {
+  return (share - kUnderSplines) * tolerance;
+}
 
 double spacing_of(const std::vector<Track>& tracks, double tool_radius, double levels) {
   double length = 0.0;
@@ -443,8 +444,8 @@ double spacing_of(const std::vector<Track>& tracks, double tool_radius, double l
 }
 
 Result<Tracks> tracks_of(const std::vector<CutOutline>& outlines, const CutOptions& options,
-                         double scale, Watch& watch) {
-  return TrackMaker(outlines, options, scale, watch).run();
+                         double scale, double share, Watch& watch) {
+  return TrackMaker(outlines, options, scale, share, watch).run();
 }
 
 }  // namespace obvid::cutting

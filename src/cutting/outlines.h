@@ -33,15 +33,16 @@ struct Tracks {
   std::vector<std::string> warnings;
 };
 
-/// Errors: those of `cut`.
+/// `share`: of the tolerance, for arcs in place of curves. Errors: those of `cut`.
 [[nodiscard]] Result<Tracks> tracks_of(const std::vector<CutOutline>& outlines,
-                                       const CutOptions& options, double scale, Watch& watch);
+                                       const CutOptions& options, double scale, double share,
+                                       Watch& watch);
 
 /// Whether a point lies inside of a closed path. It must not lie on it.
 [[nodiscard]] bool is_inside(const ArcPath& path, Vec2 point);
 
-/// What cubics in place of a path may be off it.
-[[nodiscard]] double spline_tolerance(double tolerance);
+/// What cubics in place of a path may be off it, of a share of the tolerance for both.
+[[nodiscard]] double spline_tolerance(double tolerance, double share);
 
 /// Distance between places on a path that are looked at: a part of the tool's radius, but no more
 /// places than can be looked at in seconds.

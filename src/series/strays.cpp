@@ -81,6 +81,9 @@ class OrderedCurve {
   [[nodiscard]] double deviation() const { return deviation_; }
   [[nodiscard]] double limit() const { return limit_; }
 
+  /// As near as points of the curve are to each other.
+  [[nodiscard]] bool is_near(Vec2 q) const { return nearest(q).distance <= kFarther * step_; }
+
   /// How far a point lies off; nothing where it may belong to the curve.
   [[nodiscard]] std::optional<double> off(Vec2 q) const {
     const auto [chord, distance, beyond] = nearest(q);
@@ -100,7 +103,7 @@ class OrderedCurve {
     if (turns(*b - *a) || turns(*d - *c)) return std::nullopt;
     for (const long k : {-1L, 0L, 1L, 2L}) {
       const double own = size_[*index(chord, k)];
-      if (own > limit_ / kClearly * scale(chord) || own > kRest * size) return std::nullopt;
+      if (own > limit_ * scale(chord) || own > kRest * size) return std::nullopt;
     }
     return r ? r->off : distance;
   }
@@ -185,11 +188,11 @@ class StraySearch {
       for (const std::size_t i : gone) {
         if (const auto off = curve.off(points_[i])) {
           out.strays.points.push_back({i, *off});
-        } else {
+        } else if (curve.is_near(points_[i])) {
           back.insert(i);
         }
       }
-      if (back.empty()) return out;
+      if (out.strays.points.size() == gone.size()) return out;
       for (const std::size_t i : back) gone.erase(i);
       stay.merge(back);
       if (gone.empty()) return std::nullopt;

@@ -43,7 +43,7 @@ std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, doub
   for (std::string& one : exchange::gcode_unit_remarks(path.units)) {
     remarks.push_back(std::move(one));
   }
-  return exchange::gcode_head(options.controller, inches, remarks);
+  return exchange::gcode_head(options.controller, inches, path.tolerance * scale, remarks);
 }
 
 void write_moves(const Toolpath& path, double scale, std::size_t threads,

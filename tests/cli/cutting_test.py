@@ -230,6 +230,24 @@ class Cutting(unittest.TestCase):
         self.assertLess(max(steep), math.tan(math.radians(2)) * 1.001 + 1e-3 / 10)
         self.assertGreater(max(steep), 0.9 * math.tan(math.radians(2)))
 
+    def test_ramps_are_kept_behind_tabs(self):
+        shapes, outside = plate()
+        program = Controller(self.run_cut(drawing(shapes), "--diameter", 3, "--depth", 6, "--pass-depth", 2, "--ramp", 5,
+                                          "--tabs", 2, "--tab-width", 5, "--tab-height", 1.8))
+        fallen = [m for m in program.moves if m.code == 1 and m.length() == 0 and m.b[2] < m.a[2] and m.a[2] < 0]
+        self.assertEqual(fallen, [])
+        slopes = [(m.a[2] - m.b[2]) / m.length() for m in self.cuts(program) if m.length() > 0.5]
+        self.assertLess(max(slopes), math.tan(math.radians(5)) * 1.01 + 2e-3)
+        self.assertEqual(plates.simulated(shapes, outside, program, 3, ())["rapids"], 0)
+        # between the tabs everything is cut to the depth: straight down it is the same ground
+        ground = lambda moves: {(round(x, 1), round(y, 1)) for m in moves if m.a[2] == m.b[2] == -6.0  # noqa: E731
+                                for x, y, _ in m.places(0.2)}
+        straight = Controller(self.run_cut(drawing(shapes), "--diameter", 3, "--depth", 6, "--pass-depth", 2, "--tabs", 2,
+                                           "--tab-width", 5, "--tab-height", 1.8))
+        far = [p for p in ground(straight.moves)
+               if min(math.dist(p, q) for q in ground(program.moves)) > 0.5]
+        self.assertEqual(far, [])
+
     def test_lasers_burn_only_along_outlines(self):
         shapes = [Round(0, 0, 80, 50, 6), Circle(40, 25, 10)]
         for controller, on in (("grbl", 4), ("linuxcnc", 3), ("fanuc", 3), ("marlin", 3)):

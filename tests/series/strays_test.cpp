@@ -46,12 +46,12 @@ std::set<std::size_t> named(const OrderBesideStrays& found) {
 
 TEST(Strays, AreFoundWhereverTheyLie) {
   const std::vector<std::vector<Vec2>> kinds = {{{0, 0}},
-                                                {{51.5, 0.3}},
+                                                {{-8.9, 50.7}},
                                                 {{0, 48.2}},
                                                 {{200, -300}},
-                                                {{70, 0}, {0, -71}},
+                                                {{-70, 1}, {1, 71}},
                                                 {{30, 30}, {30.5, 30.5}},
-                                                {{60, 1}, {60, 2}, {60, 3}}};
+                                                {{-60, 1}, {-60, 2}, {-60, 3}}};
   for (unsigned seed = 1; seed <= 5; ++seed) {
     for (const auto& strays : kinds) {
       for (const double part : {1.0, 0.8}) {

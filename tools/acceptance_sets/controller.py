@@ -80,6 +80,7 @@ class Controller:
 
     def __init__(self, text, burns=False, splines=False):
         self.moves, self.codes, self.dwells = [], [], []
+        self.blending = 0.0  # by the controller: G64 P
         places = 0  # decimals of ends
         at, feed, motion, spins = [0.0, 0.0, 0.0 if burns else None], None, None, False
         for line in text.splitlines():
@@ -89,14 +90,15 @@ class Controller:
                 continue
             assert WORD.sub("", line).strip() == "", f"words that no controller knows: {line}"
             words = [(k, float(v)) for k, v in WORD.findall(line)]
-            ends, ij, pq = {}, {}, {}
+            ends, ij, pq, blends = {}, {}, {}, False
             for letter, value in words:
                 if letter == "G":
                     self.codes.append(("G", value))
                     if value in (0, 1, 2, 3) or splines and value == 5:
                         motion = int(value)
                     else:
-                        assert value in (4, 17, 20, 21, 90, 91.1, 94), line
+                        assert value in (4, 17, 20, 21, 40, 49, 64, 80, 90, 91.1, 94), line
+                        blends |= value == 64
                 elif letter == "M":
                     assert value in (2, 3, 4, 5, 30), line
                     spins = {3: True, 4: True, 5: False}.get(value, spins)
@@ -109,6 +111,10 @@ class Controller:
                     places = len(re.search(letter + r"[-+]?\d*\.?(\d*)", line)[1]) if letter != "Z" else places
                 elif letter in "IJ":
                     ij["IJ".index(letter)] = value
+                elif letter in "PQ" and blends:
+                    if letter == "P":
+                        assert value > 0, f"no limit: {line}"
+                        self.blending = value
                 elif letter in "PQ" and motion == 5:
                     pq["PQ".index(letter)] = value
                 else:

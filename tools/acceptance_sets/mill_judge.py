@@ -22,7 +22,7 @@ def ways_of(text, sag):
         for letter, value in WORD.findall(line):
             number = float(value)
             if letter == "G":
-                assert number in (0, 1, 2, 3, 17, 18, 19, 20, 21, 90, 91.1, 94), line
+                assert number in (0, 1, 2, 3, 17, 18, 19, 20, 21, 40, 49, 64, 80, 90, 91.1, 94), line
                 code = int(number) if number < 4 else code
                 plane = int(number) if number in PLANES else plane
             elif letter in "XYZ":

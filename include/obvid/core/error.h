@@ -43,6 +43,7 @@ enum class ErrorCode : int {
   kNotProved = 501,
   kToleranceNotReached = 502,
   kFalseClaim = 503,
+  kNotAllCut = 504,
 };
 
 /// Why something was refused: what, where, and what the user can do about it.

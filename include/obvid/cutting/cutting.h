@@ -100,7 +100,7 @@ struct CutReport {
   std::size_t blocks = 0;         ///< that cut
   std::size_t arc_blocks = 0;     ///< of them G2 and G3
   std::size_t spline_blocks = 0;  ///< of them G5
-  double cut_length = 0.0;        ///< units, all passes
+  double cut_length = 0.0;        ///< units, all passes, seen from above
   double rapid_length = 0.0;      ///< units, seen from above
   double minutes = 0.0;           ///< with acceleration
   int levels = 0;                 ///< passes over each other
@@ -108,6 +108,7 @@ struct CutReport {
   /// and how far from an outline it stays, inner corners apart. Found at places `spacing` apart;
   /// not bounded between them.
   double beyond = 0.0, short_of = 0.0, spacing = 0.0;
+  double blending = 0.0;  ///< how far the controller may leave that, as the program tells it
   double left_in_corners = 0.0;
 };
 
@@ -129,11 +130,12 @@ struct CutProgram {
 /// improved by exchanges: short, not proved to be shortest. With splines, neighbouring lines and
 /// arcs at one height become cubics (G5) as far as one stays within what is left of the tolerance;
 /// arcs are nearer to the outline then. Not on ramps, as G5 has no height. The text is read back
-/// before it is handed out. Errors: E203 sizes, feeds or options that do not go together, splines
-/// for another controller than LinuxCNC; E311 no outline; E409 the tool does not fit: it would cut
-/// into this outline or another one there (`where`; the hint names the largest that does where the
-/// outline's own curvature decides); E502 decimals too few for the tolerance, or the printed
-/// program leaves it; E103.
+/// before it is handed out; for LinuxCNC a quarter of the tolerance is left to its blending (G64
+/// P). Errors: E203 sizes, feeds or options that do not go together, splines for another controller
+/// than LinuxCNC; E311 no outline; E409 the tool does not fit: it would cut into this outline or
+/// another one there (`where`; the hint names the largest that does where the outline's own
+/// curvature decides); E502 decimals too few for the tolerance, or the printed program leaves it;
+/// E103.
 [[nodiscard]] Result<CutProgram> cut(const std::vector<CutOutline>& outlines,
                                      const CutOptions& options, const RunContext& run = {});
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct Drawing {
   std::vector<PointSeries> series;    ///< lists of points, and polylines whose lines are
                                       ///< chords of a curve, in the order of the file
   std::vector<std::string> warnings;  ///< what was left out and why, in sentences
+  std::size_t left_out = 0;           ///< entities that would be curves, which `warnings` name
 };
 
 }  // namespace obvid

@@ -27,21 +27,28 @@ struct MadeCut {
   std::vector<CutOutline> outlines;
   std::vector<std::size_t> curves;  ///< of each outline: number in its drawing, from 0
   Units units;
-  double tolerance = 0.0;            ///< of the program, units; curves are drawn within it
+  std::size_t left_out = 0;  ///< entities of the drawings that would be curves and were not read,
+                             ///< where no curves were chosen
+  double tolerance = 0.0;    ///< of the program, units; curves are drawn within it
   std::vector<std::string> remarks;  ///< what was taken from the drawings
   std::vector<std::string> warnings;
 };
 
-/// Curves of drawings as outlines: all of them, or those that `options` choose; edges of polylines
-/// too where `options.use` is exact. Errors: those of `drawn_contour`; E310 drawings of different
-/// units; E311 no curve at all.
+/// Curves of drawings as outlines: all of them, or those that `options` choose. Polylines are cut
+/// along their edges, whatever their vertices look like, splines of points alone as
+/// `spline_through` has them, with a warning that names them; points that nothing joins only where
+/// `options.use` is exact. Errors: those of `drawn_contour` and `spline_through`; E310 drawings of
+/// different units, points that were chosen; E311 no curve at all.
 [[nodiscard]] Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& options,
                                        const CutJob& job, const RunContext& run = {});
+
+/// E504 where a curve of the drawings is not in the program.
+[[nodiscard]] std::optional<Error> not_cut(const MadeCut& made);
 
 /// Outlines, the way of the tool with its width, rapid moves, and the order: for .svg and .dxf.
 [[nodiscard]] Sketch cut_sketch(const MadeCut& made, const CutJob& job);
 
-/// {"outlines": [...], "report": {...}, "warnings"}: docs/schema/cut.schema.json.
+/// {"outlines": [...], "report": {...}, "left_out", "warnings"}: docs/schema/cut.schema.json.
 [[nodiscard]] std::string cut_json(const MadeCut& made);
 
 /// A row for each outline that is cut, in the order of the program, with all digits.

@@ -36,6 +36,14 @@ struct KeptPiece {
   Piece piece;
 };
 
+/// Of points that a drawing has a spline drawn through, without telling the spline: a cubic one, by
+/// the chords, without curvature at ends of which no direction is given; periodic where the last
+/// point is the first one again.
+struct ThroughPoints {
+  std::string label;                   ///< of the spline: "SPLINE 2F on layer OUTLINE"
+  std::optional<Vec2> start{}, end{};  ///< directions that it has there
+};
+
 /// What points of a drawing are, from those that a drawing is about to those that never are a curve
 /// by themselves.
 enum class SeriesKind {
@@ -56,8 +64,9 @@ struct PointSeries {
   std::vector<FixedData> fixed;  ///< empty, or one entry per point
   std::vector<KeptPiece> kept;   ///< of drawings, ascending; empty for lists of points
   Vec2 rounding;  ///< half a unit of the last printed digit of x and of y; 0 when not from text
-  double height_rounding = 0.0;  ///< the same of heights
-  std::vector<std::string> warnings;  ///< sentences for the user, e.g. merged duplicates
+  double height_rounding = 0.0;           ///< the same of heights
+  std::vector<std::string> warnings;      ///< sentences for the user, e.g. merged duplicates
+  std::optional<ThroughPoints> spline{};  ///< what is drawn through them, where that is no polyline
 };
 
 /// The unit that the user states, with a warning when the file says otherwise.

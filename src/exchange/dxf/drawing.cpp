@@ -113,6 +113,7 @@ void DrawingBuilder::insert_array(const Entity& e, const Block& block, const Aff
 }
 
 void DrawingBuilder::leave_out(const Fault& fault, const Source& source) {
+  ++drawing_.left_out;
   if (left_out_.knows(fault.reason)) {
     left_out_.count(fault.reason);
   } else {
@@ -161,6 +162,7 @@ void DrawingBuilder::add_fit_points(const Shape& shape, const Source& source) {
   if (shape.closed && series.points.back() != series.points.front()) {
     series.points.push_back(series.points.front());
   }
+  series.spline = ThroughPoints{label(source), shape.start, shape.end};
   drawing_.series.push_back(std::move(series));
 }
 

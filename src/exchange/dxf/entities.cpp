@@ -151,6 +151,12 @@ class EntityReader {
     }
   }
 
+  /// A direction whose first coordinate stands first.
+  bool direction(const Tag& tag, int first, std::optional<Point3>& target) {
+    if (tag.code == first) target.emplace();
+    return target && coordinate(tag, first, *target);
+  }
+
   void light_polyline(const Tag& tag) {
     if (listed(tag, 10, e_.points)) return;
     if (tag.code == 38) real(tag, e_.at.z);
@@ -164,6 +170,7 @@ class EntityReader {
 
   void spline(const Tag& tag) {
     if (listed(tag, 10, e_.points) || listed(tag, 11, e_.fit)) return;
+    if (direction(tag, 12, e_.start) || direction(tag, 13, e_.end)) return;
     if (tag.code == 40) real(tag, e_.knots.emplace_back());
     if (tag.code == 41) real(tag, e_.weights.emplace_back());
     if (tag.code == 70) whole(tag, e_.flags);

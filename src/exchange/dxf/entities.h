@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -51,8 +52,9 @@ struct Entity {
   int flags = 0, degree = 0;
   int columns = 1, rows = 1;  ///< of an array of inserts
   double column_step = 0.0, row_step = 0.0;
-  std::vector<Point3> points;  ///< vertices, control points
-  std::vector<Point3> fit;     ///< points that a spline was drawn through
+  std::vector<Point3> points;        ///< vertices, control points
+  std::vector<Point3> fit;           ///< points that a spline was drawn through
+  std::optional<Point3> start, end;  ///< directions of that spline at its ends
   std::vector<double> bulges, knots, weights;
   Fault fault;
 };

@@ -194,6 +194,8 @@ class Shaper {
     if (e_.points.empty() && e_.fit.size() > 1) {
       for (const Point3& p : e_.fit) shape_.points.push_back(place(space_, p));
       shape_.closed = (e_.flags & kClosedFlag) != 0;
+      shape_.start = direction(e_.start);
+      shape_.end = direction(e_.end);
       return;
     }
     if (!spline_is_sound()) return;
@@ -205,6 +207,15 @@ class Shaper {
     for (const Point3& p : e_.points) curve.points.push_back(place(space_, p));
     shape_.pieces = drawn_spans(curve);
     if (shape_.pieces.empty()) refuse(kNothing);
+  }
+
+  /// Of a spline's end, seen from above; a length of 0 says nothing.
+  [[nodiscard]] std::optional<Vec2> direction(const std::optional<Point3>& given) const {
+    if (!given) return std::nullopt;
+    const Vec2 out = flat(turned(space_, *given));
+    const double length = norm(out);
+    if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+    return out / length;
   }
 
   bool spline_is_sound() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "dxf/entities.h"
@@ -28,7 +29,8 @@ struct Affine {
 struct Shape {
   std::vector<Piece> pieces;
   bool closed = false;
-  std::vector<Vec2> points;      ///< instead of pieces: fit points, a single point
+  std::vector<Vec2> points;        ///< instead of pieces: fit points, a single point
+  std::optional<Vec2> start, end;  ///< directions of the spline through fit points
   bool polygon = false;          ///< a polyline without arcs: its vertices may be points of a curve
   double low = 0.0, high = 0.0;  ///< range of heights
   Fault fault;                   ///< nothing is drawn

@@ -42,18 +42,34 @@ std::string gcode_remark(GcodeController controller, std::string_view text) {
   return (semicolon ? "; " : "(") + std::string(text) + (semicolon ? "\n" : ")\n");
 }
 
-std::string gcode_head(GcodeController controller, bool inches,
+double blending_of(GcodeController controller, double tolerance) {
+  constexpr double kOfTolerance = 0.25;
+  constexpr double kDigits = 1e6,
+                   kRounding = 1e-9;  // as it is printed, rounded down; P0 is no limit
+  if (controller != GcodeController::kLinuxCnc) return 0.0;
+  return std::max(1.0, std::floor(kOfTolerance * tolerance * kDigits * (1.0 + kRounding))) /
+         kDigits;
+}
+
+std::string gcode_head(GcodeController controller, bool inches, double tolerance,
                        const std::vector<std::string>& remarks) {
   std::string out = controller == GcodeController::kFanuc ? "%\nO0001\n" : "";
   for (const std::string& remark : remarks) out += gcode_remark(controller, remark);
+  const double blending = blending_of(controller, tolerance);
+  if (blending > 0.0) {
+    out += gcode_remark(controller, fmt::format("blended within {:.2g} {} more, G64", blending,
+                                                inches ? "in" : "mm"));
+  }
   out += inches ? "G20 " : "G21 ";
   switch (controller) {
     case GcodeController::kMarlin:
       return out + "G90 G17\n";
     case GcodeController::kFanuc:
-      return out + "G90 G17 G94\n";
-    case GcodeController::kGrbl:
+      return out + "G90 G17 G40 G49 G80 G94\n";
     case GcodeController::kLinuxCnc:
+      // Q0: no blocks are joined, which would leave them by as much again
+      return out + fmt::format("G90 G91.1 G17 G40 G49 G80 G94\nG64 P{:.6f} Q0\n", blending);
+    case GcodeController::kGrbl:
       break;
   }
   return out + "G90 G91.1 G17 G94\n";

@@ -39,7 +39,8 @@ class Program {
   }
 
   Result<GcodeText> run() const {
-    double within = options_.tolerance - unit_;  // ends move by 0.71 of the last digit at most
+    const double tolerance = of_blocks();
+    double within = tolerance - unit_;  // ends move by 0.71 of the last digit at most
     double deviation = unit_;
     for (int trial = 0; trial < kToleranceTrials && within > 0.0; ++trial) {
       GcodePath path(scale_, decimals_);
@@ -49,9 +50,9 @@ class Program {
       deviation = path_distance(contour_.pieces, path.pieces(), watch_) + path.radius_mismatch();
       if (has_ended(watch_)) return fail(cancelled_error());
       if (path.pieces().empty()) return fail(nothing_left());
-      if (deviation <= options_.tolerance) return finished(path, deviation);
+      if (deviation <= tolerance) return finished(path, deviation);
       if (path.lost_arcs()) return fail(too_large());
-      within -= deviation - kOfBlockTolerance * options_.tolerance;
+      within -= deviation - kOfBlockTolerance * tolerance;
     }
     return error(ErrorCode::kToleranceNotReached,
                  fmt::format("no program with {} decimals was found within a tolerance of {:g} {}",
@@ -61,6 +62,11 @@ class Program {
   }
 
  private:
+  /// What a controller that blends leaves of the tolerance.
+  [[nodiscard]] double of_blocks() const {
+    return options_.tolerance -
+           exchange::blending_of(options_.controller, options_.tolerance * scale_) / scale_;
+  }
   /// Of the ends of the pieces: twice as much is room enough for what lies between.
   [[nodiscard]] double largest_coordinate() const {
     double most = 0.0;
@@ -142,7 +148,7 @@ class Program {
     for (std::string& one : exchange::gcode_unit_remarks(contour_.units)) {
       remarks.push_back(std::move(one));
     }
-    return exchange::gcode_head(options_.controller, inches_, remarks);
+    return exchange::gcode_head(options_.controller, inches_, options_.tolerance * scale_, remarks);
   }
 
   [[nodiscard]] std::string approach(const GcodePath& path) const {
@@ -197,11 +203,15 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
 }  // namespace
 
 std::string gcode_comment(std::string_view name) {
-  constexpr std::size_t kLongestComment = 40;  // a line has to fit into the buffers of controllers
+  constexpr std::size_t kLongestComment = 58;  // a line has to fit into 80 characters of grbl
+  constexpr std::string_view kMore = "...";
   std::string out;
-  for (const char c : name.substr(0, kLongestComment)) {
+  for (const char c : name) {
     const auto code = static_cast<unsigned char>(c);
     if (code >= 0x20 && code < 0x7F && c != '(' && c != ')' && c != '%' && c != ';') out += c;
+    if (out.size() > kLongestComment) {
+      return out.substr(0, kLongestComment - kMore.size()).append(kMore);
+    }
   }
   return out;
 }

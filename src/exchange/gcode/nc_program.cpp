@@ -54,6 +54,7 @@ class Reader {
     ends_ = {};
     to_centre_ = {};
     to_second_ = {};
+    blends_ = false;
     while (!line.empty()) {
       const char word = line.front();
       line.remove_prefix(1);
@@ -91,7 +92,7 @@ class Reader {
         return general(value);
       case 'P':
       case 'Q':
-        if (word == 'Q' && motion_ != 5) return bad("the word Q");
+        if (word == 'Q' && motion_ != 5 && !blends_) return bad("the word Q");
         to_second_[static_cast<std::size_t>(word - 'P')] = value;
         return true;
       case 'F':
@@ -116,7 +117,13 @@ class Reader {
       case 50:
         motion_ = 5;
         return true;
-      case 40:  // a dwell
+      case 40:   // a dwell
+      case 400:  // no compensation of radius or length, no cycle
+      case 490:
+      case 800:
+        return true;
+      case 640:
+        blends_ = true;
         return true;
       case 170:
       case 180:
@@ -218,6 +225,7 @@ class Reader {
   std::array<std::optional<double>, 2> to_second_;
   std::array<bool, 3> known_{};
   bool placed_ = false;
+  bool blends_ = false;  ///< the line says how far (G64)
   int motion_ = 0, plane_ = 17;
 };
 

@@ -11,10 +11,12 @@
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/curve/internal/flatten.h"
+#include "obvid/cutting/internal/edge_of_cut.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
 #include "obvid/pipeline/internal/job_values.h"
+#include "obvid/pipeline/internal/through_points.h"
 
 namespace obvid {
 namespace {
@@ -29,8 +31,6 @@ class Taken {
       : options_(options), several_(several), made_(made), run_(run) {}
 
   Result<void> add(const Drawing& drawing) {
-    const std::size_t curves = drawing.curves.size();
-    const bool edges = options_.use == DrawnUse::kExact;
     std::set<std::size_t> chosen;
     if (options_.curve.asked()) {
       const auto numbers = chosen_curves(drawing, options_.curve, drawing.name);
@@ -38,28 +38,103 @@ class Taken {
       chosen.insert(numbers->begin(), numbers->end());
     }
     made_.warnings.insert(made_.warnings.end(), drawing.warnings.begin(), drawing.warnings.end());
-    if (chosen.empty() && !edges && !drawing.series.empty()) {
-      made_.warnings.push_back(
-          fmt::format("{}: {} of points {} not cut; --drawing exact cuts along edges, `obvid fit` "
-                      "forms a curve",
-                      drawing.name, counted(drawing.series.size(), "series", "series"),
-                      drawing.series.size() == 1 ? "is" : "are"));
-    }
-    const std::size_t all = curves + (edges ? drawing.series.size() : 0);
+    if (chosen.empty()) made_.left_out += drawing.left_out;
+    const std::size_t curves = drawing.curves.size(), all = curves + drawing.series.size();
     for (std::size_t number = 0; number < all; ++number) {
-      OBVID_TRY(add(drawing, number, chosen.empty() || chosen.contains(number)));
+      const bool asked = chosen.contains(number);
+      if (number >= curves && !asked && is_no_outline(drawing.series[number - curves])) {
+        if (chosen.empty()) no_outlines_.add(drawing, number);
+        continue;
+      }
+      OBVID_TRY(add(drawing, number, chosen.empty() || asked));
     }
-    for (const std::size_t number : chosen) {
-      if (number >= all) OBVID_TRY(add(drawing, number, true));
-    }
+    tell(drawing);
     return {};
   }
 
  private:
+  /// Curves of one kind, for a sentence.
+  struct Named {
+    std::string names;
+    std::size_t count = 0;
+
+    void add(const Drawing& drawing, std::size_t number) {
+      constexpr std::size_t kMostNamed = 8;
+      if (++count > kMostNamed) return;
+      const PointSeries& one = drawing.series[number - drawing.curves.size()];
+      const std::string& name = one.spline ? one.spline->label : one.name;
+      if (!names.empty()) names += ", ";
+      names += name.empty() ? fmt::format("curve {}", number + 1)
+                            : fmt::format("{} (curve {})", name, number + 1);
+    }
+    [[nodiscard]] std::string text() const {
+      constexpr std::size_t kMostNamed = 8;
+      return count > kMostNamed ? names + fmt::format(" and {} more", count - kMostNamed) : names;
+    }
+  };
+
+  /// Places that nobody joined by a line.
+  [[nodiscard]] bool is_no_outline(const PointSeries& series) const {
+    const bool loose = series.kind == SeriesKind::kLoose || series.kind == SeriesKind::kWaypoints;
+    return loose && options_.use != DrawnUse::kExact;
+  }
+
+  void tell(const Drawing& drawing) {
+    if (no_outlines_.count > 0) {
+      made_.warnings.push_back(fmt::format("{}: points are no outline and not cut: {}",
+                                           drawing.name, no_outlines_.text()));
+    }
+    if (edges_.count > 0 && options_.use != DrawnUse::kExact) {
+      made_.warnings.push_back(fmt::format(
+          "{}: cut as drawn, along straight edges, where the vertices look like points of a curve: "
+          "{}; `obvid fit {} --curve N -o outline.json` forms a curve of one, --drawing exact says "
+          "that the edges are meant",
+          drawing.name, edges_.text(), drawing.name));
+    }
+    if (splines_.count > 0) {
+      made_.warnings.push_back(fmt::format(
+          "{}: drawn by points alone, cut along the cubic spline through them (by the chords, "
+          "curvature 0 at ends without a direction), as CAD systems draw it: {}",
+          drawing.name, splines_.text()));
+    }
+    no_outlines_ = edges_ = splines_ = {};
+  }
+
+  Result<DrawnCurve> curve_of(const Drawing& drawing, std::size_t number, bool is_cut) {
+    if (number < drawing.curves.size()) return drawing.curves[number];
+    const PointSeries& series = drawing.series[number - drawing.curves.size()];
+    if (is_no_outline(series)) {
+      return error(ErrorCode::kUnsupported, "these are points, not a curve")
+          .where(fmt::format("{}, {}", drawing.name, series.name))
+          .hint("use `obvid fit`, or --drawing exact to join them in their order");
+    }
+    if (!series.spline) {
+      if (is_cut) edges_.add(drawing, number);
+      return edges_of(series);
+    }
+    auto spline = spline_through(series);
+    if (!spline) {
+      Error error = std::move(spline.error());
+      error.where =
+          fmt::format("{}, {} (curve {})", drawing.name, series.spline->label, number + 1);
+      if (error.hint.empty()) error.hint = "leave it out: --curve with the numbers of the others";
+      return fail(std::move(error));
+    }
+    if (is_cut) splines_.add(drawing, number);
+    return spline;
+  }
+
   Result<void> add(const Drawing& drawing, std::size_t number, bool is_cut) {
+    auto curve = curve_of(drawing, number, is_cut);
+    OBVID_TRY(curve);
+    if (curve->pieces.empty()) return {};  // all of its points are one
     ImportOptions one = options_;
-    one.curve = {number, {}, false, {}};
-    auto drawn = drawn_contour(drawing, one, drawing.name, run_);
+    one.curve = {std::size_t{0}, {}, false, {}};
+    Drawing alone;
+    alone.name = drawing.name;
+    alone.units = drawing.units;
+    alone.curves.push_back(std::move(*curve));
+    auto drawn = drawn_contour(std::move(alone), one, drawing.name, run_);
     OBVID_TRY(drawn);
     std::string name = drawn->name.empty() ? fmt::format("curve {}", number + 1) : drawn->name;
     if (several_) name = drawing.name + ": " + name;
@@ -72,28 +147,23 @@ class Taken {
   bool several_;
   MadeCut& made_;
   const RunContext& run_;
+  Named no_outlines_, edges_, splines_;
 };
 
 constexpr int kFewestChords = 8;
 constexpr int kMostChords = 4096;
-
-/// A piece within the tolerance, or at the same places the curve at `by` to its left.
-void add_chords(SketchLayer& layer, const Piece& piece, double by, double tolerance) {
-  const int chords = chord_steps(piece, tolerance, kFewestChords, kMostChords);
-  std::vector<Vec2> points;
-  for (int k = 0; k <= chords; ++k) {
-    const Jet jet = evaluate(piece, static_cast<double>(k) / chords);
-    points.push_back(by == 0.0 ? jet.point : jet.point + (by / norm(jet.d1)) * left_normal(jet.d1));
-  }
-  layer.polylines.push_back(std::move(points));
-}
 
 void add_polyline(SketchLayer& layer, const Piece& piece, double tolerance) {
   if (std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece)) {
     layer.pieces.push_back(piece);
     return;
   }
-  add_chords(layer, piece, 0.0, tolerance);
+  const int chords = chord_steps(piece, tolerance, kFewestChords, kMostChords);
+  std::vector<Vec2> points;
+  for (int k = 0; k <= chords; ++k) {
+    points.push_back(evaluate(piece, static_cast<double>(k) / chords).point);
+  }
+  layer.polylines.push_back(std::move(points));
 }
 
 /// Outlines of one name, such as those of a block that is placed several times, get the numbers of
@@ -126,9 +196,7 @@ Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& opt
   made.units = *common;
   if (made.outlines.empty()) {
     return error(ErrorCode::kNothingThere, "there is no curve to cut")
-        .hint(
-            "--drawing exact cuts along the edges of polylines; `obvid fit` forms a curve of "
-            "points");
+        .hint("`obvid fit` forms a curve of points");
   }
   for (CutOutline& one : made.outlines) one.contour.units = made.units;
   tell_apart(made);
@@ -146,6 +214,18 @@ Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& opt
   auto& warnings = made.program.warnings;
   made.warnings.insert(made.warnings.end(), warnings.begin(), warnings.end());
   return made;
+}
+
+std::optional<Error> not_cut(const MadeCut& made) {
+  if (made.left_out == 0) return std::nullopt;
+  return error(ErrorCode::kNotAllCut,
+               fmt::format("{} of the drawing could not be read and {} not cut",
+                           counted(made.left_out, "entity", "entities"),
+                           made.left_out == 1 ? "is" : "are"))
+      .hint(
+          "the warnings name the first of each kind; --curve with the numbers of the others says "
+          "that they are not wanted")
+      .value(static_cast<double>(made.left_out));
 }
 
 Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
@@ -168,20 +248,13 @@ Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
   for (const CutOutline& one : made.outlines) {
     for (const Piece& piece : one.contour.pieces) add_polyline(outlines, piece, made.tolerance);
   }
-  const double radius = 0.5 * job.plan.diameter;
   for (const CutMove& move : made.program.moves) {
     SketchLayer& layer = move.kind == CutMoveKind::kRapid ? rapid
                          : move.kind == CutMoveKind::kTab ? tabs
                                                           : axis;
     add_polyline(layer, move.piece, made.tolerance);
-    if (move.kind != CutMoveKind::kCut || radius == 0.0) continue;
-    for (const double side : {radius, -radius}) {
-      if (std::holds_alternative<RationalBezier>(move.piece)) {
-        add_chords(edge, move.piece, side, made.tolerance);
-      }
-      if (const auto parallel = parallel_piece(move.piece, side)) edge.pieces.push_back(*parallel);
-    }
   }
+  edge.pieces = edge_of_cut(made.program.moves, 0.5 * job.plan.diameter, made.tolerance);
   for (std::size_t k = 0; k < made.program.steps.size(); ++k) {
     starts.points.push_back(made.program.steps[k].start);
     out.words.push_back({made.program.steps[k].start, std::to_string(k + 1)});
@@ -221,8 +294,10 @@ std::string cut_json(const MadeCut& made) {
   json.pair("beyond", r.beyond)
       .pair("short_of", r.short_of)
       .pair("spacing", r.spacing)
+      .pair("blending", r.blending)
       .pair("left_in_corners", r.left_in_corners);
   json.end_object();
+  json.pair("left_out", made.left_out);
   add_list(json, "warnings", made.warnings).end_object();
   return json.take();
 }

@@ -261,7 +261,7 @@ std::vector<std::string> idle_options(const FormatValues& typed,
     });
   };
   using enum FileFormat;
-  const bool gcode = written({kGcode}), samples = written({kSamples, kSldcrv, kObj, kPly});
+  const bool gcode = written({kGcode}), samples = written({kSamples, kSldcrv, kMacro, kObj, kPly});
   const bool foil = written({kAirfoil});
   const bool svg = written({kPicture});
   std::vector<std::string> out;

@@ -37,8 +37,13 @@ inline constexpr double kDigitOfTolerance = 0.1;
 
 /// A line that controllers leave out.
 [[nodiscard]] std::string gcode_remark(GcodeController controller, std::string_view text);
-/// Start of a program with such lines, and the words that stay in force.
-[[nodiscard]] std::string gcode_head(GcodeController controller, bool inches,
+/// How far the controller may leave the blocks where it blends them, as the program tells it: a
+/// quarter of the tolerance for LinuxCNC (G64 P), which would blend without a limit; the blocks
+/// keep the rest. None for others. In the unit of `tolerance`, that of the machine.
+[[nodiscard]] double blending_of(GcodeController controller, double tolerance);
+/// Start of a program with such lines, and the words that stay in force. `tolerance`: of the
+/// program, units of the machine.
+[[nodiscard]] std::string gcode_head(GcodeController controller, bool inches, double tolerance,
                                      const std::vector<std::string>& remarks);
 /// End of the program. Marlin has none: M30 would delete a file there.
 /// E203 for controllers without cubic splines (G5), and for Marlin: its firmware replaces them by
