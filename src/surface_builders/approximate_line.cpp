@@ -113,38 +113,22 @@ Rows transposed(const Rows& rows) {
   return out;
 }
 
-SplineLine::SplineLine(std::vector<double> parameters, int degree, double most_swing)
-    : degree_(std::min(degree, static_cast<int>(parameters.size()) - 1)),
-      most_swing_(most_swing),
-      at_(std::move(parameters)) {
-  const auto order = static_cast<std::size_t>(degree_) + 1;
-  std::vector<double> knots(order, at_.front());
-  knots.insert(knots.end(), order, at_.back());
-  set_knots(std::move(knots));
-}
-
-void SplineLine::set_knots(std::vector<double> knots) {
-  knots_ = std::move(knots);
-  basis_.clear();
-  basis_.reserve(at_.size());
-  for (const double t : at_) basis_.push_back(basis_at(degree_, knots_, t, 0));
-}
-
 /// Coefficients that the point and the derivatives at an end leave no choice. At the last end
 /// lengths are counted backwards: odd derivatives change their sign.
-bool SplineLine::end_coefficients(const LineEnds& kept, Rows& first, Rows& last) const {
-  const std::size_t most = coefficients();
+bool end_coefficients(int degree, const std::vector<double>& knots, const LineEnds& kept,
+                      Rows& first, Rows& last) {
+  const auto p = static_cast<std::size_t>(degree);
+  const std::size_t most = knots.size() - p - 1;
   const auto rows = [](const Rows& r) { return r.width == 0 ? 0 : r.count(); };
   const std::size_t at_first = rows(kept.first), at_last = rows(kept.last);
   if (at_first + at_last > most || std::max(at_first, at_last) > 3) return false;
-  const auto p = static_cast<std::size_t>(degree_);
-  const double d = degree_;
+  const double d = degree;
   const auto made = [&](const Rows& given, std::size_t count, bool backwards) {
     Rows out = given;
     // distance of the inner knot number k from that end
     const auto length = [&](std::size_t k) {
-      return backwards ? knots_.back() - knots_[knots_.size() - 1 - p - k]
-                       : knots_[p + k] - knots_.front();
+      return backwards ? knots.back() - knots[knots.size() - 1 - p - k]
+                       : knots[p + k] - knots.front();
     };
     const double sign = backwards ? -1.0 : 1.0;
     for (std::size_t j = 0; j < given.width && count > 1; ++j) {
@@ -166,10 +150,52 @@ bool SplineLine::end_coefficients(const LineEnds& kept, Rows& first, Rows& last)
   return true;
 }
 
+std::vector<double> knot_needs(int degree, const std::vector<double>& knots,
+                               const Rows& coefficients) {
+  const auto p = static_cast<std::size_t>(degree);
+  const std::size_t inner = knots.size() - 2 * p - 2, width = coefficients.width;
+  std::vector<double> need(inner, 0.0);
+  Rows differences = coefficients;  // of order r: r-th derivatives but for a factor
+  for (std::size_t r = 1; r <= p && inner > 0; ++r) {
+    for (std::size_t k = 0; k + r < coefficients.count(); ++k) {
+      const double inverse = 1.0 / (knots[k + p + 1] - knots[k + r]);
+      Vec3* here = differences.row(k);
+      const Vec3* next = differences.row(k + 1);
+      for (std::size_t i = 0; i < width; ++i) here[i] = inverse * (next[i] - here[i]);
+    }
+  }
+  for (std::size_t k = 0; k < inner; ++k) {
+    const double h = (knots[p + k + 2] - knots[p + k]) / 2.0;
+    double jump = 0.0;
+    for (std::size_t i = 0; i < width; ++i) {
+      jump = std::max(jump, norm(differences.row(k + 1)[i] - differences.row(k)[i]));
+    }
+    need[k] = jump * std::pow(h, degree);
+  }
+  return need;
+}
+
+SplineLine::SplineLine(std::vector<double> parameters, int degree, double most_swing)
+    : degree_(std::min(degree, static_cast<int>(parameters.size()) - 1)),
+      most_swing_(most_swing),
+      at_(std::move(parameters)) {
+  const auto order = static_cast<std::size_t>(degree_) + 1;
+  std::vector<double> knots(order, at_.front());
+  knots.insert(knots.end(), order, at_.back());
+  set_knots(std::move(knots));
+}
+
+void SplineLine::set_knots(std::vector<double> knots) {
+  knots_ = std::move(knots);
+  basis_.clear();
+  basis_.reserve(at_.size());
+  for (const double t : at_) basis_.push_back(basis_at(degree_, knots_, t, 0));
+}
+
 bool SplineLine::fit(const Rows& data, const LineEnds& kept, Rows& coefficients) const {
   const std::size_t n = this->coefficients(), m = at_.size(), width = data.width;
   Rows first, last;
-  if (!end_coefficients(kept, first, last)) return false;
+  if (!end_coefficients(degree_, knots_, kept, first, last)) return false;
   const std::size_t from = first.width == 0 ? 0 : first.count();
   const std::size_t to = n - (last.width == 0 ? 0 : last.count());
   const auto known = [&](std::size_t k) {
@@ -308,30 +334,6 @@ double SplineLine::swing() const {
   double worst = 0.0;
   for (const double x : swings()) worst = std::max(worst, std::abs(x));
   return worst;
-}
-
-std::vector<double> SplineLine::needs(const Rows& coefficients) const {
-  const auto p = static_cast<std::size_t>(degree_);
-  const std::size_t inner = knots_.size() - 2 * p - 2, width = coefficients.width;
-  std::vector<double> need(inner, 0.0);
-  Rows differences = coefficients;  // of order r: r-th derivatives but for a factor
-  for (std::size_t r = 1; r <= p && inner > 0; ++r) {
-    for (std::size_t k = 0; k + r < coefficients.count(); ++k) {
-      const double inverse = 1.0 / (knots_[k + p + 1] - knots_[k + r]);
-      Vec3* here = differences.row(k);
-      const Vec3* next = differences.row(k + 1);
-      for (std::size_t i = 0; i < width; ++i) here[i] = inverse * (next[i] - here[i]);
-    }
-  }
-  for (std::size_t k = 0; k < inner; ++k) {
-    const double h = (knots_[p + k + 2] - knots_[p + k]) / 2.0;
-    double jump = 0.0;
-    for (std::size_t i = 0; i < width; ++i) {
-      jump = std::max(jump, norm(differences.row(k + 1)[i] - differences.row(k)[i]));
-    }
-    need[k] = jump * std::pow(h, degree_);
-  }
-  return need;
 }
 
 void SplineLine::remove(const std::vector<std::size_t>& inner) {

@@ -34,6 +34,16 @@ struct LineEnds {
   Rows first, last;
 };
 
+/// The first and the last coefficients of a spline with these knots, which what is kept determines.
+/// False when there are too few for that.
+[[nodiscard]] bool end_coefficients(int degree, const std::vector<double>& knots,
+                                    const LineEnds& kept, Rows& first, Rows& last);
+
+/// For each inner knot about how far a spline with these coefficients moves without it: the jump of
+/// the highest derivative times that power of the mean of its spans, largest of all rows.
+[[nodiscard]] std::vector<double> knot_needs(int degree, const std::vector<double>& knots,
+                                             const Rows& coefficients);
+
 /// Splines over ascending parameters in [0, 1]. Knots stay such that each coefficient has a
 /// parameter of its own under its B-spline (Schoenberg and Whitney), the solution is unique, and
 /// such that coefficients cannot swing far beyond the data (`kMostSwing`).
@@ -68,9 +78,10 @@ class SplineLine {
   /// `saturate`.
   [[nodiscard]] double swing() const;
 
-  /// For each inner knot about how far a spline with these coefficients moves without it: the jump
-  /// of the highest derivative times that power of the mean of its spans, largest of all rows.
-  [[nodiscard]] std::vector<double> needs(const Rows& coefficients) const;
+  /// `knot_needs` of its inner knots.
+  [[nodiscard]] std::vector<double> needs(const Rows& coefficients) const {
+    return knot_needs(degree_, knots_, coefficients);
+  }
   /// Removes inner knots, by their ascending numbers as in `needs`.
   void remove(const std::vector<std::size_t>& inner);
 
@@ -79,8 +90,6 @@ class SplineLine {
   [[nodiscard]] std::vector<double> swings() const;
   std::size_t insert(const std::vector<double>& added);
   void set_knots(std::vector<double> knots);
-
-  [[nodiscard]] bool end_coefficients(const LineEnds& kept, Rows& first, Rows& last) const;
 
   int degree_;
   double most_swing_;

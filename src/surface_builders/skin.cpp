@@ -342,17 +342,19 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     const double part = static_cast<double>(n) / static_cast<double>(stretches.size());
     OBVID_TRY(tell(run, "checking", part));
     SkinStretch& stretch = stretches[n];
+    const bool light = result.light && !options.fair_across;
+    const int samples = light ? kReportSamplesOfLight : kReportSamplesPerSpan;
     OBVID_TRY(in_parallel(sections.size(), 0, run, [&](std::size_t k) {
-      add_section_report(stretch, measured_sections[k], k, (*v)[k], result.sections[k]);
+      add_section_report(stretch, measured_sections[k], k, (*v)[k], samples, result.sections[k]);
     }));
+    const std::vector<double> lines = light ? distinct(stretch.surface.knots_u) : stretch.breaks;
     if (!options.straight_across) {
       if (!options.fair_across) {
-        auto least = forced_across(stretch.surface, stretch.breaks, *v, bulge, run);
+        auto least = forced_across(stretch.surface, lines, *v, bulge, run);
         OBVID_TRY(least);
         forced.push_back(std::move(*least));
       }
-      OBVID_TRY(add_across_report(stretch.surface, stretch.breaks, *v, forced[n], fine, run,
-                                  result.across));
+      OBVID_TRY(add_across_report(stretch.surface, lines, *v, forced[n], fine, run, result.across));
     }
     result.patches.push_back({fmt::format("part {}", n + 1), std::move(stretch.surface)});
   }

@@ -92,7 +92,7 @@ class Halving {
 
   /// Breaks after `first` up to `last`, which are numbers of marks.
   bool between_marks(std::size_t first, std::size_t last) {
-    if (worst(marks_[first], marks_[last]) == Following::kWhole) {
+    if (worst(marks_[first], marks_[last], Following::kByPoints) == Following::kWhole) {
       breaks_.push_back(marks_[last]);
       return true;
     }
@@ -108,14 +108,15 @@ class Halving {
   std::vector<double> breaks_ = {0.0};
 
  private:
-  /// The section that was not followed last is asked first: it needs short spans.
-  [[nodiscard]] Following worst(double a, double b) {
+  /// The section that was not followed last is asked first: it needs short spans. Ends where it is
+  /// no better than `enough`: nobody asks how much worse it is.
+  [[nodiscard]] Following worst(double a, double b, Following enough) {
     Following least = Following::kWhole;
     const std::size_t first = hardest_;
     for (std::size_t i = 0; i < sections_.size() && !watch_.cancelled(); ++i) {
       const std::size_t k = (first + i) % sections_.size();
       least = std::min(least, following(sections_[k], a, b, goals_.tolerance, size_[k]));
-      if (least != Following::kNot) continue;
+      if (least > enough) continue;
       hardest_ = k;
       break;
     }
@@ -124,8 +125,8 @@ class Halving {
 
   bool between(double a, double b, int depth) {
     if (watch_.cancelled()) return false;
-    const Following least = worst(a, b);
     const bool in_vain = depth + kDeepestForCurvature <= kDeepest;
+    const Following least = worst(a, b, in_vain ? Following::kNot : Following::kByPoints);
     if (least == Following::kWhole || (least == Following::kByPoints && in_vain)) {
       breaks_.push_back(b);
       return true;

@@ -13,14 +13,14 @@
 namespace obvid {
 
 void add_section_report(const SkinStretch& stretch, const MeasuredSection& measured, std::size_t k,
-                        double v, SkinSectionReport& report) {
+                        double v, int samples_per_span, SkinSectionReport& report) {
   const SectionCurve& section = stretch.sections[k];
   if (section.is_point()) return;
   const SpaceCurve made = isocurve_at_v(stretch.surface, v);
   RippleMeter meter;
   for (std::size_t i = 0; i + 1 < stretch.breaks.size(); ++i) {
-    const double step = (stretch.breaks[i + 1] - stretch.breaks[i]) / kReportSamplesPerSpan;
-    for (int j = 0; j < kReportSamplesPerSpan; ++j) {
+    const double step = (stretch.breaks[i + 1] - stretch.breaks[i]) / samples_per_span;
+    for (int j = 0; j < samples_per_span; ++j) {
       const double u = stretch.breaks[i] + (j + 0.5) * step;
       const SpaceJet jet = evaluate(made, u);
       const Hermite wanted = section.at(u);

@@ -10,8 +10,9 @@
 
 namespace obvid {
 
-/// Places of a span where curvature along a section is looked at.
-inline constexpr int kReportSamplesPerSpan = 16;
+/// Places of a span where curvature along a section is looked at: of the exact skin, and of those
+/// whose own spans are longer.
+inline constexpr int kReportSamplesPerSpan = 16, kReportSamplesOfLight = 4;
 
 /// One stretch of the skin with everything that was used to make it.
 struct SkinStretch {
@@ -22,7 +23,7 @@ struct SkinStretch {
 
 /// Adds what this stretch shows about section k.
 void add_section_report(const SkinStretch& stretch, const MeasuredSection& measured, std::size_t k,
-                        double v, SkinSectionReport& report);
+                        double v, int samples_per_span, SkinSectionReport& report);
 
 /// Fewest changes of bending on each isoline, and how many of them are certified.
 struct ForcedAcross {

@@ -239,6 +239,45 @@ TEST_F(SkinsInFreecad, PublicHullsAndBladesAreValidAndMeetTheirSections) {
   judge();
 }
 
+/// What a light skin is for: a file that a CAD system opens at once.
+TEST_F(SkinsInFreecad, TheWindTurbineBladeIsLightWithinATenthOfAMillimetre) {
+  constexpr double kLight = 1e-4;  // metres
+  std::vector<std::string> blade;
+  for (const auto& entry : fs::directory_iterator(public_file("windturbine_iea15"))) {
+    blade.push_back(entry.path().string());
+  }
+  std::sort(blade.begin(), blade.end());
+  const auto sections = read_sections(blade);
+  ASSERT_TRUE(sections) << to_line(sections.error());
+  SkinJob job;
+  job.sections.noise = 2e-4;
+  job.light = kLight;
+  const auto made = fit_skin(*sections, job);
+  ASSERT_TRUE(made) << to_line(made.error());
+  EXPECT_EQ(made->proved, 50u);
+  ASSERT_TRUE(made->skin.light);
+  EXPECT_LE(made->skin.light->moved, kLight);
+  double deviation = 0.0;
+  for (const SkinSectionReport& section : made->skin.sections) {
+    deviation = std::max(deviation, section.deviation);
+  }
+  EXPECT_LE(deviation, kLight);
+  std::size_t around = 0;
+  SurfaceModel model;
+  model.patches = made->skin.patches;
+  for (const SurfacePatch& patch : model.patches) {
+    around += patch.surface.count_u();
+    EXPECT_LE(patch.surface.count_v(), 60u);
+  }
+  EXPECT_LE(around, 120u);
+  add(model, "blade_light");
+  EXPECT_LT(fs::file_size(folder_ / "blade_light.step"), 1'000'000u);
+  std::printf("blade: %zu control points around in %zu patches, sections within %.3g, %zu bytes\n",
+              around, model.patches.size(), deviation,
+              static_cast<std::size_t>(fs::file_size(folder_ / "blade_light.step")));
+  judge();
+}
+
 /// One side of an outline of pixels: from its highest to its lowest point, by distance from the
 /// middle and height.
 std::vector<Vec2> half_profile(const std::vector<Vec2>& outline) {

@@ -18,11 +18,12 @@ struct LightSurfaces {
 
 enum class LightWhere { kBoth, kAlong };
 
-/// The same surfaces with few control points: least squares along u and then along v, knots where
-/// they are needed, as few as were found; `moved` <= tolerance. Degrees stay; inner knots become
-/// single, so along u the surface is C4 where it was C2. Points, first and second derivatives by u
-/// at both ends of u stay, and the first and the last row: seams and borders that were smooth are
-/// smooth still. Where nothing lighter is found a direction stays as it is.
+/// The same surfaces with few control points: weighted least squares along u and then along v,
+/// knots where they are needed, none that could go by itself; `moved` <= tolerance. Degrees stay;
+/// inner knots become single, so along u the surface is C4 where it was C2. Points, first and
+/// second derivatives by u at both ends of u stay, and the first and the last row: seams and
+/// borders that were smooth are smooth still. Where nothing lighter is found a direction stays as
+/// it is.
 ///
 /// Not guaranteed: curvature, which a tolerance of positions does not bound; the fewest knots.
 ///

@@ -110,8 +110,8 @@ struct Skin {
                                       ///< sections, v across them, neighbours share their border
   std::vector<SkinSectionReport> sections;
   AcrossReport across;
-  std::optional<LightSkinReport>
-      light;  ///< then `sections` and `across` are those of the light one
+  /// Then `sections` and `across` are those of the light one, whose isolines are its own knots.
+  std::optional<LightSkinReport> light;
   /// Then `sections` and `across` are those of the fair one, `across` by its tolerance and against
   /// what the exact skin's points force.
   std::optional<FairAcrossReport> fair;
