@@ -167,6 +167,41 @@ TEST(Alignment, ATransitionIsOneClothoid) {
   EXPECT_NEAR(found->elements[0].start.kappa, 1 / 300.0, 1e-9);
 }
 
+std::vector<AlignmentKind> kinds_of(const Alignment& made) {
+  std::vector<AlignmentKind> out;
+  for (const AlignmentElement& e : made.elements) out.push_back(e.kind);
+  return out;
+}
+
+std::vector<AlignmentKind> kinds_of(const std::vector<RoadPart>& parts) {
+  std::vector<AlignmentKind> out;
+  for (const RoadPart& part : parts) out.push_back(kind_of_part(part));
+  return out;
+}
+
+/// As they are printed with so many digits.
+std::vector<Vec2> rounded(std::vector<Vec2> points, double unit) {
+  for (Vec2& p : points) p = {unit * std::round(p.x / unit), unit * std::round(p.y / unit)};
+  return points;
+}
+
+// A tolerance far above the errors and far below the elements: what is within it of a line is one.
+TEST(Alignment, LinesAreLinesHoweverSmallTheTolerance) {
+  const std::vector<RoadPart> road = {
+      {140.12, 0, 0},         {52.5, 0, -1 / 146.72},  {91.6, -1 / 146.72, -1 / 146.72},
+      {52.5, -1 / 146.72, 0}, {170.38, 0, 0},          {82.88, -1 / 225.87, -1 / 225.87},
+      {145.04, 0, 0},         {70.09, 0, -1 / 296.58}, {87.29, -1 / 296.58, -1 / 296.58},
+      {70.09, -1 / 296.58, 0}};
+  for (const double unit : {1e-4, 1e-7}) {
+    const auto points = rounded(road_points(road, 5.0), unit);
+    for (const double tolerance : {2e-4, 5e-4, 7e-4, 2e-3, 1e-2}) {
+      const auto found = fit_alignment(points, std::vector<double>(points.size(), tolerance));
+      ASSERT_TRUE(found) << found.error().what;
+      EXPECT_EQ(kinds_of(*found), kinds_of(road)) << unit << " " << tolerance;
+    }
+  }
+}
+
 TEST(Alignment, KeepsLeastLengthsAndRadii) {
   const auto points = disturbed(road_points(kRoad, 10.0), 0.002);
   for (const double tolerance : {0.5, 2.0, 8.0}) {
@@ -399,6 +434,45 @@ TEST(ClosedAlignment, HasStepsWhereTheyAreAndNoneWherePointsBegin) {
   ASSERT_EQ(made->elements.size(), 4U);
   expect_closed(*made, 0.008);
   for (const AlignmentElement& e : made->elements) EXPECT_TRUE(e.step);
+}
+
+/// Evenly spaced points of two straights of 200 and two half circles, the first one so far along.
+std::vector<Vec2> stadium(double radius, int count, double from) {
+  constexpr double kStraight = 200.0;
+  const double half = kStraight + std::numbers::pi * radius;
+  std::vector<Vec2> out;
+  for (int i = 0; i < count; ++i) {
+    double s = std::fmod(2.0 * half * i / count + from, 2.0 * half);
+    const bool back = s >= half;  // the second half is the first one, turned by half a turn
+    if (back) s -= half;
+    const double a = std::max(0.0, s - kStraight) / radius;
+    const Vec2 p{std::min(s, kStraight) + radius * std::sin(a), radius * (1.0 - std::cos(a))};
+    out.push_back(back ? Vec2{kStraight, 2.0 * radius} - p : p);
+  }
+  return out;
+}
+
+TEST(ClosedAlignment, OfAStadiumIsTwoLinesAndTwoArcsAtEveryTolerance) {
+  for (const double radius : {30.0, 80.0}) {
+    for (const double from : {0.0, 37.0}) {
+      for (const int count : {60, 180}) {
+        const auto points = rounded(stadium(radius, count, from), 1e-4);
+        for (const double tolerance : {2e-4, 1e-3, 2e-3, 5e-3}) {
+          AlignmentOptions options;
+          options.closed = true;
+          const auto made =
+              fit_alignment(points, std::vector<double>(points.size(), tolerance), options);
+          ASSERT_TRUE(made) << made.error().what;
+          EXPECT_EQ(made->elements.size(), 4U) << radius << " " << from << " " << tolerance;
+          for (const AlignmentElement& e : made->elements) {
+            const bool arc = e.kind == AlignmentKind::kArc;
+            EXPECT_NE(e.kind, AlignmentKind::kClothoid);
+            EXPECT_NEAR(e.start.kappa, arc ? 1.0 / radius : 0.0, 1e-4 / radius);
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(ClosedAlignment, OfACircleIsOneArcOfAnySizeAnywhere) {
