@@ -401,6 +401,34 @@ TEST(Alignment, WhatIsRefusedForItsLimitsIsFoundAsTheAdviceSays) {
   EXPECT_TRUE(within(points, 0.01));
 }
 
+// The best circle through seven points of it is two centimetres off: with as many elements, arcs
+// with steps between them are within the tolerance too, and farther off.
+TEST(Alignment, ATransitionThatThePointsShowIsNoArc) {
+  const std::vector<RoadPart> road = {{102.46, 0, 0},
+                                      {30.99, 0, 1 / 222.82},
+                                      {83.95, 1 / 222.82, 1 / 222.82},
+                                      {30.99, 1 / 222.82, 0},
+                                      {100.51, 0, 0},
+                                      {70.44, -1 / 135.46, -1 / 135.46},
+                                      {84.17, 0, 0},
+                                      {42.82, -1 / 148.98, -1 / 148.98}};
+  std::vector<Vec2> points = road_points(road, 5.0);
+  Noise noise;
+  for (int sample = 0; sample < 6; ++sample) {
+    std::vector<Vec2> seen = points;
+    for (Vec2& p : seen) p = p + 0.002 * Vec2{noise(), noise()};
+    const auto found = within(seen, 0.008);
+    ASSERT_TRUE(found) << found.error().what;
+    EXPECT_EQ(kinds_of(*found), kinds_of(road)) << sample;
+    AlignmentOptions options;
+    options.without_steps = true;
+    const auto without = fit_alignment(seen, std::vector<double>(seen.size(), 0.008), options);
+    ASSERT_TRUE(without) << without.error().what;
+    // three of the road's joints have steps, and get a transition each
+    EXPECT_EQ(without->elements.size(), road.size() + 3) << sample;
+  }
+}
+
 TEST(ClosedAlignment, HasTheElementsOfALoopWhereverItsPointsBegin) {
   // 0: in a line, 10: in a transition, 14: in an arc
   const auto parts = oval(50.0, 60.0, 15.0);
