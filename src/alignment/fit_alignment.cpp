@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "fewest_pieces.h"
 #include "found_chain.h"
@@ -75,6 +77,31 @@ Result<void> keeps_limits(const Alignment& found, const AlignmentOptions& option
   return {};
 }
 
+/// Of limits that nothing was found with: other ones that are searched with.
+constexpr std::array kSharesOfLimits = {0.9, 0.7, 0.5, 0.0};
+
+/// Whether smaller limits may lead to something where that is the error.
+bool is_for_limits(const Error& error, const AlignmentOptions& options) {
+  const bool none =
+      error.code == ErrorCode::kNoSpiral || error.code == ErrorCode::kToleranceNotReached;
+  return none && (options.least_length > 0.0 || options.least_radius > 0.0);
+}
+
+/// Searched and fitted with some limits; an error where that does not keep those of `kept`.
+Result<Alignment> fit_within(const std::vector<Vec2>& given, const std::vector<double>& tolerance,
+                             const AlignmentOptions& options, const AlignmentOptions& kept,
+                             const RunContext& run) {
+  const auto found = find_chain(given, tolerance, options, {}, run);
+  OBVID_TRY(found);
+  Alignment out = alignment_of(found->chain, found->feet, tolerance, options.closed);
+  OBVID_TRY(keeps_limits(out, kept));
+  out.found_within = found->found_within;
+  out.has_chords = found->has_chords;
+  for (AlignmentElement& e : out.elements) e.start.point = e.start.point + found->origin;
+  out.end.point = out.end.point + found->origin;
+  return out;
+}
+
 }  // namespace
 }  // namespace alignment
 
@@ -95,15 +122,22 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
     once->deviations.push_back(once->deviations.front());
     return once;
   }
-  const auto found = alignment::find_chain(given, tolerance, options, {}, run);
-  OBVID_TRY(found);
-  Alignment out = alignment::alignment_of(found->chain, found->feet, tolerance, options.closed);
-  OBVID_TRY(alignment::keeps_limits(out, options));
-  out.found_within = found->found_within;
-  out.has_chords = found->has_chords;
-  for (AlignmentElement& e : out.elements) e.start.point = e.start.point + found->origin;
-  out.end.point = out.end.point + found->origin;
-  return out;
+  auto first = alignment::fit_within(given, tolerance, options, options, run);
+  if (first || !alignment::is_for_limits(first.error(), options)) return first;
+  // what a smaller limit leads to may keep this one
+  for (const double share : alignment::kSharesOfLimits) {
+    for (const auto& [of_length, of_radius] :
+         {std::pair{share, share}, std::pair{share, 1.0}, std::pair{1.0, share}}) {
+      AlignmentOptions smaller = options;
+      smaller.least_length *= of_length;
+      smaller.least_radius *= of_radius;
+      const bool both = options.least_length > 0.0 && options.least_radius > 0.0;
+      if (!both && of_length != of_radius) continue;
+      auto found = alignment::fit_within(given, tolerance, smaller, options, run);
+      if (found || !alignment::is_for_limits(found.error(), options)) return found;
+    }
+  }
+  return first;
 }
 
 }  // namespace obvid

@@ -228,6 +228,39 @@ TEST(Alignment, KeepsLeastLengthsAndRadii) {
   }
 }
 
+// What a smaller limit leads to keeps larger ones too: 31 m is the shortest element of the road.
+TEST(Alignment, NoLimitRefusesWhatASmallerOneLeadsTo) {
+  const std::vector<RoadPart> road = {
+      {102.46, 0, 0},         {30.99, 0, 1 / 222.82}, {83.95, 1 / 222.82, 1 / 222.82},
+      {30.99, 1 / 222.82, 0}, {100.51, 0, 0},         {70.44, -1 / 135.46, -1 / 135.46}};
+  const auto points = disturbed(road_points(road, 5.0), 0.002);
+  const std::vector<double> tolerance(points.size(), 0.008);
+  const auto free = fit_alignment(points, tolerance);
+  ASSERT_TRUE(free);
+  double shortest = free->length, smallest = free->length;
+  for (const AlignmentElement& e : free->elements) {
+    shortest = std::min(shortest, e.length);
+    for (const double kappa : {e.start.kappa, e.kappa1}) {
+      if (kappa != 0.0) smallest = std::min(smallest, 1.0 / std::abs(kappa));
+    }
+  }
+  ASSERT_GT(shortest, 29.0);
+  for (const double share : {0.7, 0.8, 0.85, 0.9, 0.95, 0.99, 0.999}) {
+    for (const AlignmentOptions& limits :
+         {AlignmentOptions{2, share * shortest, 0.0}, AlignmentOptions{2, 0.0, share * smallest},
+          AlignmentOptions{2, share * shortest, share * smallest}}) {
+      const auto made = fit_alignment(points, tolerance, limits);
+      ASSERT_TRUE(made) << share << made.error().what;
+      for (const AlignmentElement& e : made->elements) {
+        EXPECT_GE(e.length, limits.least_length * (1 - 1e-9));
+        EXPECT_LE(std::abs(e.start.kappa) * limits.least_radius, 1 + 1e-9);
+      }
+    }
+  }
+  const auto refused = fit_alignment(points, tolerance, AlignmentOptions{2, 60.0, 0.0});
+  ASSERT_FALSE(refused);
+}
+
 TEST(Alignment, RefusesLimitsThatAreNone) {
   for (const AlignmentOptions& limits :
        {AlignmentOptions{2, -1.0, 0.0}, AlignmentOptions{2, 0.0, std::nan("")}}) {
