@@ -27,11 +27,7 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   const std::vector<Element> joints = chain.joints();
   for (const double length : chain.length) out.length += length;
   std::vector<double> station = {0.0};
-  if (closed) {  // the first point is on the last element, or the start of the only one
-    for (std::size_t k = 0; k < feet.front().element; ++k) station[0] -= chain.length[k];
-    station[0] -= feet.front().s;
-    if (station[0] < 0.0) station[0] += out.length;
-  }
+  if (closed) station[0] = -feet.front().s;  // of the first point, on the first element, it is 0
   for (std::size_t k = 0; k < chain.size(); ++k) {
     AlignmentElement e;
     e.kind = kind_of(chain.ends[k], chain.law[k]);
@@ -49,7 +45,7 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   double squares = 0.0;
   for (std::size_t i = 0; i < feet.size(); ++i) {
     double at = station[feet[i].element] + feet[i].s;
-    if (closed && (i == 0 || at >= out.length)) at = i == 0 ? 0.0 : at - out.length;
+    if (closed && at >= station[0] + out.length) at -= out.length;
     out.deviations.push_back({at, feet[i].offset});
     out.largest_share = std::max(out.largest_share, std::abs(feet[i].offset) / tolerance[i]);
     squares += feet[i].offset * feet[i].offset;

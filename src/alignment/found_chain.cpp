@@ -112,7 +112,7 @@ class Simplifier {
 
   /// The same around a loop: the ends of what was found are joined, and everything is tried once
   /// with the seam where the points begin and once with it half way around, where it is no other
-  /// joint than the rest. At last the chain begins at the joint behind the first point.
+  /// joint than the rest. At last the chain begins with the element of the first point.
   Result<void> run_around(const RunContext& run) {
     const std::vector<Element> joints = chain_.joints();
     for (double& kappa : chain_.kappa) {
@@ -255,10 +255,10 @@ class Simplifier {
     return false;
   }
 
-  /// Begins the chain at the joint behind the first point.
+  /// Begins the chain with the element of the first point.
   void turn_to_first_given() {
     const std::size_t first = (points_.size() - first_given_) % points_.size();
-    turn_to((feet_[first].element + 1) % chain_.size());
+    turn_to(feet_[first].element);
   }
 
   /// Gives points the part of their tolerance that transitions in joints need.
@@ -956,8 +956,20 @@ class Simplifier {
     const auto [k0, k1] = chain_.ends[k];
     add(k0, k1);
     if (k0 == k1 && k0 != Chain::kStraight) add(k0, Chain::kStraight);
+    if (k0 != k1 && !constant_) add_straight_ends(k, add);
     // arcs without a step between them are one: merging tries that
     if (k + 1 < chain_.size() && !constant_) add(k1, chain_.ends[k + 1][0], true);
+  }
+
+  /// An end behind an inflection that is nearer to it than elements are long: LandXML would have a
+  /// spiral of its own there.
+  template <class Add>
+  void add_straight_ends(std::size_t k, const Add& add) const {
+    const double k0 = chain_.curvature(k, 0), k1 = chain_.curvature(k, 1);
+    if (!(k0 * k1 < 0.0)) return;
+    const double before = k0 / (k0 - k1) * chain_.length[k];
+    if (before < least_length_) add(chain_.ends[k][0], Chain::kStraight);
+    if (chain_.length[k] - before < least_length_) add(chain_.ends[k][1], Chain::kStraight);
   }
 
   Result<void> estimate(std::vector<Candidate>& candidates, const RunContext& run) const {
