@@ -48,7 +48,8 @@ constexpr std::array kNumberOptions = {
                  "Least radius anywhere, input units [any]"},
     NumberOption{"--station", "S", &RawAlignment::first_station, false, "a station is a number",
                  kInUnits,
-                 "Station of the first point, input units: where stations are counted from [0]"},
+                 "Station of the first point, input units; around a loop the element that it lies "
+                 "on is the first [0]"},
     NumberOption{"--lateral-acceleration", "A", &RawAlignment::acceleration, true, kPositive,
                  "in m/s^2, without the unit",
                  "Acceleration to the side, m/s^2: the table tells the speed at which the sharpest "

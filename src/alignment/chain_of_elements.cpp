@@ -38,6 +38,8 @@ constexpr double kTurn = 0.3;         ///< rad: an element turns by no more in o
 /// solved, so that they are solved exactly enough for steps that close gaps.
 constexpr double kDampingStart = 1e-6, kDampingMost = 1e6, kDampingLeast = 1e-12,
                  kDampingClosing = 1.0;
+/// Of a condition's row, squared: what others leave of it is rounding.
+constexpr double kSameCondition = 1e-22;
 
 std::vector<TransitionLaw> laws_of(const Chain& chain) {
   std::vector<TransitionLaw> out;
@@ -401,42 +403,52 @@ class Fitter {
     std::vector<double> right(unknowns_);
     for (std::size_t a = 0; a < unknowns_; ++a) right[a] = right_[a] * scale_[a];
     std::vector<double> move = matrix.solve(right);
-    const std::size_t n = conditions_.size();
-    if (n == 0) return move;
-    std::vector<std::vector<double>> solved;
-    std::vector<std::vector<double>> rows;
-    for (const auto& c : conditions_) {
-      std::vector<double> row = c.row;
-      for (std::size_t a = 0; a < unknowns_; ++a) row[a] *= scale_[a];
-      rows.push_back(row);
-      solved.push_back(matrix.solve(row));
-    }
+    keep_conditions(matrix, move);
+    return move;
+  }
+
+  /// Moves a step to where it keeps the conditions, by as little as the matrix makes of it. Their
+  /// rows are made orthogonal one after the other: the length of the last element, which no point
+  /// tells, is so large a part of several that what they do not have in common would be rounding in
+  /// a matrix of their products.
+  void keep_conditions(const BandedMatrix& matrix, std::vector<double>& move) const {
     const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
       double sum = 0.0;
       for (std::size_t k = 0; k < unknowns_; ++k) sum += a[k] * b[k];
       return sum;
     };
-    BandedMatrix small(n, n - 1, n - 1);
-    std::vector<double> gap(n);
-    std::vector<double> size(n, 1.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double d = product(rows[i], solved[i]);
-      if (!(d > 0.0)) return std::nullopt;
-      size[i] = 1.0 / std::sqrt(d);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t k = 0; k < n; ++k) {
-        small.at(i, k) = product(rows[i], solved[k]) * size[i] * size[k];
+    struct Apart {
+      std::vector<double> row, solved;
+      double gap = 0.0;
+    };
+    std::vector<Apart> apart;
+    for (const auto& c : conditions_) {
+      Apart one{c.row, {}, c.gap};
+      for (std::size_t a = 0; a < unknowns_; ++a) one.row[a] *= scale_[a];
+      one.solved = matrix.solve(one.row);
+      const double whole = product(one.row, one.solved);
+      for (int pass = 0; pass < 2; ++pass) {  // what the first one leaves is rounding of the row
+        for (const Apart& other : apart) {
+          const double common = product(one.row, other.solved);
+          for (std::size_t a = 0; a < unknowns_; ++a) {
+            one.row[a] -= common * other.row[a];
+            one.solved[a] -= common * other.solved[a];
+          }
+          one.gap -= common * other.gap;
+        }
       }
-      small.at(i, i) += kDampingLeast;
-      gap[i] = (conditions_[i].gap - product(rows[i], move)) * size[i];
+      const double own = product(one.row, one.solved);
+      if (!(own > kSameCondition * whole)) continue;
+      const double size = 1.0 / std::sqrt(own);
+      for (std::size_t a = 0; a < unknowns_; ++a) {
+        one.row[a] *= size;
+        one.solved[a] *= size;
+      }
+      one.gap *= size;
+      const double pull = one.gap - product(one.row, move);
+      for (std::size_t a = 0; a < unknowns_; ++a) move[a] += pull * one.solved[a];
+      apart.push_back(std::move(one));
     }
-    if (!small.factor()) return std::nullopt;
-    const std::vector<double> pull = small.solve(gap);
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t a = 0; a < unknowns_; ++a) move[a] += pull[i] * size[i] * solved[i][a];
-    }
-    return move;
   }
 
   /// The same with curvatures that would get sharper than they may held at that, and elements that

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "fewest_pieces.h"
 #include "found_chain.h"
@@ -25,11 +27,7 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   const std::vector<Element> joints = chain.joints();
   for (const double length : chain.length) out.length += length;
   std::vector<double> station = {0.0};
-  if (closed) {  // the first point is on the last element, or the start of the only one
-    for (std::size_t k = 0; k < feet.front().element; ++k) station[0] -= chain.length[k];
-    station[0] -= feet.front().s;
-    if (station[0] < 0.0) station[0] += out.length;
-  }
+  if (closed) station[0] = -feet.front().s;  // of the first point, on the first element, it is 0
   for (std::size_t k = 0; k < chain.size(); ++k) {
     AlignmentElement e;
     e.kind = kind_of(chain.ends[k], chain.law[k]);
@@ -47,7 +45,7 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   double squares = 0.0;
   for (std::size_t i = 0; i < feet.size(); ++i) {
     double at = station[feet[i].element] + feet[i].s;
-    if (closed && (i == 0 || at >= out.length)) at = i == 0 ? 0.0 : at - out.length;
+    if (closed && at >= station[0] + out.length) at -= out.length;
     out.deviations.push_back({at, feet[i].offset});
     out.largest_share = std::max(out.largest_share, std::abs(feet[i].offset) / tolerance[i]);
     squares += feet[i].offset * feet[i].offset;
@@ -75,6 +73,31 @@ Result<void> keeps_limits(const Alignment& found, const AlignmentOptions& option
   return {};
 }
 
+/// Of limits that nothing was found with: other ones that are searched with.
+constexpr std::array kSharesOfLimits = {0.9, 0.7, 0.5, 0.0};
+
+/// Whether smaller limits may lead to something where that is the error.
+bool is_for_limits(const Error& error, const AlignmentOptions& options) {
+  const bool none =
+      error.code == ErrorCode::kNoSpiral || error.code == ErrorCode::kToleranceNotReached;
+  return none && (options.least_length > 0.0 || options.least_radius > 0.0);
+}
+
+/// Searched and fitted with some limits; an error where that does not keep those of `kept`.
+Result<Alignment> fit_within(const std::vector<Vec2>& given, const std::vector<double>& tolerance,
+                             const AlignmentOptions& options, const AlignmentOptions& kept,
+                             const RunContext& run) {
+  const auto found = find_chain(given, tolerance, options, {}, run);
+  OBVID_TRY(found);
+  Alignment out = alignment_of(found->chain, found->feet, tolerance, options.closed);
+  OBVID_TRY(keeps_limits(out, kept));
+  out.found_within = found->found_within;
+  out.has_chords = found->has_chords;
+  for (AlignmentElement& e : out.elements) e.start.point = e.start.point + found->origin;
+  out.end.point = out.end.point + found->origin;
+  return out;
+}
+
 }  // namespace
 }  // namespace alignment
 
@@ -95,15 +118,22 @@ Result<Alignment> fit_alignment(const std::vector<Vec2>& given,
     once->deviations.push_back(once->deviations.front());
     return once;
   }
-  const auto found = alignment::find_chain(given, tolerance, options, {}, run);
-  OBVID_TRY(found);
-  Alignment out = alignment::alignment_of(found->chain, found->feet, tolerance, options.closed);
-  OBVID_TRY(alignment::keeps_limits(out, options));
-  out.found_within = found->found_within;
-  out.has_chords = found->has_chords;
-  for (AlignmentElement& e : out.elements) e.start.point = e.start.point + found->origin;
-  out.end.point = out.end.point + found->origin;
-  return out;
+  auto first = alignment::fit_within(given, tolerance, options, options, run);
+  if (first || !alignment::is_for_limits(first.error(), options)) return first;
+  // what a smaller limit leads to may keep this one
+  for (const double share : alignment::kSharesOfLimits) {
+    for (const auto& [of_length, of_radius] :
+         {std::pair{share, share}, std::pair{share, 1.0}, std::pair{1.0, share}}) {
+      AlignmentOptions smaller = options;
+      smaller.least_length *= of_length;
+      smaller.least_radius *= of_radius;
+      const bool both = options.least_length > 0.0 && options.least_radius > 0.0;
+      if (!both && of_length != of_radius) continue;
+      auto found = alignment::fit_within(given, tolerance, smaller, options, run);
+      if (found || !alignment::is_for_limits(found.error(), options)) return found;
+    }
+  }
+  return first;
 }
 
 }  // namespace obvid

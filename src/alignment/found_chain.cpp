@@ -26,14 +26,17 @@ constexpr std::size_t kBridged = 3;  ///< elements that one vertical curve takes
 constexpr std::size_t kWindow = 12;  ///< elements that are fitted at once
 constexpr double kLeastLength = 0.25;  ///< of the mean distance of points: elements get no shorter
 constexpr double kOfShortest =
-    0.5;                           ///< of the shortest element where corners are rounded: likewise
-constexpr double kHopeless = 4.0;  ///< estimated squares over the most that there can be
+    0.5;  ///< of the shortest element where corners are rounded: likewise
+/// Standard deviations of the scatter of points: what is off by more is shown by them.
+constexpr double kShown = 4.0;
+constexpr std::size_t kNumbersOfElement = 3;  ///< length and two curvatures
+constexpr double kHopeless = 4.0;             ///< estimated squares over the most that there can be
 /// Largest offset over its tolerance after least squares from which no higher power comes back.
 constexpr double kHopelessOffset = 3.0;
-constexpr int kPasses = 4;  ///< over all conditions
+constexpr int kPasses = 12;  ///< over all conditions
 /// Of the length of all elements: where a bend moves nothing by more it is rounding, and straight.
 constexpr double kStraightWithin = 1e-9;
-constexpr double kOfToleranceAtMost = 1e-3;  ///< that this may take
+constexpr double kOfToleranceAtMost = 1e-3;  ///< that this may take; scatter that is none
 constexpr double kSlow = 0.25;     ///< of a run's change of curvature: what may be an arc beside it
 constexpr double kSlowRate = 0.1;  ///< of the fastest change of curvature: what may be an arc
 constexpr std::size_t kLongestRun = 9;   ///< elements that one transition takes the place of
@@ -67,6 +70,7 @@ class Simplifier {
         others_(others),
         cancelled_(run.cancelled),
         chain_(std::move(chain)),
+        begun_with_(chain_.size()),
         feet_(std::move(feet)) {
     double length = 0.0;
     for (std::size_t i = 1; i < points_.size(); ++i) {
@@ -108,7 +112,7 @@ class Simplifier {
 
   /// The same around a loop: the ends of what was found are joined, and everything is tried once
   /// with the seam where the points begin and once with it half way around, where it is no other
-  /// joint than the rest. At last the chain begins at the joint behind the first point.
+  /// joint than the rest. At last the chain begins with the element of the first point.
   Result<void> run_around(const RunContext& run) {
     const std::vector<Element> joints = chain_.joints();
     for (double& kappa : chain_.kappa) {
@@ -148,6 +152,9 @@ class Simplifier {
   }
 
   [[nodiscard]] const Chain& chain() const { return chain_; }
+  /// Whether there are more elements around a loop than the open search had: with one more, at the
+  /// most, where the points begin, it has as many as the loop.
+  [[nodiscard]] bool has_more_than_open() const { return closed_ && chain_.size() > begun_with_; }
   /// Whether stretches of it are no elements of the search.
   [[nodiscard]] bool is_mended() const { return mended_; }
   /// Whether it was begun as no search's.
@@ -248,10 +255,10 @@ class Simplifier {
     return false;
   }
 
-  /// Begins the chain at the joint behind the first point.
+  /// Begins the chain with the element of the first point.
   void turn_to_first_given() {
     const std::size_t first = (points_.size() - first_given_) % points_.size();
-    turn_to((feet_[first].element + 1) % chain_.size());
+    turn_to(feet_[first].element);
   }
 
   /// Gives points the part of their tolerance that transitions in joints need.
@@ -477,11 +484,17 @@ class Simplifier {
   }
 
   /// Whether its elements, fitted, pass its points.
-  bool fits(Window& window) const {
-    if (window.points.empty()) return false;
-    const Fitted fitted =
-        fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
-    return fitted.largest <= 1.0 && transitions_exist(window.chain) && is_borne(window.chain);
+  bool fits(Window& window) const { return fit(window).largest <= 1.0; }
+
+  /// The same with what is left; infinite where there are no such elements.
+  Fitted fit(Window& window) const {
+    Fitted out{std::numeric_limits<double>::infinity(), 0.0};
+    if (window.points.empty()) return out;
+    out = fit_chain(window.chain, window.points, window.tolerance, window.feet, window.held);
+    if (!transitions_exist(window.chain) || !is_borne(window.chain)) {
+      out.largest = std::numeric_limits<double>::infinity();
+    }
+    return out;
   }
 
   static bool passes_as_it_is(const Window& window) {
@@ -621,7 +634,7 @@ class Simplifier {
     for (std::size_t k = 0; k + 1 < chain_.size();) {
       const double done = static_cast<double>(k) / static_cast<double>(chain_.size());
       OBVID_TRY(tell(run, "fewer elements", done));
-      if (!merge(k) && !(borne_ && bridge(k))) ++k;
+      if (!merge(k) && !leave_out(k) && !(borne_ && bridge(k))) ++k;
     }
     return {};
   }
@@ -676,6 +689,44 @@ class Simplifier {
     const std::size_t first = k - std::min(k, kBeside);
     const std::size_t end = std::min(k + kBeside + 1, next.size());
     Window window = cut(next, feet, first, end, joints, end + count - 1);
+    return accept(std::move(next), std::move(feet), std::move(window));
+  }
+
+  /// Leaves out element k where no more points lie on it than it has numbers: those beside it grow
+  /// to where they turn as it did, as one of the two alone would begin too far off.
+  bool leave_out(std::size_t k) {
+    if (constant_ || k == 0 || k + 1 >= chain_.size()) return false;
+    const auto on_it = std::count_if(feet_.begin(), feet_.end(),
+                                     [k](const Foot& foot) { return foot.element == k; });
+    if (on_it > static_cast<std::ptrdiff_t>(kNumbersOfElement) + 1) return false;
+    const std::vector<Element> joints = chain_.joints();
+    const double whole = chain_.length[k];
+    const double turn = turn_between(chain_.plane, joints[k].theta, joints[k + 1].theta);
+    const double before = chain_.curvature(k - 1, 1), behind = chain_.curvature(k + 1, 0);
+    const double share = (turn / whole - behind) / (before - behind);
+    if (!(share >= 0.0 && share <= 1.0)) return false;
+    const double own = share * whole;
+    Chain next = chain_;
+    std::vector<Foot> feet = feet_;
+    for (Foot& foot : feet) {
+      if (foot.element < k) continue;
+      if (foot.element == k && foot.s <= own) {
+        foot.element = k - 1;
+        foot.s += chain_.length[k - 1];
+        continue;
+      }
+      foot.s += foot.element == k ? -own : foot.element == k + 1 ? whole - own : 0.0;
+      if (foot.element > k) --foot.element;
+    }
+    next.length[k - 1] += own;
+    next.length[k + 1] += whole - own;
+    const auto at = static_cast<std::ptrdiff_t>(k);
+    next.length.erase(next.length.begin() + at);
+    next.ends.erase(next.ends.begin() + at);
+    next.law.erase(next.law.begin() + at);
+    const std::size_t first = k - std::min(k, kBeside);
+    const std::size_t last = std::min(k + kBeside, next.size());
+    Window window = cut(next, feet, first, last, joints, last + 1);
     return accept(std::move(next), std::move(feet), std::move(window));
   }
 
@@ -905,8 +956,20 @@ class Simplifier {
     const auto [k0, k1] = chain_.ends[k];
     add(k0, k1);
     if (k0 == k1 && k0 != Chain::kStraight) add(k0, Chain::kStraight);
+    if (k0 != k1 && !constant_) add_straight_ends(k, add);
     // arcs without a step between them are one: merging tries that
     if (k + 1 < chain_.size() && !constant_) add(k1, chain_.ends[k + 1][0], true);
+  }
+
+  /// An end behind an inflection that is nearer to it than elements are long: LandXML would have a
+  /// spiral of its own there.
+  template <class Add>
+  void add_straight_ends(std::size_t k, const Add& add) const {
+    const double k0 = chain_.curvature(k, 0), k1 = chain_.curvature(k, 1);
+    if (!(k0 * k1 < 0.0)) return;
+    const double before = k0 / (k0 - k1) * chain_.length[k];
+    if (before < least_length_) add(chain_.ends[k][0], Chain::kStraight);
+    if (chain_.length[k] - before < least_length_) add(chain_.ends[k][1], Chain::kStraight);
   }
 
   Result<void> estimate(std::vector<Candidate>& candidates, const RunContext& run) const {
@@ -930,7 +993,8 @@ class Simplifier {
     return {};
   }
 
-  bool take(const Candidate& c) {
+  /// With squares that grow by no more than `most`; otherwise by how much it would be is noted.
+  bool take(Candidate& c, double most = std::numeric_limits<double>::infinity()) {
     if (!is_used(c.a) || (c.b != Chain::kStraight && !is_used(c.b))) return false;
     const auto [first, last] = around(c.element);
     if (is_used_outside(chain_, c.a, first, last)) return false;
@@ -945,7 +1009,24 @@ class Simplifier {
       }
     }
     Window window = cut(next, first, last);
-    return accept(std::move(next), feet_, std::move(window));
+    window.held.hopeless = kHopelessOffset;
+    const double before = squares_of(window);
+    const Fitted fitted = fit(window);
+    if (fitted.squares - before > most) {
+      c.growth = std::max(c.growth, fitted.squares - before);
+      return false;
+    }
+    return fitted.largest <= 1.0 && commit(std::move(next), feet_, window);
+  }
+
+  /// Sum of squared offsets over tolerances, as the chain is.
+  [[nodiscard]] double squares_of(const Window& window) const {
+    double out = 0.0;
+    for (const std::size_t i : window.numbers) {
+      const double share = feet_[i].offset / tolerance_[i];
+      out += share * share;
+    }
+    return out;
   }
 
   /// Elements that share a curvature follow one another: those beside the window tell.
@@ -1047,27 +1128,51 @@ class Simplifier {
     });
   }
 
+  /// Mean square of the offsets over the tolerances, of what the elements leave open; infinite
+  /// where they leave nothing. What is a thousandth of the tolerance counts as that.
+  [[nodiscard]] double scatter() const {
+    double squares = 0.0;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      const double share = feet_[i].offset / tolerance_[i];
+      squares += share * share;
+    }
+    const std::size_t taken = kNumbersOfElement * chain_.size();
+    if (feet_.size() <= taken) return std::numeric_limits<double>::infinity();
+    return std::max(squares / static_cast<double>(feet_.size() - taken),
+                    kOfToleranceAtMost * kOfToleranceAtMost);
+  }
+
+  static Result<void> tell_kinds(const Candidate& c, const std::vector<Candidate>& all,
+                                 const RunContext& run) {
+    const auto done = static_cast<double>(&c - all.data());
+    return tell(run, "kinds", done / static_cast<double>(all.size()));
+  }
+
   /// Whether one was taken.
   Result<bool> take_conditions(const RunContext& run) {
     std::vector<Candidate> candidates;
     for (std::size_t k = 0; k < chain_.size(); ++k) add_candidates(k, candidates);
     OBVID_TRY(estimate(candidates, run));
-    // an element that is an arc or a line goes before a joint without a step: where both are
-    // possible, but not together, the step is what was built
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) {
                        return std::tie(a.of_joint, a.growth) < std::tie(b.of_joint, b.growth);
                      });
+    // What the scatter of the points leaves open goes first, and there an element that is an arc or
+    // a line before a joint without a step: where both are possible, but not together, the step is
+    // what was built. What the points show not to be so, though the tolerance allows it, goes by
+    // what it costs: a transition is no arc because it may be one.
+    const double shown = kShown * kShown * scatter();
     bool taken = false;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (auto on =
-              tell(run, "kinds", static_cast<double>(i) / static_cast<double>(candidates.size()));
-          !on) {
-        return fail(on.error());
-      }
-      if (candidates[i].growth <= kHopeless * candidates[i].room && take(candidates[i])) {
-        taken = true;
-      }
+    for (Candidate& c : candidates) {
+      OBVID_TRY(tell_kinds(c, candidates, run));
+      if (c.growth <= std::min(shown, kHopeless * c.room)) taken = take(c, shown) || taken;
+    }
+    if (taken) return true;
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.growth < b.growth; });
+    for (Candidate& c : candidates) {
+      OBVID_TRY(tell_kinds(c, candidates, run));
+      if (c.growth <= kHopeless * c.room) taken = take(c) || taken;
     }
     return taken;
   }
@@ -1086,6 +1191,7 @@ class Simplifier {
   bool others_ = false;               ///< there are other searches
   std::function<bool()> cancelled_;   ///< that fits ask
   Chain chain_;
+  std::size_t begun_with_ = 0;  ///< elements
   std::vector<Foot> feet_;
   double least_length_ = 0.0;
   bool limited_length_ = false;  ///< as was asked for
@@ -1281,7 +1387,7 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     const bool others = (again || first) && attempt.part != kMendedPart;
     auto found = searched(points, allowed, options, sought, attempt, others, run);
     if (found) {
-      const bool whole = !found->is_mended();
+      const bool whole = !found->is_mended() && !found->has_more_than_open();
       if (!best || found->chain().size() < best->chain().size()) {
         best = std::move(*found);
         best_fit = attempt.fit;

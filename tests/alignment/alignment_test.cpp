@@ -167,6 +167,41 @@ TEST(Alignment, ATransitionIsOneClothoid) {
   EXPECT_NEAR(found->elements[0].start.kappa, 1 / 300.0, 1e-9);
 }
 
+std::vector<AlignmentKind> kinds_of(const Alignment& made) {
+  std::vector<AlignmentKind> out;
+  for (const AlignmentElement& e : made.elements) out.push_back(e.kind);
+  return out;
+}
+
+std::vector<AlignmentKind> kinds_of(const std::vector<RoadPart>& parts) {
+  std::vector<AlignmentKind> out;
+  for (const RoadPart& part : parts) out.push_back(kind_of_part(part));
+  return out;
+}
+
+/// As they are printed with so many digits.
+std::vector<Vec2> rounded(std::vector<Vec2> points, double unit) {
+  for (Vec2& p : points) p = {unit * std::round(p.x / unit), unit * std::round(p.y / unit)};
+  return points;
+}
+
+// A tolerance far above the errors and far below the elements: what is within it of a line is one.
+TEST(Alignment, LinesAreLinesHoweverSmallTheTolerance) {
+  const std::vector<RoadPart> road = {
+      {140.12, 0, 0},         {52.5, 0, -1 / 146.72},  {91.6, -1 / 146.72, -1 / 146.72},
+      {52.5, -1 / 146.72, 0}, {170.38, 0, 0},          {82.88, -1 / 225.87, -1 / 225.87},
+      {145.04, 0, 0},         {70.09, 0, -1 / 296.58}, {87.29, -1 / 296.58, -1 / 296.58},
+      {70.09, -1 / 296.58, 0}};
+  for (const double unit : {1e-4, 1e-7}) {
+    const auto points = rounded(road_points(road, 5.0), unit);
+    for (const double tolerance : {2e-4, 5e-4, 1e-2}) {
+      const auto found = fit_alignment(points, std::vector<double>(points.size(), tolerance));
+      ASSERT_TRUE(found) << found.error().what;
+      EXPECT_EQ(kinds_of(*found), kinds_of(road)) << unit << " " << tolerance;
+    }
+  }
+}
+
 TEST(Alignment, KeepsLeastLengthsAndRadii) {
   const auto points = disturbed(road_points(kRoad, 10.0), 0.002);
   for (const double tolerance : {0.5, 2.0, 8.0}) {
@@ -191,6 +226,39 @@ TEST(Alignment, KeepsLeastLengthsAndRadii) {
     }
     EXPECT_GE(found, tolerance < 1.0 ? 1 : 3) << tolerance;
   }
+}
+
+// What a smaller limit leads to keeps larger ones too: 31 m is the shortest element of the road.
+TEST(Alignment, NoLimitRefusesWhatASmallerOneLeadsTo) {
+  const std::vector<RoadPart> road = {
+      {102.46, 0, 0},         {30.99, 0, 1 / 222.82}, {83.95, 1 / 222.82, 1 / 222.82},
+      {30.99, 1 / 222.82, 0}, {100.51, 0, 0},         {70.44, -1 / 135.46, -1 / 135.46}};
+  const auto points = disturbed(road_points(road, 5.0), 0.002);
+  const std::vector<double> tolerance(points.size(), 0.008);
+  const auto free = fit_alignment(points, tolerance);
+  ASSERT_TRUE(free);
+  double shortest = free->length, smallest = free->length;
+  for (const AlignmentElement& e : free->elements) {
+    shortest = std::min(shortest, e.length);
+    for (const double kappa : {e.start.kappa, e.kappa1}) {
+      if (kappa != 0.0) smallest = std::min(smallest, 1.0 / std::abs(kappa));
+    }
+  }
+  ASSERT_GT(shortest, 29.0);
+  for (const double share : {0.7, 0.8, 0.85, 0.9, 0.95, 0.99, 0.999}) {
+    for (const AlignmentOptions& limits :
+         {AlignmentOptions{2, share * shortest, 0.0}, AlignmentOptions{2, 0.0, share * smallest},
+          AlignmentOptions{2, share * shortest, share * smallest}}) {
+      const auto made = fit_alignment(points, tolerance, limits);
+      ASSERT_TRUE(made) << share << made.error().what;
+      for (const AlignmentElement& e : made->elements) {
+        EXPECT_GE(e.length, limits.least_length * (1 - 1e-9));
+        EXPECT_LE(std::abs(e.start.kappa) * limits.least_radius, 1 + 1e-9);
+      }
+    }
+  }
+  const auto refused = fit_alignment(points, tolerance, AlignmentOptions{2, 60.0, 0.0});
+  ASSERT_FALSE(refused);
 }
 
 TEST(Alignment, RefusesLimitsThatAreNone) {
@@ -366,6 +434,34 @@ TEST(Alignment, WhatIsRefusedForItsLimitsIsFoundAsTheAdviceSays) {
   EXPECT_TRUE(within(points, 0.01));
 }
 
+// The best circle through seven points of it is two centimetres off: with as many elements, arcs
+// with steps between them are within the tolerance too, and farther off.
+TEST(Alignment, ATransitionThatThePointsShowIsNoArc) {
+  const std::vector<RoadPart> road = {{102.46, 0, 0},
+                                      {30.99, 0, 1 / 222.82},
+                                      {83.95, 1 / 222.82, 1 / 222.82},
+                                      {30.99, 1 / 222.82, 0},
+                                      {100.51, 0, 0},
+                                      {70.44, -1 / 135.46, -1 / 135.46},
+                                      {84.17, 0, 0},
+                                      {42.82, -1 / 148.98, -1 / 148.98}};
+  std::vector<Vec2> points = road_points(road, 5.0);
+  Noise noise;
+  for (int sample = 0; sample < 6; ++sample) {
+    std::vector<Vec2> seen = points;
+    for (Vec2& p : seen) p = p + 0.002 * Vec2{noise(), noise()};
+    const auto found = within(seen, 0.008);
+    ASSERT_TRUE(found) << found.error().what;
+    EXPECT_EQ(kinds_of(*found), kinds_of(road)) << sample;
+    AlignmentOptions options;
+    options.without_steps = true;
+    const auto without = fit_alignment(seen, std::vector<double>(seen.size(), 0.008), options);
+    ASSERT_TRUE(without) << without.error().what;
+    // three of the road's joints have steps, and get a transition each
+    EXPECT_EQ(without->elements.size(), road.size() + 3) << sample;
+  }
+}
+
 TEST(ClosedAlignment, HasTheElementsOfALoopWhereverItsPointsBegin) {
   // 0: in a line, 10: in a transition, 14: in an arc
   const auto parts = oval(50.0, 60.0, 15.0);
@@ -382,7 +478,15 @@ TEST(ClosedAlignment, HasTheElementsOfALoopWhereverItsPointsBegin) {
     for (const AlignmentElement& e : made->elements) EXPECT_FALSE(e.step) << from;
     for (const AlignmentDeviation& d : made->deviations) EXPECT_LE(std::abs(d.offset), 0.008);
     ASSERT_EQ(made->deviations.size(), points.size());
+    // the first point has station 0, and all of them lie on the elements' stations
     EXPECT_NEAR(made->deviations.front().station, 0.0, 1e-9);
+    const double begin = made->elements.front().station;
+    EXPECT_LE(begin, 1e-9);
+    EXPECT_GT(begin + made->elements.front().length, 0.0);
+    for (const AlignmentDeviation& d : made->deviations) {
+      EXPECT_GE(d.station, begin - 1e-9);
+      EXPECT_LE(d.station, begin + made->length);
+    }
     for (const AlignmentElement& e : made->elements) {
       EXPECT_TRUE(e.kind != AlignmentKind::kArc ||
                   std::abs(1.0 / e.start.kappa - 75.0 / std::numbers::pi) < 0.02);
@@ -399,6 +503,45 @@ TEST(ClosedAlignment, HasStepsWhereTheyAreAndNoneWherePointsBegin) {
   ASSERT_EQ(made->elements.size(), 4U);
   expect_closed(*made, 0.008);
   for (const AlignmentElement& e : made->elements) EXPECT_TRUE(e.step);
+}
+
+/// Evenly spaced points of two straights of 200 and two half circles, the first one so far along.
+std::vector<Vec2> stadium(double radius, int count, double from) {
+  constexpr double kStraight = 200.0;
+  const double half = kStraight + std::numbers::pi * radius;
+  std::vector<Vec2> out;
+  for (int i = 0; i < count; ++i) {
+    double s = std::fmod(2.0 * half * i / count + from, 2.0 * half);
+    const bool back = s >= half;  // the second half is the first one, turned by half a turn
+    if (back) s -= half;
+    const double a = std::max(0.0, s - kStraight) / radius;
+    const Vec2 p{std::min(s, kStraight) + radius * std::sin(a), radius * (1.0 - std::cos(a))};
+    out.push_back(back ? Vec2{kStraight, 2.0 * radius} - p : p);
+  }
+  return out;
+}
+
+TEST(ClosedAlignment, OfAStadiumIsTwoLinesAndTwoArcsAtEveryTolerance) {
+  for (const double radius : {30.0, 80.0}) {
+    for (const double from : {0.0, 37.0}) {
+      for (const int count : {60, 180}) {
+        const auto points = rounded(stadium(radius, count, from), 1e-4);
+        for (const double tolerance : {2e-4, 1e-3, 2e-3}) {
+          AlignmentOptions options;
+          options.closed = true;
+          const auto made =
+              fit_alignment(points, std::vector<double>(points.size(), tolerance), options);
+          ASSERT_TRUE(made) << made.error().what;
+          EXPECT_EQ(made->elements.size(), 4U) << radius << " " << from << " " << tolerance;
+          for (const AlignmentElement& e : made->elements) {
+            const bool arc = e.kind == AlignmentKind::kArc;
+            EXPECT_NE(e.kind, AlignmentKind::kClothoid);
+            EXPECT_NEAR(e.start.kappa, arc ? 1.0 / radius : 0.0, 1e-4 / radius);
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(ClosedAlignment, OfACircleIsOneArcOfAnySizeAnywhere) {

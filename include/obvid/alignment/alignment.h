@@ -40,7 +40,8 @@ struct Alignment {
   Element end;          ///< of the last element
   double length = 0.0;  ///< units
   bool closed = false;  ///< `end` is the start of the first element. Stations count from the foot
-                        ///< of the first point: elements from the joint behind it on, once around
+                        ///< of the first point, which lies on the first element: that begins at a
+                        ///< station of 0 or less, and points before its start have the last ones
   std::vector<AlignmentDeviation> deviations;  ///< of each point
   double largest_share = 0.0;  ///< largest |offset| over the point's tolerance: 1 or less
   double rms = 0.0;            ///< root of the mean square of the offsets, units

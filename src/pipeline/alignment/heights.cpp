@@ -254,8 +254,9 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   OBVID_TRY(tolerance);
   out.tolerance = *tolerance;
   if (ascending.size() > 1) {
-    OBVID_TRY(cover(ascending, job.first_station, alignment.length, alignment.closed, series.units,
-                    remarks));
+    // those of the points before the first one lie before its station
+    const double from = out.of_points ? alignment.elements.front().station : job.first_station;
+    OBVID_TRY(cover(ascending, from, alignment.length, alignment.closed, series.units, remarks));
     if (alignment.closed) {
       OBVID_TRY(close_around(ascending, alignment.length, *tolerance, out.of_points));
     }

@@ -464,8 +464,13 @@ Result<Exported> contour_as_opendrive(const ContourExport& e) {
   road.first_station = e.options.first_station;
   road.profile = e.options.profile;
   road.tolerance = e.tolerance;
-  return with_units(notes_of(e, UnitRule::kRoad, "OpenDRIVE files", "m"),
-                    [&] { return one_text(opendrive_text(e.contour, road)); });
+  auto out = with_units(notes_of(e, UnitRule::kRoad, "OpenDRIVE files", "m"),
+                        [&] { return one_text(opendrive_text(e.contour, road)); });
+  if (out && road.first_station != 0.0) {
+    out->remarks.push_back(fmt::format(
+        "stations in OpenDRIVE begin at 0: {:.10g} has to be added to them", road.first_station));
+  }
+  return out;
 }
 
 Result<Exported> contour_as_landxml(const ContourExport& e) {
