@@ -64,8 +64,8 @@ struct Held {
 };
 
 /// Moves the chain to where the largest offset over its tolerance is small: least squares first,
-/// and where that is not within 1, higher powers (Lawson's weights). Returns the largest |offset|
-/// over tolerance that is left; `squares` the sum of their squares after least squares.
+/// and where that is not within 1, higher powers (weights of [Lawson 1961]). Returns the largest
+/// |offset| over tolerance that is left; `squares` the sum of their squares after least squares.
 struct Fitted {
   double largest = 0.0;
   double squares = 0.0;

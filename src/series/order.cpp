@@ -44,7 +44,6 @@ std::vector<Edge> shortest_tree(const std::vector<Vec2>& points) {
 
 namespace {
 
-constexpr std::size_t kMostOrdered = 20'000;
 constexpr std::size_t kFewestCompared = 8, kMostOfTour = 3'000;
 constexpr std::size_t kFewestOfTour = 12;  // fewer have hardly any rival to look at
 

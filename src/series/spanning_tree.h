@@ -11,6 +11,9 @@ namespace obvid {
 
 using Edge = std::pair<std::size_t, std::size_t>;
 
+/// Points that are put in order: the tree takes their number squared.
+inline constexpr std::size_t kMostOrdered = 20'000;
+
 /// Edges of the shortest spanning tree; of equal ones those of the points that come first [Prim
 /// 1957]. O(n^2).
 [[nodiscard]] std::vector<Edge> shortest_tree(const std::vector<Vec2>& points);

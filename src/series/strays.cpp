@@ -18,7 +18,6 @@
 namespace obvid {
 namespace {
 
-constexpr std::size_t kMostPoints = 20'000;  // of order_along_curve
 constexpr int kMostRounds = 4;               // of leaving out and putting back
 /// Steps beyond an end, or between both ends of a closed curve, that are none of the curve.
 constexpr double kFarther = 3.0;
@@ -238,7 +237,7 @@ class StraySearch {
 }  // namespace
 
 std::optional<OrderBesideStrays> order_beside_strays(const std::vector<Vec2>& points) {
-  if (points.size() < kLeastCompared || points.size() > kMostPoints) return std::nullopt;
+  if (points.size() < kLeastCompared || points.size() > kMostOrdered) return std::nullopt;
   return StraySearch(points).run();
 }
 

@@ -29,7 +29,7 @@ struct ThinLine {
 
 /// Takes single knots away while the errors stay within `aim`: first those that matter least. The
 /// coefficients near a knot follow by weighted least squares, whose weights grow where the error is
-/// large (Lawson's way from least squares to the least largest error); all others stay. A few
+/// large (from least squares to the least largest error, [Lawson 1961]); all others stay. A few
 /// passes over all knots, until none goes. False when it was cancelled.
 [[nodiscard]] bool thin_out(ThinLine& line, const ThinData& given, double aim, Watch& watch);
 

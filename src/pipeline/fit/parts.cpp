@@ -24,7 +24,7 @@ bool ahead(const Station& a, const Station& b) {
 class Stations {
  public:
   Stations(const Contour& contour, Watch* watch)
-      : contour_(contour), questions_(watch, kPiecesBetweenQuestions) {}
+      : contour_(contour), questions_(watch, kFootPiecesOfQuestion) {}
 
   std::vector<Station> run() {
     const std::size_t n = contour_.pieces.size();
@@ -90,7 +90,7 @@ class Stations {
     return best;
   }
 
-  static constexpr std::size_t kPiecesBetweenQuestions = 64;
+  static constexpr std::size_t kFootPiecesOfQuestion = 64;
   /// Pieces this much farther than the nearest one so far lead away from the point.
   static constexpr double kPassed = 8.0;
 
