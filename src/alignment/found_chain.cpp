@@ -1129,7 +1129,8 @@ class Simplifier {
   }
 
   /// Mean square of the offsets over the tolerances, of what the elements leave open; infinite
-  /// where they leave nothing. What is a thousandth of the tolerance counts as that.
+  /// where that is less than half of what the points tell. What is a thousandth of the tolerance
+  /// counts as that.
   [[nodiscard]] double scatter() const {
     double squares = 0.0;
     for (std::size_t i = 0; i < feet_.size(); ++i) {
@@ -1137,7 +1138,7 @@ class Simplifier {
       squares += share * share;
     }
     const std::size_t taken = kNumbersOfElement * chain_.size();
-    if (feet_.size() <= taken) return std::numeric_limits<double>::infinity();
+    if (feet_.size() < 2 * taken) return std::numeric_limits<double>::infinity();
     return std::max(squares / static_cast<double>(feet_.size() - taken),
                     kOfToleranceAtMost * kOfToleranceAtMost);
   }

@@ -6,7 +6,8 @@ What counts. Neighbouring elements of the truth that are one curve are joined. A
 when at least four points lie on it and no simpler kind passes within the tolerance of these. It is
 *found once* when one element of the alignment covers its points but for the first and the last,
 and *right* when that is of its kind. The kind is judged where the neighbours are seen too: what
-is too short to be seen is made good by its neighbours where the fewest elements are asked for. A
+is too short to be seen is made good by its neighbours where the fewest elements are asked for
+(docs/decisions/0013); the figure of all is told too. A
 radius is judged where noise lets it be known: three
 standard deviations of the curvature of a circle through so many points with that noise are less
 than what it may be off. """
@@ -202,8 +203,13 @@ def summary(outcomes):
 
 
 def details(outcomes):
+    rows = rows_of(outcomes)
+    everywhere = tables.percent(r["right"] for r in rows if r["once"])
     why = collections.Counter((r["kind"], r["found"]) for r in rows_of(outcomes) if not r["right"])
-    return tables.markdown(["seen, but not right", "found as", "elements"],
+    arcs = [r for r in rows if r["kind"] == "arc"]
+    told = (f"Of all {sum(r['once'] for r in rows)} found once {everywhere:.1f} % are of their kind; radii are judged on "
+            f"{sum('radius_off' in r for r in arcs)} of {len(arcs)} arcs (docs/decisions/0013).\n\n")
+    return told + tables.markdown(["seen, but not right", "found as", "elements"],
                            [[kind, found, n] for (kind, found), n in why.most_common()])
 
 
