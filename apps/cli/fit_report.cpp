@@ -61,7 +61,7 @@ Table fit_segments(const Fit& fit) {
     before = i + 1;
     const SegmentReport& segment = fit.report.segments[i];
     const std::size_t from = joint[segment.from.value_or(0)], to = joint[segment.to.value_or(0)];
-    table.row({points_of_segment(segment), segment.chord > 0.0 ? significant(segment.chord) : "-",
+    table.row({points_of_segment(segment), significant(segment.chord),
                significant(segment.points_only_error, 4), significant(segment.width, 4),
                std::to_string(segment.inserted), pieces_text(contour, from, to),
                radius_text(curvatures[i].start), radius_text(curvatures[i].end)});
@@ -90,13 +90,8 @@ std::string lines_and_arcs_text(const Contour& contour) {
     before = i;
     const LineOrArc& one = all[i];
     const bool line = one.kappa == 0.0;
-    const auto centre = [&](double value) {
-      constexpr double kRounding = 1e-12;  // of the radius
-      if (line) return std::string("-");
-      return significant(std::abs(value * one.kappa) <= kRounding ? 0.0 : value);
-    };
-    table.row({one.from == one.to ? "all" : fmt::format("{}-{}", one.from + 1, one.to + 1),
-               radius_text(one.kappa), centre(one.centre.x), centre(one.centre.y),
+    table.row({fmt::format("{}-{}", one.from + 1, one.to + 1), radius_text(one.kappa),
+               line ? "-" : significant(one.centre.x), line ? "-" : significant(one.centre.y),
                significant(std::remainder(one.theta, kFullTurn) / kOneDegree),
                significant(one.length), significant(one.off, 4)});
   }

@@ -62,7 +62,7 @@ class Airfoils(unittest.TestCase):
         return done.returncode, done.stdout + done.stderr
 
     def figures(self, text):
-        found = re.search(r"thickness ([\d.]+) % at ([\d.]+) %, camber (-?[\d.]+) %(?: at ([\d.]+))?",
+        found = re.search(r"normal to its chord: thickness ([\d.]+) % at ([\d.]+) %, camber (-?[\d.]+) %(?: at ([\d.]+))?",
                           text)
         radius = re.search(r"radius ([\d.]+) %, trailing edge ([\d.]+) % thick, ([\d.]+) deg", text)
         return [float(g or 0) for g in found.groups()], [float(g) for g in radius.groups()]
@@ -74,6 +74,9 @@ class Airfoils(unittest.TestCase):
         (thick, at, bent, _), (radius, edge, angle) = self.figures(text)
         top = root(slope, 0.1, 0.6)
         self.assertAlmostEqual(thick, 200 * half(top), delta=2e-3)
+        # what stands in the file has straight lines between its points, inside the contour
+        alone = float(re.search(r"the file, straight lines between its points: thickness ([\d.]+) %", text).group(1))
+        self.assertTrue(thick - 0.02 < alone <= thick + 1e-3, text)
         self.assertAlmostEqual(at, 100 * top, delta=0.05)
         self.assertEqual(bent, 0)
         self.assertAlmostEqual(radius, 100 * 1.1019 * THICK**2, delta=0.02)
