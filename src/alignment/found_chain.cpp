@@ -33,7 +33,8 @@ constexpr std::size_t kNumbersOfElement = 3;  ///< length and two curvatures
 constexpr double kHopeless = 4.0;             ///< estimated squares over the most that there can be
 /// Largest offset over its tolerance after least squares from which no higher power comes back.
 constexpr double kHopelessOffset = 3.0;
-constexpr int kPasses = 12;  ///< over all conditions
+constexpr int kPasses = 12;      ///< over all conditions
+constexpr int kPassesAlike = 4;  ///< where the points show none to be wrong
 /// Of the length of all elements: where a bend moves nothing by more it is rounding, and straight.
 constexpr double kStraightWithin = 1e-9;
 constexpr double kOfToleranceAtMost = 1e-3;  ///< that this may take; scatter that is none
@@ -381,7 +382,8 @@ class Simplifier {
     remember();
     OBVID_TRY(merge_all(run));
     remember();
-    for (int pass = 0; pass < kPasses; ++pass) {
+    const int passes = std::isfinite(scatter()) ? kPasses : kPassesAlike;
+    for (int pass = 0; pass < passes; ++pass) {
       const auto taken = take_conditions(run);
       OBVID_TRY(taken);
       if (!*taken) break;
@@ -390,7 +392,7 @@ class Simplifier {
     OBVID_TRY(merge_all(run));
     if (transitions_ != Transition::kClothoid && !constant_) {
       // where clothoids lie beside transitions of another kind, lines are arcs and ends are off
-      for (int pass = 0; pass < kPasses; ++pass) {
+      for (int pass = 0; pass < passes; ++pass) {
         remember();
         const std::size_t before = chain_.size();
         OBVID_TRY(take_transitions(run));
@@ -1168,7 +1170,7 @@ class Simplifier {
       OBVID_TRY(tell_kinds(c, candidates, run));
       if (c.growth <= std::min(shown, kHopeless * c.room)) taken = take(c, shown) || taken;
     }
-    if (taken) return true;
+    if (taken || !std::isfinite(shown)) return taken;
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.growth < b.growth; });
     for (Candidate& c : candidates) {
