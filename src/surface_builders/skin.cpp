@@ -11,6 +11,7 @@
 #include "fair_across.h"
 #include "loop_start.h"
 #include "obvid/core/internal/parallel.h"
+#include "obvid/curve/internal/basis.h"
 #include "obvid/surface/internal/collocation.h"
 #include "obvid/surface_builders/internal/grid.h"
 #include "obvid/surface_builders/internal/lighten.h"
