@@ -39,7 +39,7 @@ constexpr std::size_t kTooLongForTrials = 1000;
 /// The trials end when so many steps on every point, and some more, were spent.
 constexpr double kRangeSteps = 5000.0, kSpareRange = 2e6;
 /// A piece is formed, proved and measured in the time of so many steps.
-constexpr double kStepsOfPiece = 6.0;
+constexpr double kStepsOfPiece = 30.0;
 
 /// Where a datum was given: in the series, as a constraint of the job, or for an end.
 struct Given {
