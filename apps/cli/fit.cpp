@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
-#include "obvid/pipeline/internal/airfoil_file.h"
 
 #include <filesystem>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "obvid/core/files.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/airfoil_file.h"
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/refusal.h"
 #include "obvid/pipeline/space_fit.h"

@@ -15,7 +15,8 @@ namespace {
 
 using namespace cutting;
 
-constexpr double kApart = 0.1;  // of the radius: places that are looked at
+constexpr double kQuarterTurn = 0.5 * std::numbers::pi;  // rad
+constexpr double kApart = 0.1;                           // of the radius: places that are looked at
 constexpr double kMostPlacesOfOne = 4096;
 constexpr double kInside = 1e-4;  // of the radius: nearer to the way the tool takes it
 constexpr int kHalvings = 16;
@@ -69,26 +70,23 @@ class EdgeOfCut {
     }
     if (closed) return;
     const double in = heading_at_start(ways_[first]), out = heading_at_end(ways_[end - 1]);
-    constexpr double kQuarter = 0.5 * std::numbers::pi;
-    around(start_point(ways_[first]), in + kQuarter, 2.0 * kQuarter);
-    around(end_point(ways_[end - 1]), out - kQuarter, 2.0 * kQuarter);
+    around(start_point(ways_[first]), in + kQuarterTurn, 2.0 * kQuarterTurn);
+    around(end_point(ways_[end - 1]), out - kQuarterTurn, 2.0 * kQuarterTurn);
   }
 
   /// On the side that a corner turns away from.
   void around_corner(const Piece& before, const Piece& behind) {
-    constexpr double kQuarter = 0.5 * std::numbers::pi;
     const double from = heading_at_end(before), to = heading_at_start(behind);
     const double turn = std::remainder(to - from, 2.0 * std::numbers::pi);
     if (std::abs(turn) * radius_ <= within_ * kInside) return;
-    around(end_point(before), from + (turn > 0.0 ? -kQuarter : kQuarter), turn);
+    around(end_point(before), from + (turn > 0.0 ? -kQuarterTurn : kQuarterTurn), turn);
   }
 
   /// An arc of the tool's radius from the direction `from` of its centre, by `turn`.
   void around(Vec2 centre, double from, double turn) {
-    constexpr double kQuarter = 0.5 * std::numbers::pi;
     const double side = turn > 0.0 ? 1.0 : -1.0;
     keep_outside(ArcPiece{centre + radius_ * unit_at(from), centre + radius_ * unit_at(from + turn),
-                          from + side * kQuarter, side / radius_, std::abs(turn) * radius_});
+                          from + side * kQuarterTurn, side / radius_, std::abs(turn) * radius_});
   }
 
   [[nodiscard]] bool is_outside(const Piece& piece, double t) const {

@@ -18,7 +18,7 @@
 namespace obvid {
 namespace {
 
-constexpr int kMostRounds = 4;               // of leaving out and putting back
+constexpr int kMostRounds = 4;  // of leaving out and putting back
 /// Steps beyond an end, or between both ends of a closed curve, that are none of the curve.
 constexpr double kFarther = 3.0;
 

@@ -55,11 +55,11 @@ class Taken {
  private:
   /// Curves of one kind, for a sentence.
   struct Named {
+    static constexpr std::size_t kMostNamed = 8;  // the others are counted
     std::string names;
     std::size_t count = 0;
 
     void add(const Drawing& drawing, std::size_t number) {
-      constexpr std::size_t kMostNamed = 8;
       if (++count > kMostNamed) return;
       const PointSeries& one = drawing.series[number - drawing.curves.size()];
       const std::string& name = one.spline ? one.spline->label : one.name;
@@ -68,7 +68,6 @@ class Taken {
                             : fmt::format("{} (curve {})", name, number + 1);
     }
     [[nodiscard]] std::string text() const {
-      constexpr std::size_t kMostNamed = 8;
       return count > kMostNamed ? names + fmt::format(" and {} more", count - kMostNamed) : names;
     }
   };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/export.h"
-#include "obvid/pipeline/internal/airfoil_file.h"
 
 #include <fmt/format.h>
 
@@ -520,6 +519,7 @@ ContourWriter contour_writer_of(FileFormat format) {
   constexpr std::array kWriters = {
 #define OBVID_FORMAT(enumerator, endings, contours, ...) &contour_as_##contours,
 #include "obvid/pipeline/formats.inc"
+#include "obvid/pipeline/internal/airfoil_file.h"
 #undef OBVID_FORMAT
   };
   return kWriters[static_cast<std::size_t>(format)];

@@ -44,7 +44,8 @@
 namespace obvid {
 namespace {
 
-constexpr std::size_t kHead = 4096;  // bytes that tell the kind of a file
+constexpr std::size_t kHead = 4096;          // bytes that tell the kind of a file
+constexpr std::size_t kMostPointsNamed = 8;  // points in one sentence; the others are counted
 
 std::string head_of(const std::string& path) { return head_of_file(path, kHead); }
 
@@ -297,16 +298,16 @@ std::string deviations_text(const Outliers& found, const std::string& unit) {
 /// Points by their numbers in the list and their places.
 std::string strays_text(const PointSeries& series, const std::vector<Outlier>& strays,
                         const std::vector<std::size_t>& numbers) {
-  constexpr std::size_t kMostNamed = 8;
   const std::string unit = series.units.text();
   std::string text = strays.size() == 1 ? "point" : fmt::format("{} points:", strays.size());
-  for (std::size_t k = 0; k < std::min(strays.size(), kMostNamed); ++k) {
+  for (std::size_t k = 0; k < std::min(strays.size(), kMostPointsNamed); ++k) {
     const Vec2 at = series.points[strays[k].index];
     text += fmt::format("{} {} of the list (at {}, {}, {} {} off the curve of the others)",
                         k > 0 ? "," : "", numbers[strays[k].index] + 1, significant(at.x),
                         significant(at.y), significant(strays[k].off, 4), unit);
   }
-  if (strays.size() > kMostNamed) text += fmt::format(" and {} more", strays.size() - kMostNamed);
+  if (strays.size() > kMostPointsNamed)
+    text += fmt::format(" and {} more", strays.size() - kMostPointsNamed);
   return text;
 }
 
@@ -372,7 +373,6 @@ Result<InOrder> in_order(Result<PointSeries> series, const ImportOptions& option
 /// `numbers`: of the points in the list where they were put in order, from 0.
 std::string outliers_text(const PointSeries& series, const Outliers& found,
                           const std::vector<std::size_t>& numbers) {
-  constexpr std::size_t kMostNamed = 8;
   const std::string unit = series.units.text();
   const std::size_t count = found.points.size();
   if (count == 0) {
@@ -386,14 +386,14 @@ std::string outliers_text(const PointSeries& series, const Outliers& found,
                              : fmt::format("{} points that lie off the curve of their "
                                            "neighbours:",
                                            count));
-  for (std::size_t k = 0; k < std::min(count, kMostNamed); ++k) {
+  for (std::size_t k = 0; k < std::min(count, kMostPointsNamed); ++k) {
     const std::size_t index = found.points[k].index;
     text += fmt::format("{} {}{} ({} {}{})", k > 0 ? "," : "",
                         (numbers.empty() ? index : numbers[index]) + 1,
                         numbers.empty() ? "" : " of the list", significant(found.points[k].off, 4),
                         unit, count == 1 ? " off the curve of its neighbours" : "");
   }
-  if (count > kMostNamed) text += fmt::format(" and {} more", count - kMostNamed);
+  if (count > kMostPointsNamed) text += fmt::format(" and {} more", count - kMostPointsNamed);
   return text + fmt::format("; the others deviate by {} {}", significant(found.deviation, 3), unit);
 }
 

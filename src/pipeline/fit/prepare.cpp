@@ -272,13 +272,14 @@ class Preparation {
     return norm(normal) / std::hypot(normal.x / axes.x, normal.y / axes.y);
   }
 
-  /// Ends as near as neighbours, or as a fiftieth of the length, with the curve going on over the
+  /// Ends as near as neighbours, or as a fortieth of the length, with the curve going on over the
   /// gap: an outline that was left open (docs/methods/series.md). At a trailing edge it turns back
   /// instead.
   void hint_at_closing() {
-    constexpr double kMayClose = 2.0;  // middle chords
-    constexpr double kOfLength = 0.025, kPercent = 100.0;
-    constexpr double kLeastLength = 10.0;             // of the whole, gaps
+    constexpr double kMayClose = 2.0;      // middle chords
+    constexpr double kOfLength = 0.025;    // of the whole
+    constexpr double kLeastLength = 10.0;  // of the whole, gaps
+    constexpr double kPercent = 100.0;
     constexpr double kGoesOn = std::numbers::pi / 3;  // at either end, rad
     if (job_.closing != Closing::kAutomatic || !out_.kept.empty() || out_.points.size() < 4) return;
     const Vec2 gap = out_.points.front() - out_.points.back();
