@@ -18,7 +18,7 @@ obvid_unity(first_units obvid_first ${OBVID_BATCH} ${first_sources})
 add_executable(obvid_first ${first_units} "${obvid_style_texts}" ${first_objects})
 set_target_properties(obvid_first PROPERTIES
   OUTPUT_NAME obvid-first RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
-target_include_directories(obvid_first PRIVATE "${PROJECT_SOURCE_DIR}/apps/first"
+target_include_directories(obvid_first PRIVATE "${PROJECT_SOURCE_DIR}/apps/first" "${PROJECT_SOURCE_DIR}/src/pipeline"
   "${PROJECT_SOURCE_DIR}/apps/cli" "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/generated")
 target_link_libraries(obvid_first PRIVATE obvid_flags fmt::fmt tl::expected)
 obvid_for_words(obvid_first)

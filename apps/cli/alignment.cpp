@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "alignment_options.h"
 #include "obvid/pipeline/alignment_job.h"
 
 #include <fmt/format.h>

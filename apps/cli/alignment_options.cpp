@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli_app.h"
+#include "commands.h"
 #include "obvid/core/internal/file_ending.h"
 #include "obvid/pipeline/internal/alignment_values.h"
 #include "obvid/pipeline/internal/format_values.h"
@@ -185,14 +186,14 @@ Result<Command> parse_alignment(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return Command{ShowText{app.help()}};
+    return command_of(ShowText{app.help()});
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "alignment"));
   }
   OBVID_TRY(check_extras(app, app.remaining(), "alignment"));
   OBVID_TRY(check_alignment(raw));
   raw.command.asked = asked_for(app, "obvid alignment");
-  return Command{raw.command};
+  return command_of(raw.command);
 }
 
 }  // namespace obvid

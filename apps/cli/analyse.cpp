@@ -108,6 +108,10 @@ int analyse_several(const AnalyseOptions& options) {
 
 }  // namespace
 
+Result<FileFormat> analysis_format_of(const std::string& path) {
+  return table_format_of(path, "an analysis", ".csv and .json (tables)");
+}
+
 int run(const AnalyseOptions& options) {
   if (!options.inputs.empty()) return analyse_several(options);
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {

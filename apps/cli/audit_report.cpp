@@ -272,10 +272,6 @@ Result<std::vector<std::string>> write_audit_files(const AnalyseOptions& options
 
 }  // namespace
 
-Result<FileFormat> analysis_format_of(const std::string& path) {
-  return table_format_of(path, "an analysis", ".csv and .json (tables)");
-}
-
 Result<AnalysedDrawing> analysed_drawing(const AnalyseOptions& options) {
   Result<Drawing> drawing = read_drawing(options.input, options.import.planes);
   OBVID_TRY(drawing);

@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
+
 #include "options.h"
 
 namespace obvid {
+
+struct AlignmentCommand;
+struct CutCommand;
+struct NurbsOptions;
+struct SplineOptions;
+struct SurfaceCheckOptions;
+struct SurfaceCutOptions;
+struct SurfaceOptions;
+struct ToolpathCommand;
 
 /// The whole program: what the arguments ask for; the exit code.
 int run_guarded(int argc, const char* const* argv);
@@ -32,5 +43,12 @@ int run(const CutCommand& command);
 int run(const AlignmentCommand& command);
 int run(const StudioOptions& options);
 int run(const BatchOptions& options);
+int run(const ShowText& shown);
+
+/// The command with these options.
+template <class Options>
+[[nodiscard]] Command command_of(Options options) {
+  return [options = std::move(options)] { return run(options); };
+}
 
 }  // namespace obvid

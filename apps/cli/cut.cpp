@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "cut_options.h"
 #include "obvid/core/files.h"
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/file_formats.h"

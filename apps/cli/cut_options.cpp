@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "cli_app.h"
+#include "commands.h"
 #include "obvid/pipeline/internal/format_values.h"
 #include "options.h"
 
@@ -115,7 +116,7 @@ Result<Command> checked_cut(const CLI::App& app, RawCut& raw) {
   }
   command.job.plan.name = std::filesystem::path(command.inputs.front()).filename().string();
   command.progress = !raw.no_progress && !command.quiet && !command.json;
-  return Command{command};
+  return command_of(command);
 }
 
 }  // namespace
@@ -162,7 +163,7 @@ Result<Command> parse_cut(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return Command{ShowText{app.help()}};
+    return command_of(ShowText{app.help()});
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "cut"));
   }

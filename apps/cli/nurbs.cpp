@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "nurbs_options.h"
 #include "obvid/pipeline/nurbs_job.h"
 
 #include <fmt/format.h>

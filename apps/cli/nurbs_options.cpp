@@ -2,6 +2,7 @@
 #include "nurbs_options.h"
 
 #include "cli_app.h"
+#include "commands.h"
 #include "obvid/pipeline/internal/spline_values.h"
 #include "options.h"
 
@@ -91,13 +92,13 @@ Result<Command> parse_nurbs(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return Command{ShowText{app.help()}};
+    return command_of(ShowText{app.help()});
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "nurbs"));
   }
   OBVID_TRY(check_extras(app, app.remaining(), "nurbs"));
   OBVID_TRY(check_nurbs(raw));
-  return Command{raw.options};
+  return command_of(raw.options);
 }
 
 }  // namespace obvid

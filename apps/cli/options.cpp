@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli_app.h"
+#include "commands.h"
 #include "obvid/core/version.h"
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/format_values.h"
@@ -611,7 +612,7 @@ Result<Command> checked_fit(Raw& raw) {
     return fail(bad_option("the table of tolerances is of one input, and no CSV", "--suggest",
                            "give one file, and --json for programs"));
   }
-  return Command{raw.fit};
+  return command_of(raw.fit);
 }
 
 /// What of the options is for several inputs, and what is for one.
@@ -650,7 +651,7 @@ Result<Command> checked_compare(Raw& raw) {
   raw.compare.progress =
       !raw.no_progress && !raw.compare.json && !raw.compare.csv && !raw.compare.quiet;
   raw.compare.asked = raw.asked;
-  return Command{raw.compare};
+  return command_of(raw.compare);
 }
 
 Result<Command> checked_convert(Raw& raw) {
@@ -670,7 +671,7 @@ Result<Command> checked_convert(Raw& raw) {
     return fail(usage("convert needs a file to write",
                       "add -o NAME; possible file extensions are " + known_endings()));
   }
-  return Command{raw.convert};
+  return command_of(raw.convert);
 }
 
 Result<Command> checked_analyse(Raw& raw) {
@@ -680,7 +681,7 @@ Result<Command> checked_analyse(Raw& raw) {
   OBVID_TRY(settle_streams(raw.analyse, raw.format, raw.analyse.csv));
   raw.analyse.asked = raw.asked;
   OBVID_TRY(set_inputs(raw, raw.analyse, "analyse", "a file with points"));
-  return Command{raw.analyse};
+  return command_of(raw.analyse);
 }
 
 Result<Command> checked_region(Raw& raw) {
@@ -694,7 +695,7 @@ Result<Command> checked_region(Raw& raw) {
   OBVID_TRY(settle_streams(raw.region, raw.format, raw.region.csv));
   raw.region.asked = raw.asked;
   OBVID_TRY(need(raw.region.input, "region", "a file with points"));
-  return Command{raw.region};
+  return command_of(raw.region);
 }
 
 Result<Command> checked(const CLI::App& app, Raw& raw) {
@@ -707,11 +708,11 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (name == "convert") return checked_convert(raw);
   if (name == "region") return checked_region(raw);
   if (name == "compare") return checked_compare(raw);
-  if (name == "explain") return Command{raw.explain};
+  if (name == "explain") return command_of(raw.explain);
   OBVID_TRY(settle_streams(raw.verify, raw.format, raw.verify.csv));
   raw.verify.asked = raw.asked;
   OBVID_TRY(set_inputs(raw, raw.verify, "verify", "a contour file"));
-  return Command{raw.verify};
+  return command_of(raw.verify);
 }
 
 void allow_extras(CLI::App& app) {
@@ -722,7 +723,8 @@ void allow_extras(CLI::App& app) {
 
 /// `obvid help fit`, `obvid help surface skin`: what `--help` behind these words says.
 Result<Command> help_of(int argc, const char* const* argv) {
-  if (argc == 2) return Command{ShowText{wrapped_help(kShortHelp, kShortHelpColumn, help_width())}};
+  if (argc == 2)
+    return command_of(ShowText{wrapped_help(kShortHelp, kShortHelpColumn, help_width())});
   std::vector<const char*> words{argv[0]};
   words.insert(words.end(), argv + 2, argv + argc);
   words.push_back("--help");
@@ -732,7 +734,8 @@ Result<Command> help_of(int argc, const char* const* argv) {
 }  // namespace
 
 Result<Command> parse_command_line(int argc, const char* const* argv) {
-  if (argc < 2) return Command{ShowText{wrapped_help(kShortHelp, kShortHelpColumn, help_width())}};
+  if (argc < 2)
+    return command_of(ShowText{wrapped_help(kShortHelp, kShortHelpColumn, help_width())});
   if (std::string_view(argv[1]) == "help") return help_of(argc, argv);
   try {
     if (std::string_view(argv[1]) == "surface") return parse_surface(argc - 1, argv + 1);
@@ -740,10 +743,10 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     if (std::string_view(argv[1]) == "nurbs") return parse_nurbs(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "alignment") return parse_alignment(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "studio") {
-      return Command{StudioOptions{{argv + 2, argv + argc}}};
+      return command_of(StudioOptions{{argv + 2, argv + argc}});
     }
     if (std::string_view(argv[1]) == "batch") {
-      return Command{BatchOptions{{argv + 2, argv + argc}}};
+      return command_of(BatchOptions{{argv + 2, argv + argc}});
     }
     if (std::string_view(argv[1]) == "toolpath") return parse_toolpath(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "cut") return parse_cut(argc - 1, argv + 1);
@@ -773,9 +776,9 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     try {
       app.parse(argc, argv);
     } catch (const CLI::CallForVersion& version) {
-      return Command{ShowText{std::string(version.what()) + "\n"}};
+      return command_of(ShowText{std::string(version.what()) + "\n"});
     } catch (const CLI::CallForHelp&) {
-      return Command{ShowText{app.help()}};
+      return command_of(ShowText{app.help()});
     } catch (const CLI::ParseError& error) {
       return fail(from_cli(error, "COMMAND"));
     }

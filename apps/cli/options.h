@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "alignment_options.h"
-#include "cut_options.h"
-#include "nurbs_options.h"
 #include "obvid/core/result.h"
 #include "obvid/pipeline/compare_curves.h"
 #include "obvid/pipeline/export.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/region_table.h"
-#include "spline_options.h"
-#include "surface_options.h"
-#include "toolpath_options.h"
 
 namespace obvid {
 
@@ -132,11 +126,8 @@ struct BatchOptions {
   std::vector<std::string> arguments;
 };
 
-using Command =
-    std::variant<ShowText, StudioOptions, BatchOptions, FitOptions, AnalyseOptions, RegionOptions,
-                 CompareOptions, ConvertOptions, VerifyOptions, ExplainOptions, SurfaceOptions,
-                 SurfaceCheckOptions, SurfaceCutOptions, SplineOptions, NurbsOptions,
-                 ToolpathCommand, AlignmentCommand, CutCommand>;
+/// What was asked for: runs it and returns the exit code.
+using Command = std::function<int()>;
 
 /// Understands the command line. Errors: E201 wrong usage, E203 option not possible.
 [[nodiscard]] Result<Command> parse_command_line(int argc, const char* const* argv);

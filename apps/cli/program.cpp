@@ -6,17 +6,18 @@
 #include "terminal.h"
 
 namespace obvid {
-namespace {
 
 int run(const ShowText& shown) {
   if (auto done = put(shown.text); !done) return report(done.error());
   return 0;
 }
 
+namespace {
+
 int run_program(int argc, const char* const* argv) {
   const Result<Command> command = parse_command_line(argc, argv);
   if (!command) return report(command.error());
-  return std::visit([](const auto& options) { return run(options); }, *command);
+  return (*command)();
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "obvid/core/files.h"
+#include "spline_options.h"
 #include "surface_outputs.h"
 #include "table.h"
 #include "terminal.h"

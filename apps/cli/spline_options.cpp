@@ -2,6 +2,7 @@
 #include "spline_options.h"
 
 #include "cli_app.h"
+#include "commands.h"
 #include "obvid/pipeline/internal/spline_values.h"
 #include "options.h"
 
@@ -87,13 +88,13 @@ Result<Command> parse_spline(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return Command{ShowText{app.help()}};
+    return command_of(ShowText{app.help()});
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "spline"));
   }
   OBVID_TRY(check_extras(app, app.remaining(), "spline"));
   OBVID_TRY(check(raw));
-  return Command{raw.options};
+  return command_of(raw.options);
 }
 
 }  // namespace obvid

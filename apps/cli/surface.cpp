@@ -10,6 +10,7 @@
 #include "obvid/pipeline/internal/surface_report_json.h"
 #include "obvid/pipeline/surface_job.h"
 #include "outputs.h"
+#include "surface_options.h"
 #include "surface_outputs.h"
 #include "surface_report.h"
 #include "terminal.h"

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
 #include "outputs.h"
+#include "surface_options.h"
 #include "surface_outputs.h"
 #include "surface_report.h"
 #include "table.h"

@@ -13,6 +13,7 @@
 #include "obvid/pipeline/surface_cut_job.h"
 #include "obvid/pipeline/surface_job.h"
 #include "outputs.h"
+#include "surface_options.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"

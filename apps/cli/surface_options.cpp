@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "cli_app.h"
+#include "commands.h"
 #include "obvid/pipeline/internal/format_values.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/surface_values.h"
@@ -430,7 +431,7 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
             });
           });
   OBVID_TRY(done);
-  return Command{make};
+  return command_of(make);
 }
 
 Result<Command> checked_check(RawSurface& raw) {
@@ -443,7 +444,7 @@ Result<Command> checked_check(RawSurface& raw) {
   OBVID_TRY(set_surface_formats(raw.formats, raw.check.formats));
   OBVID_TRY(settle_streams(raw.check, raw.format, false, "svg"));
   raw.check.progress = !raw.no_progress && !raw.check.json && !raw.check.quiet;
-  return Command{raw.check};
+  return command_of(raw.check);
 }
 
 Result<Command> checked_sections(RawSurface& raw) {
@@ -454,7 +455,7 @@ Result<Command> checked_sections(RawSurface& raw) {
   OBVID_TRY(set_surface_cut(raw.cut_values, raw.cut.job));
   OBVID_TRY(settle_streams(raw.cut, raw.format, false, "csv"));
   raw.cut.progress = !raw.no_progress && !raw.cut.json && !raw.cut.quiet;
-  return Command{raw.cut};
+  return command_of(raw.cut);
 }
 
 Result<Command> checked_surface(const CLI::App& app, RawSurface& raw) {
@@ -481,7 +482,7 @@ Result<Command> checked_surface(const CLI::App& app, RawSurface& raw) {
 Result<Command> parse_surface(int argc, const char* const* argv) {
   const bool bare = argc < 2 || std::string_view(argv[1]) == "--help";
   if (bare && !help_as_lines()) {
-    return Command{ShowText{wrapped_help(kSurfaceHelp, kSurfaceHelpColumn, help_width())}};
+    return command_of(ShowText{wrapped_help(kSurfaceHelp, kSurfaceHelpColumn, help_width())});
   }
   CLI::App app("Surfaces over fair contours", "obvid surface");
   app.require_subcommand(0, 1);
@@ -495,7 +496,7 @@ Result<Command> parse_surface(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return Command{ShowText{app.help()}};
+    return command_of(ShowText{app.help()});
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "surface KIND"));
   }

@@ -15,6 +15,7 @@
 #include "outputs.h"
 #include "terminal.h"
 #include "text.h"
+#include "toolpath_options.h"
 
 namespace obvid {
 namespace {

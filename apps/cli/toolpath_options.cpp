@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cli_app.h"
+#include "commands.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/surface_values.h"
 #include "options.h"
@@ -170,7 +171,7 @@ Result<Command> checked_toolpath(const CLI::App& app, RawToolpath& raw) {
   command.view = *view;
   OBVID_TRY(settle_streams(command, raw.format, false, "nc"));
   command.progress = !raw.no_progress && !command.quiet && !command.json;
-  return Command{command};
+  return command_of(command);
 }
 
 }  // namespace
@@ -202,7 +203,7 @@ Result<Command> parse_toolpath(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return Command{ShowText{app.help()}};
+    return command_of(ShowText{app.help()});
   } catch (const CLI::ParseError& error) {
     return fail(from_cli(error, "toolpath"));
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the launcher's first program does not hold: it goes on in the whole one, which is built when
 // it is first needed. cmake/ObvidFirst.cmake says which sources it is made of.
+#include "audit_report.h"
 #include "commands.h"
+#include "files/format_writers.h"
 #include "obvid/alignment/profile.h"
 #include "obvid/alignment/transition.h"
 #include "obvid/cad/internal/cad.h"
@@ -19,11 +21,16 @@
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_sections.h"
 #include "obvid/pipeline/alignment_job.h"
+#include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/internal/mesh_sections.h"
+#include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/space_fit.h"
+#include "obvid/pipeline/trade_off.h"
 #include "space_fit.h"
 #include "start.h"
+#include "suggest.h"
+#include "verify/false_claim.h"
 
 // NOLINTBEGIN(misc-unused-parameters)
 #define OBVID_LATER(...) \
@@ -51,8 +58,22 @@ OBVID_LATER(int run(const NurbsOptions&))
 OBVID_LATER(int run(const ToolpathCommand&))
 OBVID_LATER(int run(const CutCommand&))
 
-// ---- constructions, points in space
-// --------------------------------------------------------------
+// ---- tables of tolerances, drawings as they are, pages ----------------------------------------
+OBVID_LATER(int suggest(const FitOptions&))
+OBVID_LATER(std::string trade_off_rule(const TradeOff&))
+OBVID_LATER(Result<AnalysedDrawing> analysed_drawing(const AnalyseOptions&))
+OBVID_LATER(int audit_drawing(const AnalyseOptions&))
+OBVID_LATER(Result<CurveAudit> audit(const DrawnCurve&, const Units&, const RunContext&))
+OBVID_LATER(const char* to_string(AuditPlace::Kind))
+OBVID_LATER(std::string as_drawn(const CurveAudit&))
+OBVID_LATER(std::string page_text(const ReportPage&))
+OBVID_LATER(std::string table_of_page(std::string_view, std::string_view, const DataTable&))
+namespace pipeline_detail {
+OBVID_LATER(Result<Exported> contour_as_report(const ContourExport&))
+OBVID_LATER(void add_false_claim(JsonText&, const Error*))
+}  // namespace pipeline_detail
+
+// ---- constructions, points in space -----------------------------------------------------------
 OBVID_LATER(Result<Fit> fit_construction(const PointSeries&, const RegionJob&, const RunContext&))
 
 std::optional<int> run_in_space(const FitOptions& options) {
@@ -65,8 +86,7 @@ std::optional<int> run_in_space(const FitOptions& options) {
   return std::nullopt;
 }
 
-// ---- files of others
-// ------------------------------------------------------------------------------
+// ---- files of others --------------------------------------------------------------------------
 OBVID_LATER(Result<StoredContour> contour_from_json(std::string_view, std::string_view, Watch*))
 OBVID_LATER(Result<ParsedSections> parse_sections(std::string_view, std::string_view,
                                                   const SectionOptions&, const RunContext&))

@@ -22,6 +22,7 @@
 #include "obvid/exchange/internal/svg/drawing.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/picture/picture_svg.h"
+#include "obvid/pipeline/internal/airfoil_file.h"
 #include "obvid/series/analysis.h"
 #include "verify/report.h"
 
@@ -519,7 +520,6 @@ ContourWriter contour_writer_of(FileFormat format) {
   constexpr std::array kWriters = {
 #define OBVID_FORMAT(enumerator, endings, contours, ...) &contour_as_##contours,
 #include "obvid/pipeline/formats.inc"
-#include "obvid/pipeline/internal/airfoil_file.h"
 #undef OBVID_FORMAT
   };
   return kWriters[static_cast<std::size_t>(format)];
