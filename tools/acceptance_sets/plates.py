@@ -3,6 +3,8 @@
 Shares nothing with the engine."""
 import math
 
+import numpy as np
+
 from .controller import Move
 
 ON_THE_OUTLINE = 1e-4  # units: places so near to a radius from an outline follow it; leads touch it and go away
@@ -176,9 +178,10 @@ def simulated(shapes, outside, program, diameter, exact=()):
         moves = [m for _, m in done[k]]
         path = [p for m in moves for p in m.places(radius / 20)]
         found["depths"].append(min(p[2] for p in path))
+        flat = np.array([p[:2] for p in path])
         for p in shape.points(160):
             if all(math.dist(p, c) >= 1.5 * radius for c in shape.corners):
-                found["left"] = max(found["left"], min(math.dist(p, q[:2]) for q in path) - radius)
+                found["left"] = max(found["left"], float(np.hypot(*(flat - p).T).min()) - radius)
         beside = lambda p: shape.distance(p) * (1 if out else -1) - radius  # noqa: E731
         for m in moves if k in exact else []:
             if abs(beside(m.at(0.5))) < ON_THE_OUTLINE:
