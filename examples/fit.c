@@ -17,7 +17,7 @@ static void progress(void* user, const char* stage, double done) {
 
 int main(void) {
   const double xy[] = {0, 0, 10, 1, 19, 4, 27, 9, 33, 16, 36, 24};
-  const obvid_run run = {NULL, progress, NULL};
+  const obvid_run run = {NULL, progress, NULL, 0};
   obvid_error* error = NULL;
   obvid_input* input = NULL;
   obvid_contour* contour = NULL;

@@ -27,7 +27,7 @@ extern "C" {
 #endif
 
 /* Changes when a program that was compiled with an older header no longer runs. */
-#define OBVID_ABI 2
+#define OBVID_ABI 3
 
 OBVID_API int obvid_abi(void);
 /* "0.1.0"; the library's, never freed. */
@@ -69,13 +69,15 @@ OBVID_API void obvid_free(char* text);
 /* ---- progress and cancellation ----------------------------------------------------------------
  */
 
-/* Both functions may be NULL, and so may the pointer to a run. They are called by the thread that
+/* Both functions may be NULL, threads 0, and so may the pointer to a run be NULL. They are called by the thread that
  * called, and must not throw or jump. */
 typedef struct obvid_run {
   void* user; /* handed back */
   void (*progress)(void* user, const char* stage, double fraction);
   int (*cancelled)(
-      void* user); /* not 0: stop, with OBVID_CANCELLED; asked every few milliseconds */
+      void* user); /* not 0: stop, with OBVID_CANCELLED; docs/c.md says how often it is asked */
+  size_t threads;  /* at work at a time, at most; 0: as many as the process may run at once. The
+                    * result does not depend on it */
 } obvid_run;
 
 /* ---- input ------------------------------------------------------------------------------------

@@ -1352,7 +1352,7 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
   OBVID_TRY(check_points(given, options));
   // loops within loops ask; who started it is not asked again once it said so
   bool stopped = false;
-  RunContext run{asked.progress, {}};
+  RunContext run = asked;
   if (asked.cancelled) run.cancelled = [&] { return stopped = stopped || asked.cancelled(); };
   FoundChain out;
   // coordinates of maps are far from their origin

@@ -322,7 +322,7 @@ Result<void> Job::try_options() const {
   if (spec_.job == "cut") trial.options = without_curve(trial.options);
   Owned<obvid_error> found;
   for (const Item& item : trial_items(*kind_)) {
-    const obvid_run run{};
+    const obvid_run run{nullptr, nullptr, nullptr, 1};
     Work work{trial, *kind_, run, against_.get()};
     (void)read_item(item, work);
     do_job(work);
@@ -355,7 +355,7 @@ Result<bool> Job::run(const Item& item, std::size_t number, Columns& rows,
     asked.until = begin + std::chrono::duration_cast<Clock::duration>(
                               std::chrono::duration<double>(spec_.most_seconds));
   }
-  const obvid_run run{&asked, nullptr, &Asked::ask};
+  const obvid_run run{&asked, nullptr, &Asked::ask, 1};  // others run beside it
   Work work{spec_, *kind_, run, against_.get()};
   Trouble trouble = read_item(item, work);
   if (work.input && trouble.code == 0 && !spec_.profile.empty()) {

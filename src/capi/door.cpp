@@ -68,6 +68,7 @@ int hand_out(const Error& error, obvid_error** out, std::vector<std::size_t> poi
 RunContext context_of(const obvid_run* run) {
   RunContext out;
   if (run == nullptr) return out;
+  out.threads = run->threads;
   if (run->progress != nullptr) {
     out.progress = [run = *run](std::string_view stage, double fraction) {
       run.progress(run.user, std::string(stage).c_str(), fraction);

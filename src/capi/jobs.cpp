@@ -202,7 +202,7 @@ Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const
     out->profile = std::move(drawn->profile);
     out->picture = std::move(drawn->picture);
   } else {
-    Watch watch({{}, run.cancelled});
+    Watch watch(without_progress(run));
     auto stored = contour_from_json(input.text, input.name, &watch);
     OBVID_TRY(stored);
     out->stored = std::move(*stored);
@@ -221,7 +221,7 @@ Result<Fit> formed(const PointSeries& series, const Request& request, const RunC
 /// Why `fit` finds no contour; nothing where it finds one.
 Result<std::optional<Refusal>> refused(const PointSeries& series, const Request& request,
                                        const RunContext& run) {
-  const Result<Fit> made = fit(series, request.job, RunContext({}, run.cancelled));
+  const Result<Fit> made = fit(series, request.job, without_progress(run));
   if (made) return std::nullopt;
   if (category(made.error().code) != ErrorCategory::kNoContour) return fail(made.error());
   auto found = explain_refusal(series, request.job, made.error(), run);

@@ -119,10 +119,13 @@ void in_lots(std::size_t count, std::size_t together, std::size_t threads,
   });
 }
 
-Result<void> in_parallel(std::size_t count, std::size_t threads, const RunContext& run,
+Result<void> in_parallel(std::size_t count, const RunContext& run,
                          const std::function<void(std::size_t, const RunContext&)>& work) {
+  const std::size_t threads = run.threads == 0 ? processors() : run.threads;
+  const std::size_t each = std::max<std::size_t>(1, threads / std::max<std::size_t>(1, count));
   if (!run.cancelled) {
-    in_parallel(count, threads, [&](std::size_t i) { work(i, {}); });
+    const RunContext alone = with_threads({}, each);
+    in_parallel(count, threads, [&](std::size_t i) { work(i, alone); });
     return {};
   }
   const std::thread::id caller = std::this_thread::get_id();
@@ -131,8 +134,8 @@ Result<void> in_parallel(std::size_t count, std::size_t threads, const RunContex
     if (!stopped && run.cancelled()) stopped = true;
     return stopped.load();
   };
-  const RunContext asking{Progress{}, ask};
-  const RunContext told{Progress{}, [&] { return stopped.load(); }};
+  const RunContext asking = with_threads({Progress{}, ask}, each);
+  const RunContext told = with_threads({Progress{}, [&] { return stopped.load(); }}, each);
   const auto one = [&](std::size_t i) {
     if (stopped) return;
     const bool here = std::this_thread::get_id() == caller;
@@ -144,9 +147,14 @@ Result<void> in_parallel(std::size_t count, std::size_t threads, const RunContex
   return {};
 }
 
-Result<void> in_parallel(std::size_t count, std::size_t threads, const RunContext& run,
+Result<void> in_parallel(std::size_t count, const RunContext& run,
                          const std::function<void(std::size_t)>& work) {
-  return in_parallel(count, threads, run, [&](std::size_t i, const RunContext&) { work(i); });
+  return in_parallel(count, run, [&](std::size_t i, const RunContext&) { work(i); });
+}
+
+RunContext with_threads(RunContext run, std::size_t threads) {
+  if (threads != 0) run.threads = threads;
+  return run;
 }
 
 }  // namespace obvid

@@ -122,7 +122,7 @@ Result<void> CellTree::build(const RunContext& run) {
     CellJudge judge(sampler, options_);
     trees[k] = leaves(judge, first[k].cell);
   };
-  OBVID_TRY(in_parallel(trees.size(), options_.threads, run, grow));
+  OBVID_TRY(in_parallel(trees.size(), with_threads(run, options_.threads), grow));
   for (const auto& tree : trees) OBVID_TRY(append(tree));
   return {};
 }

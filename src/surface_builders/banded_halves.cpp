@@ -29,7 +29,7 @@ BandedHalves::BandedHalves(const BandedCholesky& matrix)
 
 Result<bool> BandedHalves::factor(const RunContext& run) {
   std::array<bool, 2> factored{};
-  OBVID_TRY(in_parallel(2, 0, run, [&](std::size_t side, const RunContext& part) {
+  OBVID_TRY(in_parallel(2, run, [&](std::size_t side, const RunContext& part) {
     const auto go_on = [&] { return may_go_on(part).has_value(); };
     factored[side] = side == 0 ? down_.factor_first(first_, go_on) : up_.factor_first(last_, go_on);
   }));

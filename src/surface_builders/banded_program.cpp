@@ -87,12 +87,12 @@ class Steps {
 
   /// The squares of the aim, which stay. Error: E103.
   [[nodiscard]] Result<void> begin(const RunContext& run) {
-    OBVID_TRY(in_parallel(part_.size(), 0, run, [&](std::size_t k) {
+    OBVID_TRY(in_parallel(part_.size(), run, [&](std::size_t k) {
       Part& part = part_[k];
       part.square.assign(p_.groups[k].near.empty() ? 0 : p_.columns * width_[k], 0.0);
       for (const Form& f : p_.groups[k].near) add_square(f, f.weight, width_[k], part.square);
     }));
-    return in_parallel(p_.rows, 0, run, [&](std::size_t a) {
+    return in_parallel(p_.rows, run, [&](std::size_t a) {
       for (const std::size_t k : seen_by_[a]) add_to(quadratic_, k, a);
     });
   }
@@ -232,8 +232,8 @@ class Steps {
 
   /// Matrix and right side of Newton's step towards the aims. Error: E103.
   [[nodiscard]] Result<void> assemble(const RunContext& run) {
-    OBVID_TRY(in_parallel(part_.size(), 0, run, [&](std::size_t k) { square_of(k); }));
-    OBVID_TRY(in_parallel(p_.rows, 0, run, [&](std::size_t a) {
+    OBVID_TRY(in_parallel(part_.size(), run, [&](std::size_t k) { square_of(k); }));
+    OBVID_TRY(in_parallel(p_.rows, run, [&](std::size_t a) {
       for (std::size_t i = 0; i < p_.columns; ++i) {
         const std::size_t at = a * p_.columns + i;
         std::copy_n(quadratic_.row(at), quadratic_.band() + 1, matrix_.row(at));
@@ -248,7 +248,7 @@ class Steps {
   }
   /// Right side alone. Error: E103.
   [[nodiscard]] Result<void> pull(const RunContext& run) {
-    OBVID_TRY(in_parallel(part_.size(), 0, run, [&](std::size_t k) { pull_of(k); }));
+    OBVID_TRY(in_parallel(part_.size(), run, [&](std::size_t k) { pull_of(k); }));
     std::fill(right_.begin(), right_.end(), 0.0);
     for (std::size_t k = 0; k < part_.size(); ++k) {
       const FormGroup& g = p_.groups[k];
@@ -305,7 +305,7 @@ class Steps {
   /// that is positive stays so. Error: E103.
   [[nodiscard]] Result<double> steps_by(std::vector<double> dx, const RunContext& run) {
     dx_ = std::move(dx);
-    OBVID_TRY(in_parallel(part_.size(), 0, run, [&](std::size_t k) { step_of(k); }));
+    OBVID_TRY(in_parallel(part_.size(), run, [&](std::size_t k) { step_of(k); }));
     return *std::min_element(length_.begin(), length_.end());
   }
   void step_of(std::size_t k) {

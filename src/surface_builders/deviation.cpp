@@ -48,7 +48,7 @@ Result<std::vector<NearestPlace>> nearest_of(const std::vector<Vec3>& points,
                                              const NearestOnModel& from, const RunContext& run) {
   std::vector<NearestPlace> out(points.size());
   const std::size_t blocks = (points.size() + kBlock - 1) / kBlock;
-  OBVID_TRY(in_parallel(blocks, 0, run, [&](std::size_t block) {
+  OBVID_TRY(in_parallel(blocks, run, [&](std::size_t block) {
     const std::size_t end = std::min(points.size(), (block + 1) * kBlock);
     for (std::size_t i = block * kBlock; i < end; ++i) out[i] = from.at(points[i]);
   }));

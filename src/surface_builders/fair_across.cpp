@@ -558,7 +558,7 @@ class Correction {
                                        const std::vector<double>& allowed, const RunContext& run) {
     std::vector<BasisValues> basis;
     for (const double u : meter_at) basis.push_back(basis_at(kSkinDegree, knots_, u, 2));
-    return in_parallel(how_.v.size(), 0, run, [&](std::size_t k) {
+    return in_parallel(how_.v.size(), run, [&](std::size_t k) {
       if (still_[k]) return;
       const Frame& frame = stretch_.sections[k].frame();
       std::vector<Vec2> d1, d2;
@@ -698,7 +698,7 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
   const std::vector<double> at = meter_places(stretch.breaks);
   std::vector<RunPlaces> runs(sections);
   std::vector<double> allowed(sections);
-  OBVID_TRY(in_parallel(sections, 0, run, [&](std::size_t k) {
+  OBVID_TRY(in_parallel(sections, run, [&](std::size_t k) {
     runs[k] = run_places(stretch, k, wanted.v[k], at);
     RippleMeter meter;
     for (std::size_t i = 0; i < runs[k].wanted.size(); ++i) {

@@ -345,7 +345,7 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     SkinStretch& stretch = stretches[n];
     const bool light = result.light && !options.fair_across;
     const int samples = light ? kReportSamplesOfLight : kReportSamplesPerSpan;
-    OBVID_TRY(in_parallel(sections.size(), 0, run, [&](std::size_t k) {
+    OBVID_TRY(in_parallel(sections.size(), run, [&](std::size_t k) {
       add_section_report(stretch, measured_sections[k], k, (*v)[k], samples, result.sections[k]);
     }));
     const std::vector<double> lines = light ? distinct(stretch.surface.knots_u) : stretch.breaks;

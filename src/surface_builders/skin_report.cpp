@@ -45,7 +45,7 @@ Result<ForcedAcross> forced_across(const NurbsSurface& surface, const std::vecto
   ForcedAcross out{tolerance, std::vector<std::size_t>(lines.size()),
                    std::vector<std::size_t>(lines.size())};
   const AcrossPlaces places = places_across(surface, v);
-  OBVID_TRY(in_parallel(lines.size(), 0, run, [&](std::size_t l) {
+  OBVID_TRY(in_parallel(lines.size(), run, [&](std::size_t l) {
     const Tube tube = developed(Isoline(surface, lines[l]), places, tolerance).tube;
     out.forced[l] = changes_of(taut_string(tube));
     out.proved[l] = changes_certified(tube);
@@ -58,7 +58,7 @@ Result<void> add_across_report(const NurbsSurface& surface, const std::vector<do
                                double fine, const RunContext& run, AcrossReport& report) {
   const AcrossPlaces places = places_across(surface, v);
   std::vector<std::array<std::size_t, 2>> found(lines.size());
-  OBVID_TRY(in_parallel(lines.size(), 0, run, [&](std::size_t l) {
+  OBVID_TRY(in_parallel(lines.size(), run, [&](std::size_t l) {
     found[l] = waves_found(Isoline(surface, lines[l]), places, {forced.tolerance, fine});
   }));
   report.tolerance = forced.tolerance;

@@ -73,7 +73,7 @@ class Trimmer {
   Result<TrimmedModel> made(const RunContext& run) {
     const std::size_t count = model_.patches.size();
     std::vector<PatchDone> done(count);
-    OBVID_TRY(in_parallel(count, 0, run, [&](std::size_t i, const RunContext& asked) {
+    OBVID_TRY(in_parallel(count, run, [&](std::size_t i, const RunContext& asked) {
       if (auto fine = trim(model_.patches[i], asked, done[i]); !fine) done[i].error = fine.error();
     }));
     TrimmedModel out;

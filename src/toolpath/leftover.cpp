@@ -32,30 +32,31 @@ Result<Leftover> Leftover::find(const Part& part, const CutterShape& earlier,
   const auto& tiles = cells.tiles();
   std::vector<Found> found(tiles.size());
   OBVID_TRY(tell(run, "earlier cutter", 0.0));
-  OBVID_TRY(in_parallel(tiles.size(), threads, run, [&](std::size_t t, const RunContext& own) {
-    Watch watch(own);
-    Questions questions(&watch, kCellsBetweenQuestions);
-    Found& here = found[t];
-    for (std::size_t i = tiles[t].first; i < tiles[t].first + tiles[t].count && !questions.end();
-         ++i) {
-      const Cell& cell = cells.cells()[i];
-      if (cell.normal == Vec3{}) continue;
-      const Nearest came = nearest_to(before, cell.point, cell.normal);
-      if (came.reach == Reach::kReached) continue;
-      out.left_[i] = 1;
-      if (came.reach == Reach::kHidden) continue;
-      here.area += cell.area;
-      const double depth =
-          came.height < most ? came.height : std::numeric_limits<double>::infinity();
-      if (depth > here.depth) {
-        here.depth = depth;
-        here.place = cell.point;
-      }
-      reach[i] = nearest_to(part, cell.point, cell.normal);
-      const auto rest = part.drop(reach[i].axis);
-      here.tips.push_back(rest ? rest->tip : part.tip(cell.point, cell.normal));
-    }
-  }));
+  OBVID_TRY(in_parallel(
+      tiles.size(), with_threads(run, threads), [&](std::size_t t, const RunContext& own) {
+        Watch watch(own);
+        Questions questions(&watch, kCellsBetweenQuestions);
+        Found& here = found[t];
+        for (std::size_t i = tiles[t].first;
+             i < tiles[t].first + tiles[t].count && !questions.end(); ++i) {
+          const Cell& cell = cells.cells()[i];
+          if (cell.normal == Vec3{}) continue;
+          const Nearest came = nearest_to(before, cell.point, cell.normal);
+          if (came.reach == Reach::kReached) continue;
+          out.left_[i] = 1;
+          if (came.reach == Reach::kHidden) continue;
+          here.area += cell.area;
+          const double depth =
+              came.height < most ? came.height : std::numeric_limits<double>::infinity();
+          if (depth > here.depth) {
+            here.depth = depth;
+            here.place = cell.point;
+          }
+          reach[i] = nearest_to(part, cell.point, cell.normal);
+          const auto rest = part.drop(reach[i].axis);
+          here.tips.push_back(rest ? rest->tip : part.tip(cell.point, cell.normal));
+        }
+      }));
   for (const Found& here : found) {
     for (const Vec3 tip : here.tips) out.mark(tip);
     out.area_ += here.area;

@@ -141,7 +141,7 @@ Result<void> LevelPasses::measure(const RunContext& run) {
         .value(static_cast<double>(most_points_));
   }
   heights_.resize(nx_ * ny_);
-  return in_parallel(ny_, threads_, run, [&](std::size_t j) {
+  return in_parallel(ny_, with_threads(run, threads_), [&](std::size_t j) {
     for (std::size_t i = 0; i < nx_; ++i) heights_[j * nx_ + i] = height(node(i, j));
   });
 }
@@ -151,7 +151,7 @@ Result<std::optional<LevelPasses::Heights>> LevelPasses::wall_heights(const Surf
                                                                       const RunContext& run) const {
   const auto& tiles = cells.tiles();
   std::vector<Heights> found(tiles.size(), {-kNothing, kNothing});
-  OBVID_TRY(in_parallel(tiles.size(), threads_, run, [&](std::size_t t) {
+  OBVID_TRY(in_parallel(tiles.size(), with_threads(run, threads_), [&](std::size_t t) {
     for (std::size_t i = tiles[t].first; i < tiles[t].first + tiles[t].count; ++i) {
       const Cell& cell = cells.cells()[i];
       if (cell.normal == Vec3{} || cell.normal.z > flat_from_) continue;
@@ -224,7 +224,7 @@ Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const Square
   std::sort(sides.begin(), sides.end());
   sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
   std::vector<Crossing> crossings(sides.size());
-  OBVID_TRY(in_parallel(sides.size(), threads_, run,
+  OBVID_TRY(in_parallel(sides.size(), with_threads(run, threads_),
                         [&](std::size_t k) { crossings[k] = crossing(sides[k], z); }));
   const auto number = [&](std::uint64_t side) {
     return static_cast<std::size_t>(std::lower_bound(sides.begin(), sides.end(), side) -
@@ -257,7 +257,7 @@ Result<std::vector<LevelPasses::Line>> LevelPasses::lines(double z, const Square
   }
   for (Line& line : out) {
     std::vector<std::vector<Vec2>> chords(line.places.size() - 1);
-    OBVID_TRY(in_parallel(chords.size(), threads_, run, [&](std::size_t k) {
+    OBVID_TRY(in_parallel(chords.size(), with_threads(run, threads_), [&](std::size_t k) {
       between(line.places[k], line.places[k + 1], z, 0, chords[k]);
     }));
     std::vector<Vec2> places{line.places.front()};
@@ -373,7 +373,7 @@ Result<Pass> LevelPasses::level(double z, const Squares& squares, double& down,
   for (const Line& line : *all) {
     const std::size_t n = line.places.size();
     std::vector<Station> stations(n);
-    OBVID_TRY(in_parallel(n, threads_, run, [&](std::size_t i) {
+    OBVID_TRY(in_parallel(n, with_threads(run, threads_), [&](std::size_t i) {
       const std::size_t before = i > 0 ? i - 1 : line.closed ? n - 2 : i;
       const std::size_t after = i + 1 < n ? i + 1 : line.closed ? 1 : i;
       stations[i] = station(line.places[before], line.places[i], line.places[after], z);

@@ -376,12 +376,13 @@ class Roughing {
       field_.lines.push_back(std::move(line));
     }
     OBVID_TRY(tell(run, "levels", 0.0));
-    return in_parallel(field_.lines.size(), field_.options.threads, run, [&](std::size_t k) {
-      Line& line = field_.lines[k];
-      for (std::size_t i = 0; i < line.heights.size(); ++i) {
-        line.heights[i] = height(line.a(i), line.b);
-      }
-    });
+    return in_parallel(field_.lines.size(), with_threads(run, field_.options.threads),
+                       [&](std::size_t k) {
+                         Line& line = field_.lines[k];
+                         for (std::size_t i = 0; i < line.heights.size(); ++i) {
+                           line.heights[i] = height(line.a(i), line.b);
+                         }
+                       });
   }
 
   /// From a place where the cutter may go towards one where it may not.
@@ -425,10 +426,11 @@ class Roughing {
     std::vector<Level> levels(count);
     const std::size_t lines = field_.lines.size();
     for (Level& level : levels) level.stretches.resize(lines);
-    OBVID_TRY(in_parallel(count * lines, field_.options.threads, run, [&](std::size_t n) {
-      levels[n / lines].stretches[n % lines] =
-          stretches(field_.lines[n % lines], heights_[k + n / lines]);
-    }));
+    OBVID_TRY(
+        in_parallel(count * lines, with_threads(run, field_.options.threads), [&](std::size_t n) {
+          levels[n / lines].stretches[n % lines] =
+              stretches(field_.lines[n % lines], heights_[k + n / lines]);
+        }));
     const auto plan = [&](std::size_t i, const RunContext& own) {
       Watch watch(own);
       Questions questions(&watch, 1);
@@ -442,7 +444,7 @@ class Roughing {
                  : LevelPlanner(field_, nullptr)
                        .likely(levels[i - 1].stretches, heights_[k + i - 2], heights_[k + i - 1]);
     }
-    OBVID_TRY(in_parallel(count, field_.options.threads, run, plan));
+    OBVID_TRY(in_parallel(count, with_threads(run, field_.options.threads), plan));
     // whether it was planned for something else than what the level above takes
     const auto is_off = [&](std::size_t i) {
       return with_helices(field_.options) && i > 0 && levels[i].above != levels[i - 1].plan.cuts;
@@ -453,14 +455,14 @@ class Roughing {
         if (is_off(i)) off.push_back(i);
       }
       for (const std::size_t i : off) levels[i].above = levels[i - 1].plan.cuts;
-      OBVID_TRY(in_parallel(off.size(), field_.options.threads, run,
+      OBVID_TRY(in_parallel(off.size(), with_threads(run, field_.options.threads),
                             [&](std::size_t n, const RunContext& own) { plan(off[n], own); }));
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (is_off(i)) {
         levels[i].above = levels[i - 1].plan.cuts;
-        OBVID_TRY(
-            in_parallel(1, 1, run, [&](std::size_t, const RunContext& own) { plan(i, own); }));
+        OBVID_TRY(in_parallel(1, with_threads(run, 1),
+                              [&](std::size_t, const RunContext& own) { plan(i, own); }));
       }
       lay(std::move(levels[i].plan.moves));
       ToolpathReport& report = out_.report;

@@ -193,7 +193,7 @@ Result<std::vector<ScallopSurvey::Wanted>> ScallopSurvey::wanted(const Family& f
                                                                  const RunContext& run) {
   std::vector<std::optional<Sides>> beside(high.size());
   const std::size_t blocks = (high.size() + kSpotsTogether - 1) / kSpotsTogether;
-  OBVID_TRY(in_parallel(blocks, walker_.threads(), run, [&](std::size_t k) {
+  OBVID_TRY(in_parallel(blocks, with_threads(run, walker_.threads()), [&](std::size_t k) {
     const std::size_t end = std::min(high.size(), (k + 1) * kSpotsTogether);
     for (std::size_t i = k * kSpotsTogether; i < end; ++i) beside[i] = sides(family, high[i]);
   }));

@@ -227,24 +227,25 @@ Result<void> Simulation::cut(const std::vector<Sweep>& sweeps, const RunContext&
                         of_tile_[t].push_back(static_cast<std::uint32_t>(s));
                       });
   }
-  return in_parallel(touched.size(), threads_, run, [&](std::size_t k, const RunContext& own) {
-    Watch watch(own);
-    Questions questions(&watch, kCellsBetweenQuestions);
-    const SurfaceCells::Tile& tile = cells_.tiles()[touched[k]];
-    const auto fresh =
-        std::span<const std::uint32_t>(of_tile_[touched[k]]).subspan(had[touched[k]]);
-    Numbers near;
-    double about = kAbout * part_.cutter().radius;
-    for (std::size_t i = tile.first; i < tile.first + tile.count && !questions.end(); ++i) {
-      const Cell& cell = cells_.cells()[i];
-      const double most = radius_of(kForBoth, cell, nodes_[i]);
-      const CellBounds b = bounds(kForBoth, cell, fresh, std::min(about, most), most, near);
-      about = kAbout * radius_of(kForBoth, cell, b);  // the next one is much alike
-      nodes_[i] = {std::min(nodes_[i].left, b.left), std::min(nodes_[i].left_most, b.left_most),
-                   std::max(nodes_[i].depth, b.depth),
-                   std::max(nodes_[i].depth_most, b.depth_most)};
-    }
-  });
+  return in_parallel(
+      touched.size(), with_threads(run, threads_), [&](std::size_t k, const RunContext& own) {
+        Watch watch(own);
+        Questions questions(&watch, kCellsBetweenQuestions);
+        const SurfaceCells::Tile& tile = cells_.tiles()[touched[k]];
+        const auto fresh =
+            std::span<const std::uint32_t>(of_tile_[touched[k]]).subspan(had[touched[k]]);
+        Numbers near;
+        double about = kAbout * part_.cutter().radius;
+        for (std::size_t i = tile.first; i < tile.first + tile.count && !questions.end(); ++i) {
+          const Cell& cell = cells_.cells()[i];
+          const double most = radius_of(kForBoth, cell, nodes_[i]);
+          const CellBounds b = bounds(kForBoth, cell, fresh, std::min(about, most), most, near);
+          about = kAbout * radius_of(kForBoth, cell, b);  // the next one is much alike
+          nodes_[i] = {std::min(nodes_[i].left, b.left), std::min(nodes_[i].left_most, b.left_most),
+                       std::max(nodes_[i].depth, b.depth),
+                       std::max(nodes_[i].depth_most, b.depth_most)};
+        }
+      });
 }
 
 const Nearest& Simulation::nearest(std::size_t node) {
@@ -263,7 +264,7 @@ Result<void> Simulation::look_into_reach(double limit, const RunContext& run) {
       if (nodes_[i].left > limit && counts(i)) static_cast<void>(nearest(i));
     }
   };
-  return in_parallel(cells_.tiles().size(), threads_, run, look_into);
+  return in_parallel(cells_.tiles().size(), with_threads(run, threads_), look_into);
 }
 
 bool Simulation::at_edge(std::size_t node, double limit) const {
@@ -336,7 +337,7 @@ Result<std::vector<HighSpot>> Simulation::above(double limit, double within,
                                                 const RunContext& run) {
   OBVID_TRY(look_into_reach(limit, run));
   std::vector<std::vector<HighSpot>> found(cells_.tiles().size());
-  const auto looked = in_parallel(found.size(), threads_, run, [&](std::size_t t) {
+  const auto looked = in_parallel(found.size(), with_threads(run, threads_), [&](std::size_t t) {
     const SurfaceCells::Tile& tile = cells_.tiles()[t];
     for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
       HighSpot spot;

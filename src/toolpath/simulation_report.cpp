@@ -57,7 +57,7 @@ Result<void> Simulation::report_depth(double allowed, SimulationReport& out,
     }
   }
   std::vector<Extreme> found(deep.size());
-  const auto looked = in_parallel(deep.size(), threads_, run, [&](std::size_t k) {
+  const auto looked = in_parallel(deep.size(), with_threads(run, threads_), [&](std::size_t k) {
     quarter(kForDepth, deep[k], [&](const Piece& part, int levels) {
       raise_extreme(found[k], part.bounds.depth, part.cell.point);
       const bool deeper = part.bounds.depth_most > std::max(limit, found[k].found);
@@ -134,7 +134,7 @@ Result<void> Simulation::report_left(double within, SimulationReport& out, const
     const std::size_t most_pieces = bounded ? kMostPieces : kPiecesOfCell;
     std::vector<Extreme> found(count, {limit, 0.0, {}});
     std::vector<std::size_t> pieces(count, 0);
-    const auto looked = in_parallel(count, threads_, run, [&](std::size_t k) {
+    const auto looked = in_parallel(count, with_threads(run, threads_), [&](std::size_t k) {
       const std::size_t node = high[begin + k];
       quarter(for_left(limit, within), node, [&](const Piece& part, int levels) {
         ++pieces[k];
@@ -184,7 +184,7 @@ Result<SimulationReport> Simulation::rough_report(double allowed, const std::arr
   OBVID_TRY(report_depth(allowed, out, run));
   for (const Cell& cell : cells_.cells()) out.area += cell.area;
   std::vector<Extreme> found((nodes_.size() + kCellsTogether - 1) / kCellsTogether);
-  OBVID_TRY(in_parallel(found.size(), threads_, run, [&](std::size_t k) {
+  OBVID_TRY(in_parallel(found.size(), with_threads(run, threads_), [&](std::size_t k) {
     const std::size_t end = std::min(nodes_.size(), (k + 1) * kCellsTogether);
     for (std::size_t i = k * kCellsTogether; i < end; ++i) {
       const Cell& cell = cells_.cells()[i];

@@ -158,7 +158,7 @@ Result<void> SurfaceCells::fill(const Part& part, double tile, std::size_t threa
     }
   }
   LargeList<Vec2> places(count);
-  OBVID_TRY(in_parallel(rows.size(), threads, run, [&](std::size_t r) {
+  OBVID_TRY(in_parallel(rows.size(), with_threads(run, threads), [&](std::size_t r) {
     for (std::uint32_t i = 0; i < rows[r].count; ++i) {
       const Vec3 p = made(part, {rows[r].patch, i, rows[r].j}).point;
       places[rows[r].first + i] = {p.x, p.y};
@@ -167,7 +167,7 @@ Result<void> SurfaceCells::fill(const Part& part, double tile, std::size_t threa
   sort_into_tiles(tile, rows, places, threads);
   cells_.resize(count);
   origins_.resize(count);
-  return in_parallel(rows.size(), threads, run, [&](std::size_t r) {
+  return in_parallel(rows.size(), with_threads(run, threads), [&](std::size_t r) {
     for (std::uint32_t i = 0; i < rows[r].count; ++i) {
       const Origin origin{rows[r].patch, i, rows[r].j};
       const std::uint32_t number = number_[rows[r].first + i];

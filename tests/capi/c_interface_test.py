@@ -38,7 +38,7 @@ CANCELLED = C.CFUNCTYPE(C.c_int, C.c_void_p)
 
 
 class Run(C.Structure):
-    _fields_ = [("user", C.c_void_p), ("progress", PROGRESS), ("cancelled", CANCELLED)]
+    _fields_ = [("user", C.c_void_p), ("progress", PROGRESS), ("cancelled", CANCELLED), ("threads", C.c_size_t)]
 
 
 lib = C.CDLL(LIBRARY)
@@ -619,7 +619,7 @@ class SaysWhatTheCommandLineSays(unittest.TestCase):
 
     def test_version(self):
         self.assertEqual("obvid " + lib.obvid_version().decode() + "\n", program("--version")[0])
-        self.assertEqual(lib.obvid_abi(), 2)
+        self.assertEqual(lib.obvid_abi(), 3)
 
 
 class Contours(unittest.TestCase):
@@ -1092,6 +1092,23 @@ class Surfaces(unittest.TestCase):
         with self.assertRaises(Failed) as caught:
             surface("skin", [space_points(section(z)) for z in range(9)], None, (), run)
         self.assertEqual(caught.exception.code, 103)
+
+    @unittest.skipUnless(os.path.isdir("/proc/self/task"), "nothing counts the threads here")
+    def test_no_more_threads_are_at_work_than_asked_for(self):
+        def section(z):
+            return [(math.exp(0.01 * t) * math.cos(0.03 * t), math.exp(0.01 * t) * math.sin(0.03 * t), z) for t in range(300)]
+        sections = [space_points(section(z)) for z in range(9)]
+        handle, _, _ = surface("grid", [read(self.example("wavy_grid.csv"))])
+        for work in (lambda run: surface("skin", sections, None, (), run),
+                     lambda run: call(lib.obvid_surface_toolpath, handle, None, C.byref(run), C.byref(C.c_void_p()),
+                                      C.byref(C.c_void_p()))):
+            for threads in (1, 3):
+                own, seen = len(os.listdir("/proc/self/task")), []
+                work(Run(None, PROGRESS(0), CANCELLED(lambda _: seen.append(len(os.listdir("/proc/self/task"))) or 0),
+                         threads))
+                self.assertLessEqual(max(seen), own + threads - 1)
+                if threads > 1:
+                    self.assertGreater(max(seen), own)
 
     def test_every_job_on_a_surface_ends_when_asked(self):
         handle, _, _ = surface("grid", [read(self.example("wavy_grid.csv"))])

@@ -25,10 +25,10 @@ TEST(InParallel, DoesEachNumberOnce) {
     EXPECT_EQ(done, std::vector<int>(100, 1));
     std::vector<int> again(100, 0);
     const RunContext asked{Progress{}, [] { return false; }};
-    const auto whole =
-        in_parallel(again.size(), threads, asked, [&](std::size_t i, const RunContext& run) {
-          if (may_go_on(run)) ++again[i];
-        });
+    const auto whole = in_parallel(again.size(), with_threads(asked, threads),
+                                   [&](std::size_t i, const RunContext& run) {
+                                     if (may_go_on(run)) ++again[i];
+                                   });
     EXPECT_TRUE(whole);
     EXPECT_EQ(again, std::vector<int>(100, 1));
   }
@@ -56,9 +56,25 @@ TEST(InParallel, OfAProcessBoundToOneProcessorTheCallerDoesAll) {
 }
 #endif
 
+TEST(InParallel, PartsShareTheThreadsThatThereAre) {
+  const auto of_parts = [](std::size_t count, RunContext run) {
+    std::vector<std::size_t> threads(count);
+    EXPECT_TRUE(in_parallel(count, run, [&](std::size_t i, const RunContext& own) {
+      threads[i] = own.threads;
+    }));
+    return threads;
+  };
+  const RunContext asked{Progress{}, [] { return false; }};
+  for (const RunContext& run : {RunContext{}, asked}) {
+    EXPECT_EQ(of_parts(2, with_threads(run, 6)), std::vector<std::size_t>(2, 3));
+    EXPECT_EQ(of_parts(5, with_threads(run, 3)), std::vector<std::size_t>(5, 1));
+    EXPECT_EQ(of_parts(1, with_threads(run, 4)), std::vector<std::size_t>(1, 4));
+  }
+}
+
 TEST(InParallel, NobodyAsksWhereNobodyMayStop) {
   bool asks = false;
-  EXPECT_TRUE(in_parallel(3, 1, RunContext{}, [&](std::size_t, const RunContext& run) {
+  EXPECT_TRUE(in_parallel(3, with_threads({}, 1), [&](std::size_t, const RunContext& run) {
     asks = asks || run.cancelled || run.progress;
   }));
   EXPECT_FALSE(asks);
@@ -77,7 +93,7 @@ TEST(InParallel, StopsWorkOnOtherThreadsInItsMiddle) {
                          return said;
                        }};
   const auto begin = std::chrono::steady_clock::now();
-  const auto ended = in_parallel(2, 2, run, [&](std::size_t, const RunContext& mine) {
+  const auto ended = in_parallel(2, with_threads(run, 2), [&](std::size_t, const RunContext& mine) {
     ++begun;
     while (begun < 2) std::this_thread::yield();
     if (std::this_thread::get_id() == caller) return;
@@ -94,7 +110,7 @@ TEST(InParallel, StopsWorkOnOtherThreadsInItsMiddle) {
 TEST(InParallel, ACancelledRunDoesNothingMore) {
   std::atomic<int> done{0};
   const RunContext run{Progress{}, [] { return true; }};
-  EXPECT_FALSE(in_parallel(1000, 1, run, [&](std::size_t) { ++done; }));
+  EXPECT_FALSE(in_parallel(1000, with_threads(run, 1), [&](std::size_t) { ++done; }));
   EXPECT_EQ(done, 1);  // it asks after the first
 }
 
@@ -105,10 +121,11 @@ TEST(InParallel, ThrowsWhatItsWorkThrows) {
       if (i == 5) throw std::runtime_error("five");
     };
     EXPECT_THROW(in_parallel(50, threads, broken), std::runtime_error);
-    EXPECT_THROW((void)in_parallel(50, threads, run, broken), std::runtime_error);
+    EXPECT_THROW((void)in_parallel(50, with_threads(run, threads), broken), std::runtime_error);
   }
   const RunContext asks{Progress{}, []() -> bool { throw std::runtime_error("asked"); }};
-  EXPECT_THROW((void)in_parallel(50, 2, asks, [](std::size_t) {}), std::runtime_error);
+  EXPECT_THROW((void)in_parallel(50, with_threads(asks, 2), [](std::size_t) {}),
+               std::runtime_error);
 }
 
 }  // namespace

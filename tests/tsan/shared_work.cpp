@@ -30,7 +30,7 @@ int main() {
 
     bool thrown = false;
     try {
-      (void)in_parallel(64, 4, RunContext{obvid::Progress{}, [] { return false; }},
+      (void)in_parallel(64, with_threads(RunContext{obvid::Progress{}, [] { return false; }}, 4),
                         [](std::size_t i) {
                           if (i % 7 == 3) throw std::runtime_error("stop");
                         });

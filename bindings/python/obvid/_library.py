@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, Mapping, Optional
 
 from .errors import CancelledError, ObvidError, error_of
 
-ABI = 2
+ABI = 3
 
 ProgressFunction = Callable[[str, float], None]
 CancelledFunction = Callable[[], bool]
@@ -45,7 +45,12 @@ _Cancelled = C.CFUNCTYPE(C.c_int, C.c_void_p)
 
 
 class RunStruct(C.Structure):
-    _fields_ = [("user", C.c_void_p), ("progress", _Progress), ("cancelled", _Cancelled)]
+    _fields_ = [
+        ("user", C.c_void_p),
+        ("progress", _Progress),
+        ("cancelled", _Cancelled),
+        ("threads", C.c_size_t),
+    ]
 
 
 def library_path() -> str:
@@ -226,20 +231,29 @@ _on_progress = _Progress(_tell_progress)
 _on_cancelled = _Cancelled(_ask_cancelled)
 
 
+def watched_of(options: Dict[str, Any]) -> Dict[str, Any]:
+    """What of the options of a job is for its `Run`, taken out of them."""
+    return {name: options.pop(name, None) for name in ("progress", "cancelled", "threads")}
+
+
 class Run:
-    """Callbacks of one call: `with Run(progress, cancelled) as run: lib.obvid_fit(..., run, ...)`.
+    """Callbacks and threads of one call: `with Run(progress, cancelled) as run: lib.obvid_fit(..., run, ...)`.
 
     Ctrl-C ends the work, and an exception of a callback is raised again behind the call. Python
     would raise KeyboardInterrupt inside the callback, where C cannot take it: while the library
     works, the default handler of the main thread is one that remembers.
     """
 
-    __slots__ = ("watched", "key", "handler")
+    __slots__ = ("watched", "threads", "key", "handler")
 
     def __init__(
-        self, progress: Optional[ProgressFunction], cancelled: Optional[CancelledFunction]
+        self,
+        progress: Optional[ProgressFunction] = None,
+        cancelled: Optional[CancelledFunction] = None,
+        threads: Optional[int] = None,
     ) -> None:
         self.watched = _Watched(progress, cancelled)
+        self.threads = 0 if threads is None else threads
         self.key = 0
         self.handler: Any = None
 
@@ -255,7 +269,7 @@ class Run:
         if threading.current_thread() is threading.main_thread():
             if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
                 self.handler = signal.signal(signal.SIGINT, self._interrupted)
-        return RunStruct(self.key, _on_progress, _on_cancelled)
+        return RunStruct(self.key, _on_progress, _on_cancelled, self.threads)
 
     def __exit__(self, kind: Any, value: Any, trace: Any) -> None:
         if self.handler is not None:

@@ -6,7 +6,7 @@ import ctypes as C
 import json
 from typing import Any, Dict, NamedTuple, Optional, Tuple
 
-from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_text
+from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_text, watched_of
 from .contour import Contour, taken_files
 from .jobs import Points, Source, _source, read_text
 from .reports import Json, numbers_of
@@ -51,13 +51,13 @@ def alignment(points: Points, heights: Optional[Points] = None, **options: Any) 
     >>> round(1 / made.report["elements"][1]["curvature_start"], 1)
     100.0
     """
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     source = _with_heights(points)
     levels = None if heights is None else _source(heights)
     text = options_text({name.replace("_", "-"): value for name, value in options.items()})
     contour, files, said = C.c_void_p(), C.c_void_p(), C.c_void_p()
     error = C.POINTER(ErrorStruct)()
-    with Run(watched["progress"], watched["cancelled"]) as run:
+    with Run(**watched) as run:
         if lib.obvid_alignment(
             source._handle,
             None if levels is None else levels._handle,

@@ -8,7 +8,7 @@ import os
 import pathlib
 from typing import Any, List, NamedTuple, Sequence, Tuple, Union
 
-from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_text
+from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_text, watched_of
 from .contour import Contour, taken_files, write_all
 from .errors import UsageError
 from .jobs import Source, read, read_text
@@ -58,7 +58,7 @@ def cut(drawings: Union[Drawing, Sequence[Drawing]], **options: Any) -> CutProgr
     >>> made.report["report"]["beyond"] <= 0.01
     True
     """
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     alone = isinstance(drawings, (Source, Contour, str, os.PathLike))
     given: Sequence[Drawing] = [drawings] if alone else drawings  # type: ignore[list-item,assignment]
     sources = [_source(one) for one in given]
@@ -68,7 +68,7 @@ def cut(drawings: Union[Drawing, Sequence[Drawing]], **options: Any) -> CutProgr
         options["start"] = ",".join(repr(float(v)) for v in start)
     text = options_text({name.replace("_", "-"): value for name, value in options.items()})
     files, said, error = C.c_void_p(), C.c_void_p(), C.POINTER(ErrorStruct)()
-    with Run(watched["progress"], watched["cancelled"]) as run:
+    with Run(**watched) as run:
         if lib.obvid_cut(
             handles, len(sources), text, run, C.byref(files), C.byref(said), C.byref(error)
         ):

@@ -22,6 +22,7 @@ from ._library import (
     options_text,
     raise_error,
     taken_text,
+    watched_of,
 )
 from .contour import Contour, taken_files, write_all
 from .errors import CancelledError, NoContourError, NotProvedError, ObvidError
@@ -412,7 +413,7 @@ def fit_space(
 
 def _report(name: str, source: Source, text: Optional[bytes], watched: Dict[str, Any]) -> Json:
     out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
-    with Run(watched.get("progress"), watched.get("cancelled")) as run:
+    with Run(**watched) as run:
         code = getattr(lib, "obvid_" + name)(
             source._handle, text, run, C.byref(out), C.byref(error)
         )
@@ -493,7 +494,7 @@ def region(points: Points, **options: Any) -> Table:
     >>> r.json["construction"]["columns"][:2]
     ['R', "R'"]
     """
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     source = _prepared(points, options)
     text = _fit_options(source, options, (*_CONSTRUCTION, "insert"))
     values = _report("region", source, text, watched)
@@ -506,7 +507,7 @@ def worksheet(
     """Writes what `region` finds to a file: .csv, .tex, .json the tables; .svg, .dxf the limiting arcs,
     adjacent circles, tangents and triangles. Options of `region`. Returns what is to be said of it.
     """
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     source = _prepared(points, options)
     text = _fit_options(source, options, (*_CONSTRUCTION, "insert"))
     return _file_of("worksheet", source, path, text, watched)
@@ -522,7 +523,7 @@ def _file_of(
     """What a job of the library makes of points for one file, written."""
     target = pathlib.Path(path)
     out, error = C.c_void_p(), C.POINTER(ErrorStruct)()
-    with Run(watched["progress"], watched["cancelled"]) as run:
+    with Run(**watched) as run:
         ending = target.suffix.lstrip(".").encode()
         work = getattr(lib, "obvid_" + job)
         if work(source._handle, options, ending, run, C.byref(out), C.byref(error)):
@@ -532,7 +533,7 @@ def _file_of(
 
 def compare(points: Points, **options: Any) -> List[CarrierRow]:
     """All curve families through the same points, side by side. Options of `fit`."""
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     source = _prepared(points, options)
     return carrier_rows(_report("compare", source, _fit_options(source, options), watched))
 
@@ -560,7 +561,7 @@ def _fit_file(
     options: Dict[str, Any],
     more: Tuple[str, ...] = (),
 ) -> List[str]:
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     source = _prepared(points, options)
     return _file_of(job, source, path, _fit_options(source, options, more), watched)
 
@@ -581,14 +582,14 @@ def compare_curves(
     >>> round(found["as_they_lie"][0]["root_mean_square"], 6)
     0.25
     """
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     sources = [_source(one) for one in curves]
     if not sources:
         raise ValueError("two curves at least are laid over each other")
     handles = (C.c_void_p * len(sources))(*(one._handle for one in sources))
     text = _fit_options(sources[0], options, ("align", "enlarge"))
     files, said, error = C.c_void_p(), C.c_void_p(), C.POINTER(ErrorStruct)()
-    with Run(watched["progress"], watched["cancelled"]) as run:
+    with Run(**watched) as run:
         if lib.obvid_compare_curves(
             handles, len(sources), text, run, C.byref(files), C.byref(said), C.byref(error)
         ):
@@ -607,7 +608,7 @@ def compare_curves(
 def suggest(points: Points, **options: Any) -> List[Suggestion]:
     """How many vertices which tolerance would need; a tolerance that gives no contour has a row that says
     so. Options of `fit`."""
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     source = _prepared(points, options)
     try:
         values = _report("suggest", source, _fit_options(source, options), watched)
@@ -621,7 +622,7 @@ def suggest(points: Points, **options: Any) -> List[Suggestion]:
 def why_not(points: Points, **options: Any) -> Optional[NoContourError]:
     """Why `fit` finds no contour and what would do (`advice`, `points`); None where there is one.
     Takes some 15 times as long as `fit`."""
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     source = _prepared(points, options)
     try:
         _report("why_not", source, _fit_options(source, options), watched)

@@ -10,7 +10,7 @@ from typing import Any, List, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy.typing as npt
 
-from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_text
+from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_text, watched_of
 from .contour import taken_files, write_all
 from .errors import UsageError
 from .jobs import Source, read, read_text
@@ -52,11 +52,11 @@ class _Made(NamedTuple):
 
 
 def _call(function: Any, inputs: Sequence[Any], options: Mapping[str, Any], ending: Optional[str],
-          watched: Sequence[Any]) -> _Made:
+          watched: Mapping[str, Any]) -> _Made:
     text = options_text({name.replace("_", "-"): value for name, value in options.items()})
     surface, files, said = C.c_void_p(), C.c_void_p(), C.c_void_p()
     error = C.POINTER(ErrorStruct)()
-    with Run(*watched) as run:
+    with Run(**watched) as run:
         if function(*inputs, text, None if ending is None else ending.encode(), run, C.byref(surface),
                     C.byref(files), C.byref(said), C.byref(error)):
             raise raise_error(error)
@@ -71,7 +71,7 @@ class Spline:
     __slots__ = ("report", "surface", "_function", "_inputs", "_sources", "_options")
 
     def __init__(self, function: Any, sources: Sequence[Optional[Source]], options: Mapping[str, Any],
-                 watched: Sequence[Any]) -> None:
+                 watched: Mapping[str, Any]) -> None:
         self._function, self._sources, self._options = function, sources, options
         self._inputs = [None if one is None else one._handle for one in sources]
         made = _call(function, self._inputs, options, None, watched)
@@ -82,7 +82,7 @@ class Spline:
     def text(self, ending: str) -> str:
         """A file: "csv", "json", "svg", "dxf"; of control points "csv", "json", "dxf", "step", "iges",
         "brep". Formed anew with every call."""
-        made = _call(self._function, self._inputs, self._options, ending, (None, None))
+        made = _call(self._function, self._inputs, self._options, ending, {})
         assert made.files is not None
         return str(made.files[0][0][1].decode())
 
@@ -107,7 +107,7 @@ def spline(table: TableLike, against: Optional[TableLike] = None, **options: Any
     >>> made.report["rows"][0]["largest_error"]
     0.25
     """
-    watched = [options.pop(name, None) for name in ("progress", "cancelled")]
+    watched = watched_of(options)
     names = ("x", "y", "z") if options.get("curve") else ("x", "f")
     more = None if against is None else _table(against, names)
     return Spline(lib.obvid_spline, [_table(table, names), more], options, watched)
@@ -130,7 +130,7 @@ def nurbs(points: TableLike, **options: Any) -> Spline:
     >>> made.report["degree"], round(made.report["rows_of_weights"][3]["b"], 12)
     (3, 0.8)
     """
-    watched = [options.pop(name, None) for name in ("progress", "cancelled")]
+    watched = watched_of(options)
     for name in ("knots", "knots_v"):
         if options.get(name) is not None and not isinstance(options[name], str):
             options[name] = ",".join(repr(float(one)) for one in options[name])

@@ -11,7 +11,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_text
+from ._library import ErrorStruct, Run, lib, options_text, raise_error, taken_text, watched_of
 from .contour import Exported, taken_files, write_all
 from .errors import NotProvedError, ObvidError
 from .jobs import Source, read
@@ -251,7 +251,7 @@ def surface(
     drop_outliers, units, ...
     Raises `NotProvedError` where section contours are formed but not proved; its `surface` is there.
     """
-    watched = {name: options.pop(name, None) for name in ("progress", "cancelled")}
+    watched = watched_of(options)
     if kind in ("grid", "id") and len(inputs) == 1 and not isinstance(inputs[0], (Source, str, os.PathLike)):
         array = np.asarray(inputs[0], dtype=np.float64)
         if array.ndim == 3:
@@ -261,7 +261,7 @@ def surface(
     handles = [(C.c_void_p * len(some))(*[one._handle for one in some]) for some in (first, second)]
     text = options_text({k.replace("_", "-"): v for k, v in options.items()})
     out, said, error = C.c_void_p(), C.c_void_p(), C.POINTER(ErrorStruct)()
-    with Run(watched["progress"], watched["cancelled"]) as run:
+    with Run(**watched) as run:
         code = lib.obvid_surface_make(
             kind.encode(), handles[0], len(first), handles[1], len(second), text, run,
             C.byref(out), C.byref(said), C.byref(error),

@@ -179,7 +179,7 @@ Result<std::vector<double>> offs_at(const ShownDeviation& deviation, std::size_t
                                     const RunContext& run) {
   constexpr std::size_t kBlock = 64;  // searches between two questions whether to go on: some ms
   std::vector<double> out(count);
-  OBVID_TRY(in_parallel((count + kBlock - 1) / kBlock, 0, run, [&](std::size_t block) {
+  OBVID_TRY(in_parallel((count + kBlock - 1) / kBlock, run, [&](std::size_t block) {
     const std::size_t end = std::min(count, (block + 1) * kBlock);
     for (std::size_t i = block * kBlock; i < end; ++i) out[i] = deviation.of_place(place(i));
   }));

@@ -168,10 +168,11 @@ std::string rounding_option(bool closed, const PointSeries& series) {
 Result<Refusal> explain_refusal(const PointSeries& series, const FitJob& job, const Error& refusal,
                                 const RunContext& run) {
   bool cancelled = false;  // once said, it holds for both searches
-  const RunContext once(run.progress, [&] {
+  RunContext once = run;
+  once.cancelled = [&] {
     cancelled = cancelled || (run.cancelled && run.cancelled());
     return cancelled;
-  });
+  };
   Refusal out{refusal, {}, {}};
   // tolerances of points do not help a carrier that cannot keep what was given
   // and where a long series has given data in the way, these are it: the search would take minutes

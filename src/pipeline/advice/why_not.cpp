@@ -46,7 +46,7 @@ class Search {
         job_(unmeasured(with_closing(series, job))),
         measured_(job.measure_against_spirals),
         progress_(run.progress),
-        watch_({{}, run.cancelled}),
+        watch_(without_progress(run)),
         most_(kSpareSearch + kSearchSteps * static_cast<double>(series.points.size())) {
     out_.refusal = refusal;
   }
@@ -272,7 +272,7 @@ std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job, cons
 }
 
 std::optional<WhyNot> why_not(const PointSeries& series, const FitJob& job, const RunContext& run) {
-  const auto asked = fit(series, job, RunContext({}, run.cancelled));
+  const auto asked = fit(series, job, without_progress(run));
   if (asked) return std::nullopt;
   return why_not(series, job, asked.error(), run);
 }

@@ -229,7 +229,7 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
   const double near = kNearTransition * *std::min_element(tolerance->begin(), tolerance->end());
   const auto drawn = curve_of(*alignment, series.name, near);
   OBVID_TRY(drawn);
-  auto audited = audit(*drawn, series.units, {Progress{}, run.cancelled});
+  auto audited = audit(*drawn, series.units, without_progress(run));
   OBVID_TRY(audited);
   out.transitions = std::move(audited->transitions);
   tell_transitions(*alignment, job.transitions, near, series.units, out.remarks);

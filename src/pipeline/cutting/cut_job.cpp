@@ -182,7 +182,7 @@ Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& opt
                          const CutJob& job, const RunContext& run) {
   MadeCut made;
   std::vector<Units> units;
-  const RunContext asked{Progress{}, run.cancelled};  // its progress is that of the program
+  const RunContext asked = without_progress(run);  // its progress is that of the program
   for (Drawing& drawing : drawings) {
     if (job.units) {
       if (auto told = take_units(drawing.units, *job.units)) made.warnings.push_back(*told);

@@ -55,7 +55,7 @@ std::string name_of(const std::string& path) {
 
 Result<Drawing> drawing_of_contour(const std::string& text, const std::string& path,
                                    const RunContext& run) {
-  Watch watch({{}, run.cancelled});
+  Watch watch(without_progress(run));
   auto stored = contour_from_json(text, path, &watch);
   OBVID_TRY(stored);
   Contour& contour = stored->contour;

@@ -11,7 +11,7 @@ namespace obvid {
 
 Result<Stored> parse_stored(const std::string& text, const std::string& name,
                             const RunContext& run) {
-  Watch watch({{}, run.cancelled});
+  Watch watch(without_progress(run));
   if (is_space_json(text)) {
     auto chain = space_chain_from_json(text, name, &watch);
     OBVID_TRY(chain);

@@ -103,7 +103,7 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how
     return ReadCurve{
         series.name, series.units, line_between(series.points.front(), series.points.back()), {}};
   }
-  const Result<Fit> made = fit(flat, how.sections, {Progress{}, run.cancelled});
+  const Result<Fit> made = fit(flat, how.sections, without_progress(run));
   if (!made && how.plain_when_refused && category(made.error().code) == ErrorCategory::kNoContour) {
     auto curve = spline_through(series);
     if (!curve) return curve;

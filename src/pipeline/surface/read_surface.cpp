@@ -27,7 +27,7 @@ Result<SurfaceModel> read_trimmed(const SurfaceInput& input, std::vector<std::st
   const Result<std::string> text = input.text ? *input.text : read_file(path);
   OBVID_TRY(text);
   if (is_json_text(*text)) {
-    Watch watch({{}, run.cancelled});
+    Watch watch(without_progress(run));
     return surface_from_json(*text, path, &watch);
   }
   if (!needs_cad(*text)) {

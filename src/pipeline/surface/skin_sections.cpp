@@ -181,7 +181,7 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
     }
     ++done;
   };
-  OBVID_TRY(in_parallel(sections.size(), 0, run, form));
+  OBVID_TRY(in_parallel(sections.size(), run, form));
   std::vector<SkinSection> made;
   double moved = 0.0;
   for (Formed& one : formed) {

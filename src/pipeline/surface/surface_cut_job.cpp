@@ -267,7 +267,7 @@ Result<MadeSurfaceCut> cut_surface(const SurfaceModel& model, const SurfaceCutJo
         one.fair.push_back(fair_branch(one, branch, *job.fair, made.units, asked));
       }
     };
-    OBVID_TRY(in_parallel(count, 0, run, work));
+    OBVID_TRY(in_parallel(count, run, work));
     for (const auto& one : failed) {
       if (one) return fail(*one);
     }

@@ -83,7 +83,8 @@ Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob&
         .hint("give --rest-of")
         .value(*job.rest_corner);
   }
-  const ToolpathOptions options = options_for(job, model.units);
+  ToolpathOptions options = options_for(job, model.units);
+  if (run.threads != 0) options.threads = run.threads;
   OBVID_TRY(check_effort(model, options));
   auto path = plan(model, options, run);
   OBVID_TRY(path);

@@ -105,7 +105,7 @@ std::size_t control_points(const Contour& contour) {
 Result<Comparison> compare_carriers(const PointSeries& series, const FitJob& job,
                                     const RunContext& run, Comparison* finished) {
   Comparison out;
-  Watch watch({{}, run.cancelled});  // the bar shows carriers
+  Watch watch(without_progress(run));  // the bar shows carriers
   pipeline_detail::FoundChains chains;
   for (const Carrier carrier : kAllCarriers) {
     const auto done = static_cast<double>(out.carriers.size());

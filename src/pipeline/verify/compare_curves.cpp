@@ -143,7 +143,7 @@ Result<CurveInput> drawn_curve(Drawing drawing, const ReadCurveOptions& how,
   if (how.units) {
     if (auto told = take_units(drawing.units, *how.units)) drawing.warnings.push_back(*told);
   }
-  auto drawn = drawn_contour(std::move(drawing), how.import, name, {Progress{}, run.cancelled});
+  auto drawn = drawn_contour(std::move(drawing), how.import, name, without_progress(run));
   OBVID_TRY(drawn);
   CurveInput out;
   out.curve.name = name;

@@ -382,7 +382,7 @@ int notes(void* user) {
 /// printed (50 ms are aimed at; benches/cancellation.py measures longer jobs), not judged.
 void ask_often(const Job& job, const Handles& h, const std::string& wanted) {
   Gaps gaps{own_seconds()};
-  const obvid_run run{&gaps, nullptr, notes};
+  const obvid_run run{&gaps, nullptr, notes, 0};
   if (job.work(h, &run) != wanted) fault(job.name, "says something else when it is asked");
   notes(&gaps);
   if (gaps.questions < 2) fault(job.name, "never asks whether to go on");
@@ -395,7 +395,7 @@ void ask_often(const Job& job, const Handles& h, const std::string& wanted) {
 void end_in_the_middle(const Job& job, const Handles& h, const std::string& wanted) {
   for (const int after : {0, 1, 3}) {
     Ending ending{after};
-    const obvid_run run{&ending, nullptr, ends};
+    const obvid_run run{&ending, nullptr, ends, 0};
     const std::string got = job.work(h, &run);
     const std::string cancelled = code_text(OBVID_CANCELLED);
     const bool nothing = got == cancelled || got == "0" + cancelled;

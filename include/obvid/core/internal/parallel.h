@@ -22,17 +22,20 @@ void in_parallel(std::size_t count, std::size_t threads,
 void in_lots(std::size_t count, std::size_t together, std::size_t threads,
              const std::function<void(std::size_t, std::size_t)>& work);
 
-/// `in_parallel` for work that whoever waits may stop: the calling thread, which works too, asks
-/// after each of its numbers, and every few milliseconds while it waits for others. Error: E103;
-/// some numbers are left out then.
-[[nodiscard]] Result<void> in_parallel(std::size_t count, std::size_t threads,
-                                       const RunContext& run,
+/// `in_parallel` for work that whoever waits may stop, on the threads of `run`: the calling thread,
+/// which works too, asks after each of its numbers, and every few milliseconds while it waits for
+/// others. Error: E103; some numbers are left out then.
+[[nodiscard]] Result<void> in_parallel(std::size_t count, const RunContext& run,
                                        const std::function<void(std::size_t)>& work);
 
-/// The same for work that takes long itself: it gets a context that it asks in between. On the
-/// calling thread that asks `run`, on others whether it said to stop; it tells no progress.
+/// The same for work that takes long itself: it gets a context that it asks in between, with its
+/// share of the threads. On the calling thread that asks `run`, on others whether it said to stop;
+/// it tells no progress.
 [[nodiscard]] Result<void> in_parallel(
-    std::size_t count, std::size_t threads, const RunContext& run,
+    std::size_t count, const RunContext& run,
     const std::function<void(std::size_t, const RunContext&)>& work);
+
+/// `run` with so many threads; 0: those that it has.
+[[nodiscard]] RunContext with_threads(RunContext run, std::size_t threads);
 
 }  // namespace obvid
