@@ -20,7 +20,7 @@ CANCELLED = C.CFUNCTYPE(C.c_int, C.c_void_p)
 
 
 class Run(C.Structure):
-    _fields_ = [("user", C.c_void_p), ("progress", PROGRESS), ("cancelled", CANCELLED)]
+    _fields_ = [("user", C.c_void_p), ("progress", PROGRESS), ("cancelled", CANCELLED), ("threads", C.c_size_t)]
 
 
 def wave(count):

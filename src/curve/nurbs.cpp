@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "obvid/curve/internal/basis.h"
+#include "obvid/curve/internal/blossom.h"
 #include "obvid/curve/internal/homogeneous.h"
 #include "obvid/curve/internal/knots.h"
 
@@ -37,21 +38,14 @@ bool belongs_together(const Nurbs<V>& c) {
          c.knots.size() == c.points.size() + p + 1;
 }
 
-/// Blossom of the span [knots[k], knots[k + 1]] with `right` arguments at its end and the others at
-/// its start: Bezier control point number `right` (de Boor's algorithm, one argument per step).
+/// Bezier control point number `right` of the span [knots[k], knots[k + 1]].
 template <class V>
 Vec4 span_point(const Nurbs<V>& c, std::size_t k, std::size_t right) {
   const auto p = static_cast<std::size_t>(c.degree);
   std::array<Vec4, kMaxNurbsDegree + 1> d{};
   for (std::size_t j = 0; j <= p; ++j) d[j] = lifted(c.points, c.weights, k - p + j);
-  for (std::size_t r = 1; r <= p; ++r) {
-    const double u = r <= right ? c.knots[k + 1] : c.knots[k];
-    for (std::size_t j = p; j >= r; --j) {
-      const double low = c.knots[k - p + j], high = c.knots[k + j + 1 - r];
-      d[j] = between(d[j - 1], d[j], (u - low) / (high - low));
-    }
-  }
-  return d[p];
+  return blossom(c.knots, k, p, d, right, c.knots[k + 1], c.knots[k],
+                 [](const Vec4& a, const Vec4& b, double share) { return between(a, b, share); });
 }
 
 }  // namespace

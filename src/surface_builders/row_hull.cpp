@@ -3,30 +3,19 @@
 
 #include <algorithm>
 
+#include "obvid/curve/internal/blossom.h"
+
 namespace obvid {
 namespace {
 
-using MixShares = std::array<double, kMostLineDegree + 1>;
-
-/// MixShares of the p + 1 coefficients of a span that begins with knot number `s` in the blossom at
-/// p - j times `a` and j times `b`, both of the span: Bezier point number j of [a, b].
-MixShares shares_of_blossom(int degree, const std::vector<double>& knots, std::size_t s,
-                            std::size_t j, double a, double b) {
+/// Shares of the coefficients of a span that begins with knot number `s` in Bezier point number j
+/// of [a, b], both of the span.
+std::array<double, kMostLineDegree + 1> shares_of_blossom(int degree,
+                                                          const std::vector<double>& knots,
+                                                          std::size_t s, std::size_t j, double a,
+                                                          double b) {
   const auto p = static_cast<std::size_t>(degree);
-  // row i: shares in the point number i of de Boor's scheme
-  std::array<MixShares, kMostLineDegree + 1> scheme{};
-  for (std::size_t i = 0; i <= p; ++i) scheme[i][i] = 1.0;
-  for (std::size_t r = 1; r <= p; ++r) {
-    const double at = r <= p - j ? a : b;
-    for (std::size_t i = p; i >= r; --i) {
-      const double from = knots[s - p + i], to = knots[s + 1 + i - r];
-      const double part = (at - from) / (to - from);
-      for (std::size_t k = 0; k <= p; ++k) {
-        scheme[i][k] = (1.0 - part) * scheme[i - 1][k] + part * scheme[i][k];
-      }
-    }
-  }
-  return scheme[p];
+  return blossom_weights<kMostLineDegree + 1>(knots, s, p, p - j, a, b);
 }
 
 /// Parameter at a part of a span.

@@ -28,19 +28,13 @@ constexpr double kChainRoundedPart = 1e-12, kRoundingsOfChain = 64.0;
 /// Printed digits that are few beside the chords belong to nominal sizes (as in the plane).
 constexpr double kLargestPrintedPart = 0.05;
 
-double chain_extent(const std::vector<Vec3>& points) {
-  double out = 0.0;
-  for (const Vec3& p : points) out = std::max(out, norm(p - points.front()));
-  return out;
-}
-
 /// Lengths below this are rounding.
 double chain_rounding(const std::vector<Vec3>& points) {
   double coordinate = 0.0;
   for (const Vec3& p : points) {
     coordinate = std::max({coordinate, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  return kChainRoundedPart * chain_extent(points) + kRoundingsOfChain * 0x1p-53 * coordinate;
+  return kChainRoundedPart * farthest_from_first(points) + kRoundingsOfChain * 0x1p-53 * coordinate;
 }
 
 /// How far points may lie from where they belong.
@@ -330,7 +324,7 @@ Result<SpaceChain> fit_space_chain(const SpaceSeries& series, const SpaceJob& jo
   return ChainForming(series, job, run).run();
 }
 
-double size_of(const SpaceChain& chain) { return chain_extent(chain.points); }
+double size_of(const SpaceChain& chain) { return farthest_from_first(chain.points); }
 
 Result<std::vector<SpaceNurbs>> chain_nurbs(const SpaceChain& chain,
                                             std::optional<double> tolerance,

@@ -16,6 +16,7 @@
 namespace obvid {
 namespace {
 
+using pipeline_detail::farthest_from_first;
 using pipeline_detail::HeightOrder;
 using pipeline_detail::SpaceEnds;
 using pipeline_detail::SpacePlace;
@@ -27,12 +28,6 @@ constexpr double kPlanarPart = 1e-9;
 constexpr int kPlacesOfSpan = 32;
 /// Places among which the one nearest to a moved point is sought before it is refined.
 constexpr int kGuesses = 32;
-
-double largest_extent(const std::vector<Vec3>& points) {
-  double out = 0.0;
-  for (const Vec3& p : points) out = std::max(out, norm(p - points.front()));
-  return out;
-}
 
 /// Frame whose normal is the direction that is looked along, or its opposite: x to the right and y
 /// upward as drawings have them.
@@ -74,7 +69,7 @@ PointSeries flat_series(const SpaceSeries& series, const Frame& frame, const Spa
 /// The plane through both ends (one, where they are the same) that the others are nearest to.
 Frame plane_through_ends(const std::vector<Vec3>& points) {
   const Vec3 start = points.front(), chord = points.back() - start;
-  const double length = norm(chord), size = largest_extent(points);
+  const double length = norm(chord), size = farthest_from_first(points);
   const Vec3 along = length > 0.0 ? chord / length : Vec3{};
   std::vector<Vec3> around;
   for (const Vec3& p : points) {
@@ -453,8 +448,8 @@ PlaneOfSpace plane_of_space(const SpaceSeries& series, const SpaceJob& job, cons
   const bool pinned = ends.first_is_corner || ends.last_is_corner;
   PlaneOfSpace out{pinned ? plane_through_ends(series.points) : plane_of(series.points)};
   const double across = rounding_in(out.frame, series.rounding).across;
-  const double allowed =
-      std::max({kPlanarPart * largest_extent(series.points), across, job.fit.noise.value_or(0.0)});
+  const double allowed = std::max(
+      {kPlanarPart * farthest_from_first(series.points), across, job.fit.noise.value_or(0.0)});
   for (const Vec3& p : series.points) {
     out.flatness = std::max(out.flatness, std::abs(out.frame.height(p)));
   }
@@ -465,7 +460,7 @@ PlaneOfSpace plane_of_space(const SpaceSeries& series, const SpaceJob& job, cons
 
 }  // namespace pipeline_detail
 
-double size_of(const SpaceFit& fit) { return largest_extent(fit.points); }
+double size_of(const SpaceFit& fit) { return farthest_from_first(fit.points); }
 
 namespace pipeline_detail {
 
