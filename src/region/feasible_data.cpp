@@ -560,7 +560,7 @@ class Both {
     return range.high - range.low;
   }
 
-  /// The headings at which there is room, as far as they hang together with the most roomy one.
+  /// The headings at which there is room, as far as they are connected with the most roomy one.
   [[nodiscard]] std::optional<HeadingRange> headings() const {
     if (!any_) return std::nullopt;
     const std::vector<double> grid = all_headings();

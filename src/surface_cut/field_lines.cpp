@@ -91,7 +91,7 @@ class FieldLines {
     }
     if (there.size() == 2) return link(there[0], there[1]);
     if (there.size() != 4) return;
-    // a saddle: the middle decides which corners hang together
+    // a saddle: the middle decides which corners are connected
     const double middle = value(0.5 * (us_[i] + us_[i + 1]), 0.5 * (vs_[j] + vs_[j + 1]));
     if ((middle < 0.0) == negative(node(i, j))) {
       link(at[0], at[1]);

@@ -31,7 +31,7 @@ struct JointEdge {
   int uses = 1;
 };
 
-/// Patches that hang together.
+/// Patches connected by shared borders.
 struct Joined {
   std::vector<std::size_t> patches;
   bool closed = false;  ///< no border is free
@@ -51,7 +51,7 @@ enum class JoinedWith { kAll, kItself };
 
 /// Edges of a topology with two sides each: where more meet, pairs are made in the order of the
 /// patches. A patch meets itself in its seam only: opposite sides in the same direction. Normals of
-/// patches that hang together are on one side; where that cannot be (Moebius) an edge stays apart.
+/// connected patches are on one side; where that cannot be (Moebius) an edge stays apart.
 [[nodiscard]] Joints joints_of(const std::vector<NurbsSurface>& patches, const Topology& topology,
                                JoinedWith joined);
 

@@ -19,7 +19,7 @@ struct NamedFaces {
 };
 
 /// Faces on the patches' own splines, lengths times `scale`; patches that meet (`topology_of`,
-/// edges know how far their two faces are apart) hang together in a shell, in a solid when no
+/// edges know how far their two faces are apart) form a connected shell, in a solid when no
 /// border is free (normals outwards then). What the kernel's check finds wrong is taken apart into
 /// faces. Errors: E304 no patches, E309 no size, E310 more creases than faces are sensible, E101
 /// when the kernel refuses a face, and what `check` finds; `where` names the patch.
