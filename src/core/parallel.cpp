@@ -152,6 +152,13 @@ Result<void> in_parallel(std::size_t count, const RunContext& run,
   return in_parallel(count, run, [&](std::size_t i, const RunContext&) { work(i); });
 }
 
+Result<void> in_lots(std::size_t count, std::size_t together, const RunContext& run,
+                     const std::function<void(std::size_t, std::size_t)>& work) {
+  return in_parallel((count + together - 1) / together, run, [&](std::size_t lot) {
+    work(lot * together, std::min(count, (lot + 1) * together));
+  });
+}
+
 RunContext with_threads(RunContext run, std::size_t threads) {
   if (threads != 0) run.threads = threads;
   return run;

@@ -193,9 +193,9 @@ class Measurer {
 }  // namespace
 
 // Some cells together, each lot by itself: what one has seen is no measure for another.
-Measured measure(const PatchSampler& sampler, const Mesh& mesh,
-                 const std::vector<CellTriangles>& triangles, std::vector<CellSeen>& seen,
-                 double tolerance, std::size_t threads) {
+Result<Measured> measure(const PatchSampler& sampler, const Mesh& mesh,
+                         const std::vector<CellTriangles>& triangles, std::vector<CellSeen>& seen,
+                         double tolerance, const RunContext& run) {
   const Measurer measurer(sampler, mesh, tolerance);
   std::vector<std::size_t> first{0};  // triangle of each cell
   for (const CellTriangles& cell : triangles) first.push_back(first.back() + cell.count);
@@ -205,7 +205,7 @@ Measured measure(const PatchSampler& sampler, const Mesh& mesh,
     std::vector<std::size_t> bad;
   };
   std::vector<Lot> lots((triangles.size() + kCellsTogether - 1) / kCellsTogether);
-  in_parallel(lots.size(), threads, [&](std::size_t number) {
+  OBVID_TRY(in_parallel(lots.size(), run, [&](std::size_t number) {
     Lot& lot = lots[number];
     const std::size_t end = std::min(triangles.size(), (number + 1) * kCellsTogether);
     for (std::size_t cell = number * kCellsTogether; cell < end; ++cell) {
@@ -228,7 +228,7 @@ Measured measure(const PatchSampler& sampler, const Mesh& mesh,
         seen[cell] = {triangles[cell].outline, worst};
       }
     }
-  });
+  }));
   Measured out;
   out.bad.assign(triangles.size(), false);
   for (const Lot& lot : lots) {

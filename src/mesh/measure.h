@@ -30,8 +30,10 @@ struct Measured {
 /// Distances of triangles from the surface, at points between those that led to the triangles:
 /// middles of edges (of borders: from the border curve), centroids, more of them where a triangle
 /// reaches over several spans. Cells that were good and have not changed are not looked at again.
-[[nodiscard]] Measured measure(const PatchSampler& sampler, const Mesh& mesh,
-                               const std::vector<CellTriangles>& triangles,
-                               std::vector<CellSeen>& seen, double tolerance, std::size_t threads);
+/// Error: E103.
+[[nodiscard]] Result<Measured> measure(const PatchSampler& sampler, const Mesh& mesh,
+                                       const std::vector<CellTriangles>& triangles,
+                                       std::vector<CellSeen>& seen, double tolerance,
+                                       const RunContext& run);
 
 }  // namespace obvid::mesh

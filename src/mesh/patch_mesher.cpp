@@ -42,24 +42,30 @@ double slimness(Vec3 a, Vec3 b, Vec3 c) {
 }  // namespace
 
 PatchMesher::PatchMesher(const PatchSampler& sampler, const CellTree& tree, const Borders& borders,
-                         std::size_t patch, std::size_t threads)
+                         std::size_t patch)
     : sampler_(sampler),
       tree_(tree),
       block_u_(blocks_of(tree.edges_u())),
       block_v_(blocks_of(tree.edges_v())) {
   collect_nodes();
   for (const PatchSide side : kPatchSides) collect_border(side, patch, borders);
-  sample_nodes(threads);
+}
+
+Result<void> PatchMesher::run(const RunContext& run) {
+  constexpr std::size_t kCellsOfStep = 4096;  // between two questions
+  OBVID_TRY(sample_nodes(run));
   vertex_.assign(nodes_.size(), kNone);
   mesh_.vertices.reserve(nodes_.size());
-  mesh_.triangles.reserve(2 * tree.cells().size());
-  for (const Cell& cell : tree.cells()) {
+  mesh_.triangles.reserve(2 * tree_.cells().size());
+  for (const Cell& cell : tree_.cells()) {
+    if (of_cells_.size() % kCellsOfStep == 0) OBVID_TRY(may_go_on(run));
     const std::size_t before = mesh_.triangles.size();
     add_cell(cell);
     of_cells_.push_back(
         {static_cast<std::uint32_t>(mesh_.triangles.size() - before), outline_of(cell)});
   }
   give_missing_normals();
+  return {};
 }
 
 /// Where the surface has none (a line instead of an area around the point): those of triangles.
@@ -259,11 +265,11 @@ Sample PatchMesher::sample_in(const Cell& cell, const Node& node) const {
                          place_in(sampler_.v(), node.v, cell.v0, cell.v1));
 }
 
-void PatchMesher::sample_nodes(std::size_t threads) {
+Result<void> PatchMesher::sample_nodes(const RunContext& run) {
   const auto& cells = tree_.cells();
   std::vector<std::atomic<std::uint32_t>> first(nodes_.size());
   for (auto& one : first) one = kNone;
-  in_lots(cells.size(), kTogether, threads, [&](std::size_t from, std::size_t to) {
+  OBVID_TRY(in_lots(cells.size(), kTogether, run, [&](std::size_t from, std::size_t to) {
     std::vector<Id> outline;
     for (std::size_t c = from; c < to; ++c) {
       for (const PatchSide side : kPatchSides) {
@@ -275,9 +281,9 @@ void PatchMesher::sample_nodes(std::size_t threads) {
         }
       }
     }
-  });
+  }));
   normals_.resize(nodes_.size());
-  in_lots(nodes_.size(), kTogether, threads, [&](std::size_t from, std::size_t to) {
+  return in_lots(nodes_.size(), kTogether, run, [&](std::size_t from, std::size_t to) {
     for (std::size_t id = from; id < to; ++id) {
       Node& node = nodes_[id];
       if (node.on_edge || first[id] == kNone) continue;

@@ -14,8 +14,10 @@ namespace obvid::mesh {
 class PatchMesher {
  public:
   PatchMesher(const PatchSampler& sampler, const CellTree& tree, const Borders& borders,
-              std::size_t patch, std::size_t threads);
+              std::size_t patch);
 
+  /// Makes the triangles. Error: E103.
+  Result<void> run(const RunContext& run);
   [[nodiscard]] Mesh take() { return std::move(mesh_); }
   [[nodiscard]] const std::vector<CellTriangles>& triangles_of_cells() const { return of_cells_; }
 
@@ -32,7 +34,7 @@ class PatchMesher {
   void give_missing_normals();
   void collect_nodes();
   /// Those that are not on edges, from the first cell that has them on its outline.
-  void sample_nodes(std::size_t threads);
+  Result<void> sample_nodes(const RunContext& run);
   [[nodiscard]] Sample sample_in(const Cell& cell, const Node& node) const;
   void collect_border(PatchSide side, std::size_t patch, const Borders& borders);
   void add_cell(const Cell& cell);

@@ -11,6 +11,7 @@
 #include "borders.h"
 #include "cell_tree.h"
 #include "measure.h"
+#include "obvid/core/internal/parallel.h"
 #include "obvid/mesh/mesh.h"
 #include "patch_mesher.h"
 #include "trimmed.h"
@@ -135,28 +136,30 @@ class Tessellator {
 
   /// Triangles of one patch; true: cells were cut, it has to be drawn again.
   Result<bool> draw(const Borders& borders, std::size_t p, bool may_cut, Mesh& mesh) {
-    PatchMesher mesher(samplers_[p], trees_[p], borders, p, options_.threads);
+    const RunContext run = with_threads(run_, options_.threads);
+    PatchMesher mesher(samplers_[p], trees_[p], borders, p);
+    OBVID_TRY(mesher.run(run));
     mesh = mesher.take();
-    const mesh::Measured measured =
-        mesh::measure(samplers_[p], mesh, mesher.triangles_of_cells(), seen_[p],
-                      options_.chord_tolerance, options_.threads);
-    mesh.deviation = measured.deviation;
+    const auto measured = mesh::measure(samplers_[p], mesh, mesher.triangles_of_cells(), seen_[p],
+                                        options_.chord_tolerance, run);
+    OBVID_TRY(measured);
+    mesh.deviation = measured->deviation;
     if (mesh.triangles.size() > options_.most_triangles) {
       return error(ErrorCode::kToleranceNotReached,
                    fmt::format("the surface needs more than {} triangles", options_.most_triangles))
           .hint("allow a larger chord tolerance or angle, or more triangles")
           .value(static_cast<double>(options_.most_triangles));
     }
-    if (measured.any_bad && may_cut) {
-      auto cut = trees_[p].improve(measured.bad, seen_[p]);
+    if (measured->any_bad && may_cut) {
+      auto cut = trees_[p].improve(measured->bad, seen_[p]);
       if (!cut || *cut) return cut;
     }
-    if (measured.deviation > options_.chord_tolerance) {
+    if (measured->deviation > options_.chord_tolerance) {
       return error(ErrorCode::kToleranceNotReached,
                    fmt::format("triangles are {:.3g} off the surface however small they are",
-                               measured.deviation))
+                               measured->deviation))
           .hint("the surface folds or has a cusp there; allow a larger chord tolerance")
-          .value(measured.deviation);
+          .value(measured->deviation);
     }
     return false;
   }

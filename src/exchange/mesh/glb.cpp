@@ -29,8 +29,8 @@ json as_json(Vec3 p) { return json::array({p.x, p.y, p.z}); }
 
 class GlbWriter {
  public:
-  GlbWriter(const SurfaceModel& model, const std::vector<Mesh>& meshes, double metres)
-      : model_(model), meshes_(meshes), metres_(metres) {
+  GlbWriter(const SurfaceModel& model, const std::vector<Mesh>& meshes, double metres, Watch* watch)
+      : model_(model), meshes_(meshes), metres_(metres), watch_(watch), steps_(watch) {
     Box3 box;
     for (const Mesh& mesh : meshes) {
       for (const MeshVertex& v : mesh.vertices) box.add(v.point);
@@ -42,7 +42,9 @@ class GlbWriter {
     head();
     for (std::size_t p = 0; p < meshes_.size(); ++p) {
       if (meshes_[p].triangles.empty()) continue;
-      if (!add_mesh(p)) return fail(exchange::too_large("glTF"));
+      const bool held = add_mesh(p);
+      if (has_ended(watch_)) return fail(cancelled_error());
+      if (!held) return fail(exchange::too_large("glTF"));
     }
     document_["buffers"] = json::array({{{"byteLength", data_.size()}}});
     std::string text = document_.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -103,6 +105,7 @@ class GlbWriter {
     std::size_t from = data_.size();
     Box3 box;
     for (const MeshVertex& v : mesh.vertices) {
+      if (steps_.end()) return false;
       box.add(exchange::single(v.point - middle_));
       exchange::put_single(data_, v.point - middle_);
     }
@@ -115,17 +118,22 @@ class GlbWriter {
                                        {"min", as_json(box.low)},
                                        {"max", as_json(box.high)}});
     from = data_.size();
-    for (const MeshVertex& v : mesh.vertices) exchange::put_single(data_, v.normal);
+    for (const MeshVertex& v : mesh.vertices) {
+      if (steps_.end()) return false;
+      exchange::put_single(data_, v.normal);
+    }
     attributes["NORMAL"] = floats(from, "VEC3", count);
     from = data_.size();
     const exchange::TextureMap texture(model_.patches[p].surface);
     for (const MeshVertex& v : mesh.vertices) {
+      if (steps_.end()) return false;
       exchange::put(data_, static_cast<float>(texture.s(v)));
       exchange::put(data_, static_cast<float>(texture.t(v)));
     }
     attributes["TEXCOORD_0"] = floats(from, "VEC2", count);
     from = data_.size();
     for (const auto& t : mesh.triangles) {
+      if (steps_.end()) return false;
       for (const std::uint32_t v : t) exchange::put(data_, v);
     }
     const std::size_t indices = accessor(from, kElementBuffer,
@@ -167,6 +175,8 @@ class GlbWriter {
   const SurfaceModel& model_;
   const std::vector<Mesh>& meshes_;
   double metres_;  ///< in a unit of the model
+  Watch* watch_;
+  Steps steps_;
   Vec3 middle_;
   json document_;
   std::string data_;
@@ -174,11 +184,12 @@ class GlbWriter {
 
 }  // namespace
 
-Result<std::string> glb_text(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
+Result<std::string> glb_text(const SurfaceModel& model, const std::vector<Mesh>& meshes,
+                             Watch* watch) {
   OBVID_TRY(exchange::counts_of(model, meshes));
   const auto metres = unit_ratio(model.units, "m", "glTF files");
   OBVID_TRY(metres);
-  return GlbWriter(model, meshes, *metres).run();
+  return GlbWriter(model, meshes, *metres, watch).run();
 }
 
 }  // namespace obvid

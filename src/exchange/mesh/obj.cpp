@@ -23,6 +23,8 @@ struct HashOfPoint {
 
 class ObjWriter {
  public:
+  explicit ObjWriter(Watch* watch) : steps_(watch) {}
+
   std::string take() { return std::move(text_); }
 
   void head(const SurfaceModel& model) {
@@ -39,12 +41,15 @@ class ObjWriter {
     const std::vector<std::size_t> points = add_points(mesh);
     const exchange::TextureMap texture(patch.surface);
     for (const MeshVertex& v : mesh.vertices) {
+      if (steps_.end()) return;
       add("vt {:.9g} {:.9g}\n", texture.s(v), texture.t(v));
     }
     for (const MeshVertex& v : mesh.vertices) {
+      if (steps_.end()) return;
       add("vn {:.7g} {:.7g} {:.7g}\n", v.normal.x, v.normal.y, v.normal.z);
     }
     for (const auto& t : mesh.triangles) {
+      if (steps_.end()) return;
       add("f {0}/{1}/{1} {2}/{3}/{3} {4}/{5}/{5}\n", points[t[0]], corners_ + t[0] + 1,
           points[t[1]], corners_ + t[1] + 1, points[t[2]], corners_ + t[2] + 1);
     }
@@ -62,6 +67,7 @@ class ObjWriter {
     std::vector<std::size_t> numbers;
     numbers.reserve(mesh.vertices.size());
     for (const MeshVertex& v : mesh.vertices) {
+      if (steps_.end()) break;
       const auto [place, is_new] = points_.try_emplace(v.point, points_.size() + 1);
       numbers.push_back(place->second);
       if (is_new) add("v {} {} {}\n", v.point.x, v.point.y, v.point.z);
@@ -69,6 +75,7 @@ class ObjWriter {
     return numbers;
   }
 
+  Steps steps_;
   std::string text_;
   std::unordered_map<Vec3, std::size_t, HashOfPoint> points_;
   std::size_t corners_ = 0;  ///< normals and texture coordinates so far
@@ -76,11 +83,13 @@ class ObjWriter {
 
 }  // namespace
 
-Result<std::string> obj_mesh_text(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
+Result<std::string> obj_mesh_text(const SurfaceModel& model, const std::vector<Mesh>& meshes,
+                                  Watch* watch) {
   OBVID_TRY(exchange::counts_of(model, meshes));
-  ObjWriter writer;
+  ObjWriter writer(watch);
   writer.head(model);
   for (std::size_t p = 0; p < meshes.size(); ++p) writer.patch(model.patches[p], meshes[p], p + 1);
+  if (has_ended(watch)) return fail(cancelled_error());
   return writer.take();
 }
 

@@ -16,7 +16,8 @@ constexpr std::size_t kName = 40;             // characters that are kept
 
 }  // namespace
 
-Result<std::string> stl_text(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
+Result<std::string> stl_text(const SurfaceModel& model, const std::vector<Mesh>& meshes,
+                             Watch* watch) {
   auto counts = exchange::counts_of(model, meshes);
   OBVID_TRY(counts);
   if (counts->triangles > std::numeric_limits<std::uint32_t>::max()) {
@@ -31,8 +32,10 @@ Result<std::string> stl_text(const SurfaceModel& model, const std::vector<Mesh>&
   out.reserve(kStlHeader + sizeof(std::uint32_t) + kBytesOfTriangle * counts->triangles);
   exchange::put(out, std::uint32_t{0});
   std::uint32_t written = 0;
+  Steps steps(watch);
   for (const Mesh& mesh : meshes) {
     for (const auto& t : mesh.triangles) {
+      if (steps.end()) return fail(cancelled_error());
       const Vec3 a = mesh.vertices[t[0]].point, b = mesh.vertices[t[1]].point,
                  c = mesh.vertices[t[2]].point;
       const Vec3 sa = exchange::single(a), sb = exchange::single(b), sc = exchange::single(c);

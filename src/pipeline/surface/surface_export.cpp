@@ -72,12 +72,13 @@ Result<std::string> surface_of_kernel(const SurfaceExport& e, CadFormat format) 
   return cad_surface_text(e.model, cad, {{}, e.run.cancelled});
 }
 
-/// A file made of triangles: `make` is called when they are there.
+/// A file made of triangles: `make` is called when they are there, with who is asked meanwhile.
 template <class Make>
 Result<std::string> of_triangles(SurfaceExport& e, std::vector<std::string>& remarks,
                                  const Make& make) {
   OBVID_TRY(e.tessellate_once(remarks));
-  return make();
+  Watch watch(without_progress(e.run));
+  return make(watch);
 }
 
 }  // namespace
@@ -130,10 +131,10 @@ Result<std::string> surface_as_brep(SurfaceExport& e, std::vector<std::string>& 
 
 Result<std::string> surface_as_stl(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_without_unit(e, remarks, "STL files", [&] {
-    return of_triangles(e, remarks, [&]() -> Result<std::string> {
+    return of_triangles(e, remarks, [&](Watch& watch) -> Result<std::string> {
       remarks.push_back(fmt::format("STL holds single precision: another {:.2g} {}",
                                     single_precision_loss(e.meshes), e.model.units.text()));
-      return stl_text(e.model, e.meshes);
+      return stl_text(e.model, e.meshes, &watch);
     });
   });
 }
@@ -141,27 +142,27 @@ Result<std::string> surface_as_stl(SurfaceExport& e, std::vector<std::string>& r
 Result<std::string> surface_as_obj(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_without_unit(e, remarks, "OBJ files", [&] {
     return of_triangles(e, remarks,
-                        [&] { return Result<std::string>(obj_mesh_text(e.model, e.meshes)); });
+                        [&](Watch& watch) { return obj_mesh_text(e.model, e.meshes, &watch); });
   });
 }
 
 Result<std::string> surface_as_glb(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_in_units(e, remarks, UnitRule::kLength, "glTF files", "m", [&] {
     return of_triangles(e, remarks,
-                        [&] { return Result<std::string>(glb_text(e.model, e.meshes)); });
+                        [&](Watch& watch) { return glb_text(e.model, e.meshes, &watch); });
   });
 }
 
 Result<std::string> surface_as_ply(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_without_unit(e, remarks, "PLY files", [&] {
     return of_triangles(e, remarks,
-                        [&] { return Result<std::string>(ply_text(e.model, e.meshes)); });
+                        [&](Watch& watch) { return ply_text(e.model, e.meshes, &watch); });
   });
 }
 
 Result<std::string> surface_as_page(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_as_it_is(e, remarks, [&] {
-    return of_triangles(e, remarks, [&]() -> Result<std::string> {
+    return of_triangles(e, remarks, [&](Watch&) -> Result<std::string> {
       OBVID_TRY(e.find_extremes_once());
       return surface_page(e.model, e.meshes, looks_of<PageOptions>(e), e.run);
     });

@@ -52,6 +52,8 @@ struct Sample {
   double kappa = 0.0;
 };
 
+constexpr std::size_t kItemsBetweenQuestions = 1000;  ///< pieces, joints or samples
+
 class Auditor {
  public:
   Auditor(const DrawnCurve& curve, const Units& units, const RunContext& run) : watch_(run) {
@@ -64,25 +66,26 @@ class Auditor {
     out_.contour.carrier = Carrier::kImported;
     out_.contour.closed = curve.closed;
     out_.contour.pieces = curve.pieces;
-    straighten_all();
+    if (!straighten_all()) return;  // whoever asked to stop is told so by `run`
     size_ = about_size(out_.contour.pieces);
   }
 
   /// What needs joints alone.
   Contour joined() {
     path_.emplace(out_.contour.pieces);
-    if (!out_.contour.pieces.empty()) lay_joints();
+    if (!out_.contour.pieces.empty()) (void)lay_joints();  // nobody can stop it
     return std::move(out_.contour);
   }
 
   Result<CurveAudit> run() {
+    OBVID_TRY(not_ended());
     if (out_.contour.pieces.empty()) return std::move(out_);
     OBVID_TRY(take_samples());
-    lay_joints();
+    OBVID_TRY(lay_joints());
     OBVID_TRY(lay_runs());
     out_.certificate = certify(out_.contour, watch_);
     OBVID_TRY(goes_on());
-    compare_slopes();
+    OBVID_TRY(compare_slopes());
     out_.vertices = out_.certificate.vertices;
     out_.inflections = out_.certificate.inflections;
     out_.counted =
@@ -90,8 +93,11 @@ class Auditor {
         std::none_of(out_.certificate.pieces.begin(), out_.certificate.pieces.end(),
                      [](const PieceProof& piece) { return piece.verdict == Verdict::kUndecided; });
     place_vertices();
+    OBVID_TRY(not_ended());
     place_inflections();
+    OBVID_TRY(not_ended());
     out_.visible_vertices = swings(kVisible * (out_.largest_kappa - out_.least_kappa));
+    OBVID_TRY(not_ended());
     if (unbounded_) out_.least_kappa = out_.largest_kappa = std::nan("");
     std::stable_sort(out_.places.begin(), out_.places.end(),
                      [](const AuditPlace& a, const AuditPlace& b) { return a.s < b.s; });
@@ -108,10 +114,11 @@ class Auditor {
   /// Curvature that rounding alone explains is none: left in, its signs would be counted. What goes
   /// on continuously from a curvature that is more, without falling to a rounding of that, is
   /// meant, however short the piece.
-  void straighten_all() {
+  [[nodiscard]] bool straighten_all() {
     std::vector<Piece>& pieces = out_.contour.pieces;
     std::vector<FlatEnd> ends;  // two of each piece
     for (const Piece& piece : pieces) {
+      if (steps_.end()) return false;
       const double flat = flat_curvature(piece);
       for (const double t : {0.0, 1.0}) {
         const double kappa = accurate_curvature(piece, t);
@@ -134,8 +141,10 @@ class Auditor {
       if (k % n + 1 < n || out_.contour.closed) pass_on((k + 1) % n, k % n);
     }
     for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (steps_.end()) return false;
       straighten(pieces[i], ends[2 * i].meant, ends[2 * i + 1].meant);
     }
+    return true;
   }
 
   void straighten(Piece& piece, bool start_meant, bool end_meant) {
@@ -198,6 +207,11 @@ class Auditor {
     if (watch_.cancelled()) return fail(cancelled_error());
     return {};
   }
+  /// Whether the answer was to go on, wherever it was asked. Error: E103.
+  [[nodiscard]] Result<void> not_ended() const {
+    if (watch_.was_cancelled()) return fail(cancelled_error());
+    return {};
+  }
 
   Result<void> take_samples() {
     const std::vector<Piece>& pieces = out_.contour.pieces;
@@ -231,11 +245,12 @@ class Auditor {
     return end;
   }
 
-  void lay_joints() {
+  Result<void> lay_joints() {
     const std::size_t n = out_.contour.pieces.size();
     const bool closed = out_.contour.closed;
     double theta = 0.0;
     for (std::size_t j = 0; j < (closed ? n : n + 1); ++j) {
+      if (steps_.end()) return fail(cancelled_error());
       const bool first = j == 0 && !closed, last = j == n;
       const Element before = first ? end_of(0, 0.0) : end_of((j + n - 1) % n, 1.0);
       const Element after = last ? before : end_of(j, 0.0);
@@ -250,6 +265,7 @@ class Auditor {
       out_.contour.points.push_back(before.point);
       out_.contour.joints.push_back(joint);
     }
+    return {};
   }
 
   /// Whether a joint lies between clothoids that stand for one transition.
@@ -279,15 +295,17 @@ class Auditor {
   }
 
   /// Whether slopes of curvature go on; nothing is known of them where nothing can be proved.
-  void compare_slopes() {
+  Result<void> compare_slopes() {
     const bool measured = out_.certificate.joints > 0 || out_.contour.pieces.size() == 1;
     if (!measured) {
       out_.continuity = std::min(out_.continuity, 2);
-      return;
+      return {};
     }
     for (const std::size_t j : joints_with_loose_slopes(out_.contour)) {
+      if (steps_.end()) return fail(cancelled_error());
       if (!slope_goes_on(j)) out_.continuity = std::min(out_.continuity, 2);
     }
+    return {};
   }
 
   /// Notes what is not continuous at a joint; true at a corner and where the curvature jumps, or is
@@ -345,6 +363,7 @@ class Auditor {
       find(least);
       const std::size_t found = out_.places.size() - before;
       if (!out_.counted || found <= static_cast<std::size_t>(proved) || !(least > 0.0)) return;
+      if (watch_.was_cancelled()) return;
     }
   }
 
@@ -396,6 +415,7 @@ class Auditor {
         if (beyond > rounding_) level = {i, i};
         if (std::abs(beyond) <= rounding_ && level.last + 1 == i) level.last = i;
       };
+      if (steps_.end()) return;
       follow(low, sample(low.first).kappa - now);
       follow(high, now - sample(high.first).kappa);
       const bool falls = direction >= 0 && now < sample(high.first).kappa - least;
@@ -443,6 +463,7 @@ class Auditor {
     std::optional<std::size_t> last;
     std::size_t first = 0;
     for (std::size_t k = 0; k < samples_.size(); ++k) {
+      if (steps_.end()) return;
       if (std::abs(samples_[k].kappa) <= least) continue;
       if (!last) first = k;
       if (last && samples_[*last].kappa * samples_[k].kappa < 0.0) place_inflection(*last, k);
@@ -487,6 +508,7 @@ class Auditor {
   }
 
   Watch watch_;
+  Steps steps_{&watch_, kItemsBetweenQuestions};
   CurveAudit out_;
   double size_ = 0.0, rounding_ = 0.0;
   bool unbounded_ = false;  // some end of a piece has no curvature

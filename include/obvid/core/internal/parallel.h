@@ -35,6 +35,10 @@ void in_lots(std::size_t count, std::size_t together, std::size_t threads,
     std::size_t count, const RunContext& run,
     const std::function<void(std::size_t, const RunContext&)>& work);
 
+/// `in_lots` for work that whoever waits may stop. Error: E103.
+[[nodiscard]] Result<void> in_lots(std::size_t count, std::size_t together, const RunContext& run,
+                                   const std::function<void(std::size_t, std::size_t)>& work);
+
 /// `run` with so many threads; 0: those that it has.
 [[nodiscard]] RunContext with_threads(RunContext run, std::size_t threads);
 
