@@ -19,7 +19,8 @@ if(NOT TARGET obvid_c OR NOT TARGET PkgConfig::httplib)
 endif()
 find_package(Threads REQUIRED)
 file(GLOB studio_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/studio/*.cpp")
-add_executable(obvid_studio ${studio_sources})
+obvid_unity(studio_units obvid_studio ${OBVID_BATCH} ${studio_sources})
+add_executable(obvid_studio ${studio_units})
 set_target_properties(obvid_studio PROPERTIES
   OUTPUT_NAME obvid-studio RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
   BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}")

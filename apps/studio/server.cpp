@@ -46,8 +46,10 @@ bool same(const std::string& a, const std::string& b) {
   return differ == 0;
 }
 
+}  // namespace
+
 /// The newest request of each page and kind; older ones end.
-class Newest {
+class NewestRequests {
  public:
   using Number = std::shared_ptr<std::atomic<std::uint64_t>>;
 
@@ -69,14 +71,12 @@ class Newest {
   std::map<std::string, Number> numbers_;
 };
 
-}  // namespace
-
 struct Server::Parts {
   Settings settings;
   std::string token;
   std::string origin;  ///< http://127.0.0.1:port
   httplib::Server http;
-  Newest newest;
+  NewestRequests newest;
   std::atomic<bool> stopping = false;
 
   [[nodiscard]] bool is_ours(const httplib::Request& request) const {
