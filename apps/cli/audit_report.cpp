@@ -48,9 +48,9 @@ std::string joints_table(const std::vector<CurveAudit>& audits) {
   table.column("curve");
   table.column("pieces");
   table.column("joints");
-  table.column("vertices");
-  table.column("above\n1 %");
-  table.column("inflec-\ntions");
+  table.column_if_told("vertices");
+  table.column_if_told("above\n1 %");
+  table.column_if_told("inflec-\ntions");
   table.column("least\nradius");
   std::vector<double> vertices;
   for (const CurveAudit& a : audits) vertices.push_back(a.vertices);
@@ -83,7 +83,7 @@ std::string place_table(const CurveAudit& a) {
   table.column("y");
   table.column("radius\nbefore");
   table.column("radius\nafter");
-  table.column("size", Table::Align::kLeft);
+  table.column_if_told("size", Table::Align::kLeft);
   std::vector<double> weight;
   for (const AuditPlace& place : a.places) weight.push_back(place.size);
   const std::vector<std::size_t> shown = rows_worth_showing(weight);
