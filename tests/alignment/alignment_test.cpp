@@ -524,9 +524,9 @@ std::vector<Vec2> stadium(double radius, int count, double from) {
 TEST(ClosedAlignment, OfAStadiumIsTwoLinesAndTwoArcsAtEveryTolerance) {
   for (const double radius : {30.0, 80.0}) {
     for (const double from : {0.0, 37.0}) {
-      for (const int count : {60, 180}) {
+      for (const int count : {60, 90, 180}) {
         const auto points = rounded(stadium(radius, count, from), 1e-4);
-        for (const double tolerance : {2e-4, 1e-3, 2e-3}) {
+        for (const double tolerance : {2e-4, 5e-4, 1e-3, 2e-3}) {
           AlignmentOptions options;
           options.closed = true;
           const auto made =
