@@ -15,7 +15,7 @@ namespace {
 constexpr double kCornerTurn = std::numbers::pi / 6.0;  // more is no vertex of a curve
 constexpr std::size_t kPartsOfEdge = 4;                 // places of an edge that are looked at
 constexpr double kBetweenPlaces = 0.98;  // of what is allowed: what lies between them
-constexpr double kFlattest = 0.9;  // of half its chord, what an arc may rise over it: no half turn
+constexpr double kMostHalfTurn = 1.5;    // rad, of an arc: it turns by less than half a turn
 
 /// Vertices in a row, no corner among the inner ones.
 class EdgeRow {
@@ -62,63 +62,62 @@ class EdgeRow {
     double off = 0.0;
   };
 
-  /// Calls for places of the edges between two vertices, along the chord and to its left.
+  /// Calls for places of the edges between two vertices, with a unit vector across the edge.
   template <class Place>
   bool each_place(std::size_t from, std::size_t to, const Place& place) const {
     const Vec2 chord = vertices_[to] - vertices_[from];
     const double length = norm(chord);
     if (!(length > 0.0)) return false;
-    const Vec2 along = chord / length;
     double before = 0.0;
     for (std::size_t k = from; k < to; ++k) {
+      const Vec2 edge = vertices_[k + 1] - vertices_[k];
+      const Vec2 across = left_normal(edge) / norm(edge);
       for (std::size_t part = 1; part <= kPartsOfEdge; ++part) {
         if (k + 1 == to && part == kPartsOfEdge) break;
-        const double share = static_cast<double>(part) / kPartsOfEdge;
-        const Vec2 v = vertices_[k] + share * (vertices_[k + 1] - vertices_[k]) - vertices_[from];
-        const Vec2 at{dot(along, v), cross(along, v)};
-        if (!(at.x > before && at.x < length) || !place(at, length)) return false;
-        before = at.x;
+        const Vec2 at = vertices_[k] + (static_cast<double>(part) / kPartsOfEdge) * edge;
+        const double along = dot(chord, at - vertices_[from]) / length;
+        if (!(along > before && along < length) || !place(at, across)) return false;
+        before = along;
       }
     }
     return true;
   }
 
-  /// An arc or line between two vertices that the edges between them stay near.
+  /// An arc or line between two vertices that the edges between them stay near. The angle at which
+  /// any place of an arc sees its ends is half of its turn: places beside the edges bound it.
   [[nodiscard]] std::optional<Fit> over(std::size_t from, std::size_t to) const {
-    // a place at x with height y is off an arc with the rise h over its chord by about
-    // y - 4 h x (l - x) / l^2: rises that leave no place farther than allowed
-    double low = -HUGE_VAL, high = HUGE_VAL, half = 0.0;
-    const bool any = each_place(from, to, [&](Vec2 at, double length) {
-      half = 0.5 * length;
-      const double share = 4.0 * at.x * (length - at.x) / (length * length);
-      low = std::max(low, (at.y - within_) / share);
-      high = std::min(high, (at.y + within_) / share);
-      return true;
+    const Vec2 a = vertices_[from], b = vertices_[to];
+    double low = -HUGE_VAL, high = HUGE_VAL;
+    const auto half_turn = [&](Vec2 p) { return turning(p - a, b - p); };
+    const bool any = each_place(from, to, [&](Vec2 at, Vec2 across) {
+      const double left = half_turn(at + within_ * across),
+                   right = half_turn(at - within_ * across);
+      low = std::max(low, std::min(left, right));
+      high = std::min(high, std::max(left, right));
+      return low <= high;
     });
-    if (!any || low > high) return std::nullopt;
-    const double rise = low <= 0.0 && high >= 0.0 ? 0.0 : 0.5 * (low + high);
-    if (std::abs(rise) > kFlattest * half) return std::nullopt;
-    Fit out{between(vertices_[from], vertices_[to], rise), 0.0};
-    const double bend = -curvature_of(out.piece);
-    const bool near = each_place(from, to, [&](Vec2 at, double length) {
-      // off the circle whose top lies over the middle of the chord
-      const Vec2 v{at.x - 0.5 * length, at.y - rise};
-      const double twice = 2.0 * v.y + bend * dot(v, v);
-      const double both = 1.0 + norm(Vec2{bend * v.x, 1.0 + bend * v.y});
-      out.off = std::max(out.off, std::abs(twice) / both);
+    if (!any) return std::nullopt;
+    const double half = low <= 0.0 && high >= 0.0 ? 0.0 : 0.5 * (low + high);
+    if (std::abs(half) > kMostHalfTurn) return std::nullopt;
+    Fit out{between(a, b, half), 0.0};
+    const double kappa = curvature_of(out.piece);
+    const Vec2 normal = left_normal(unit_at(heading_at_start(out.piece)));
+    const bool near = each_place(from, to, [&](Vec2 at, Vec2) {
+      const Vec2 v = at - a;
+      const double twice = 2.0 * dot(v, normal) - kappa * dot(v, v);
+      out.off = std::max(out.off, std::abs(twice) / (1.0 + norm(kappa * v - normal)));
       return out.off <= within_;
     });
     out.off /= kBetweenPlaces;
     return near ? std::optional(std::move(out)) : std::nullopt;
   }
 
-  /// The arc that rises so far over the middle of its chord, to its left.
-  static Piece between(Vec2 a, Vec2 b, double rise) {
-    if (rise == 0.0) return LinePiece{a, b};
+  /// The arc that turns by twice the angle.
+  static Piece between(Vec2 a, Vec2 b, double half) {
+    if (half == 0.0) return LinePiece{a, b};
     const Vec2 chord = b - a;
-    const double quarter = std::atan2(2.0 * rise, norm(chord)), half = 2.0 * quarter;
-    const double kappa = -2.0 * std::sin(half) / norm(chord);
-    return ArcPiece{a, b, heading(chord) + half, kappa, -2.0 * half / kappa};
+    const double kappa = 2.0 * std::sin(half) / norm(chord);
+    return ArcPiece{a, b, heading(chord) - half, kappa, 2.0 * half / kappa};
   }
 
   std::vector<Vec2> vertices_;

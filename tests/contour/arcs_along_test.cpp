@@ -161,7 +161,8 @@ TEST(ArcsAlong, ClosedCurveStaysClosedAndSmoothAtItsSeam) {
     EXPECT_NEAR(
         turning(evaluate(arcs->pieces.back(), 1.0).d1, evaluate(arcs->pieces.front(), 0.0).d1), 0.0,
         1e-9);
-    EXPECT_LE(distance_both_ways(c.pieces, arcs->pieces), 1.01 * tolerance);  // both sampled
+    // both are taken as 8,000 chords of 1.7e-3, where the curvature is 3 at the most: 1.1e-6
+    EXPECT_LE(distance_both_ways(c.pieces, arcs->pieces), 1.01 * tolerance + 1.1e-6);
     for (const Piece& piece : arcs->pieces) EXPECT_LT(turn_of(piece), kPi);
   }
 }

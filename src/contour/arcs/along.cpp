@@ -378,6 +378,7 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance, Watch* wa
   }
   constexpr int kTrials = 5;
   constexpr double kSampledBadly = 1.05;  // of the tolerance, by what was found with samples
+  constexpr double kNearerOnce = 0.7;     // of the tolerance: what is tried then
   double within = kOfArcTolerance * tolerance;
   bool fitted = true;
   ArcsAlong out;
@@ -388,11 +389,14 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance, Watch* wa
     out.deviation = path_distance(contour.pieces, out.pieces, watch);
     if (is_to_end(watch)) return fail(cancelled_error());
     if (out.deviation <= tolerance) return out;
-    if (fitted && out.deviation > kSampledBadly * tolerance) {
+    const double share = kOfArcTolerance * tolerance / out.deviation;
+    const bool badly = fitted && out.deviation > kSampledBadly * tolerance;
+    if (badly && trial > 0) {
       fitted = false;
+      within = kOfArcTolerance * tolerance;
       continue;
     }
-    within *= kOfArcTolerance * tolerance / out.deviation;
+    within *= badly ? std::max(share, kNearerOnce) : share;
   }
   return fail(not_reached("the arcs do not come near enough to the contour", out.deviation));
 }
