@@ -642,6 +642,7 @@ class Simplifier {
       OBVID_TRY(polish(run));
       if (was_good && !is_good()) std::tie(chain_, feet_) = before;
       OBVID_TRY(merge_all(run));
+      if (chain_.size() < before.first.size()) OBVID_TRY(simplify(run));
     }
     return {};
   }

@@ -552,6 +552,9 @@ TEST(ClosedAlignment, OfAStadiumHasFourElementsWhicheverJointTheSearchHeld) {
     const auto made = fit_alignment(points, std::vector<double>(points.size(), tolerance), options);
     ASSERT_TRUE(made) << made.error().what;
     EXPECT_EQ(made->elements.size(), 4U) << tolerance;
+    for (const AlignmentElement& e : made->elements) {
+      EXPECT_NE(e.kind, AlignmentKind::kClothoid) << tolerance;
+    }
   }
 }
 
