@@ -115,8 +115,8 @@ JobOptions known_options(const std::string& job) {
   }
   for (const char* name :
        {"output-tolerance", "for", "controller", "motion", "feed", "samples", "sample-step",
-        "airfoil", "spacing", "trailing-edge", "trailing-edge-form", "svg", "plot",
-        "curvature-range", "step", "dxf", "face"}) {
+        "airfoil", "spacing", "trailing-edge", "trailing-edge-form", "thickness", "camber", "svg",
+        "plot", "curvature-range", "step", "dxf", "face"}) {
     out.files.push_back({name});
   }
   out.files.push_back({"unit-chord", true});

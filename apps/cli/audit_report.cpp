@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "element_table.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/core/units.h"
 #include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/analyse.h"
@@ -43,15 +44,34 @@ std::string count_text(const CurveAudit& a, int count) {
   return a.counted ? std::to_string(count) : "-";
 }
 
+/// Why curves have no counts.
+std::string uncounted_text(const std::vector<CurveAudit>& audits) {
+  constexpr std::size_t kMostNamed = 8;
+  std::string out;
+  for (const bool unbounded : {true, false}) {
+    std::string names;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < audits.size(); ++i) {
+      if (audits[i].counted || std::isnan(audits[i].least_kappa) != unbounded) continue;
+      if (++count <= kMostNamed) names += fmt::format("{}{}", count > 1 ? ", " : "", i + 1);
+    }
+    if (count == 0) continue;
+    out += fmt::format("vertices and inflections of {} {}{} are not counted: {}\n",
+                       count == 1 ? "curve" : "curves", names, and_more(count, kMostNamed),
+                       unbounded ? "nothing bounds the curvature" : "none of it is proved");
+  }
+  return out;
+}
+
 std::string joints_table(const std::vector<CurveAudit>& audits) {
   Table table;
   table.column("curve");
   table.column("pieces");
   table.column("joints");
-  table.column("vertices");
-  table.column("above\n1 %");
-  table.column("inflec-\ntions");
-  table.column("least\nradius");
+  table.column_if_told("vertices");
+  table.column_if_told("above\n1 %");
+  table.column_if_told("inflec-\ntions");
+  table.column_if_told("least\nradius");
   std::vector<double> vertices;
   for (const CurveAudit& a : audits) vertices.push_back(a.vertices);
   std::size_t before = 0;
@@ -64,7 +84,8 @@ std::string joints_table(const std::vector<CurveAudit>& audits) {
                audit_continuity(a.continuity), count_text(a, a.vertices),
                count_text(a, a.visible_vertices), count_text(a, a.inflections), least_radius(a)});
   }
-  return table.text() + shown_note(shown.size(), audits.size(), "least fair", "curves");
+  return table.text() + shown_note(shown.size(), audits.size(), "least fair", "curves") +
+         uncounted_text(audits);
 }
 
 std::string size_text(const AuditPlace& place, const std::string& units) {
@@ -83,7 +104,7 @@ std::string place_table(const CurveAudit& a) {
   table.column("y");
   table.column("radius\nbefore");
   table.column("radius\nafter");
-  table.column("size", Table::Align::kLeft);
+  table.column_if_told("size", Table::Align::kLeft);
   std::vector<double> weight;
   for (const AuditPlace& place : a.places) weight.push_back(place.size);
   const std::vector<std::size_t> shown = rows_worth_showing(weight);

@@ -31,10 +31,11 @@ std::string elements_text(const std::vector<AlignmentElement>& elements, double 
   Table table;
   table.column("element");
   table.column("kind", Table::Align::kLeft);
-  for (const char* head : {"station", "length", "radius\nat start", "radius\nat end", "A",
-                           "azimuth\ndegrees", "\nx", "\ny"}) {
+  for (const char* head : {"station", "length", "radius\nat start", "radius\nat end"}) {
     table.column(head);
   }
+  table.column_if_told("A");
+  for (const char* head : {"azimuth\ndegrees", "\nx", "\ny"}) table.column(head);
   if (limit) table.column("speed\nkm/h");
   table.column("", Table::Align::kLeft);
   for (std::size_t k = 0; k < elements.size(); ++k) {
@@ -65,10 +66,10 @@ std::string profile_text(const VerticalProfile& profile, double size) {
   Table table;
   table.column("element");
   table.column("kind", Table::Align::kLeft);
-  for (const char* head :
-       {"station", "length", "height", "grade\nat start %", "grade\nat end %", "radius", "K"}) {
+  for (const char* head : {"station", "length", "height", "grade\nat start %", "grade\nat end %"}) {
     table.column(head);
   }
+  for (const char* head : {"radius", "K"}) table.column_if_told(head);
   for (std::size_t k = 0; k < profile.elements.size(); ++k) {
     const ProfileElement& e = profile.elements[k];
     const bool bends = e.kind != ProfileKind::kGrade;

@@ -257,6 +257,19 @@ void add_formats(CLI::App& command, FormatValues& values) {
                 "is printed")
       ->group(group);
   command
+      .add_option("--thickness", values.thickness,
+                  ".dat with this thickness, 12% or 0.12 chords: the distance of both sides is "
+                  "scaled [as the contour has it]")
+      ->type_name("T")
+      ->group(group);
+  command
+      .add_option(
+          "--camber", values.camber,
+          ".dat with this camber, 2% or 0.02 chords: the height of the middle is scaled [as "
+          "the contour has it]")
+      ->type_name("C")
+      ->group(group);
+  command
       .add_option("--svg", values.svg,
                   "What an .svg is: picture for a report, or drawing in true scale for cutters and "
                   "plotters [picture]")

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <utility>
 
 namespace obvid {
 namespace {
@@ -40,6 +41,17 @@ void Table::column(std::string head, Align align) {
     from = to + 1;
   }
   columns_.push_back(std::move(column));
+}
+
+void Table::column_if_told(std::string head, Align align) {
+  column(std::move(head), align);
+  columns_.back().if_told = true;
+}
+
+bool Table::is_told(std::size_t c) const {
+  return !columns_[c].if_told || std::any_of(rows_.begin(), rows_.end(), [c](const auto& row) {
+    return !row.empty() && !row[c].empty() && row[c] != "-";
+  });
 }
 
 void Table::row(std::vector<std::string> cells) {
@@ -89,6 +101,22 @@ std::string Table::head_text(const std::vector<Width>& widths) const {
 }
 
 std::string Table::text() const {
+  Table told;
+  std::vector<std::size_t> columns;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    if (!is_told(c)) continue;
+    told.columns_.push_back(columns_[c]);
+    columns.push_back(c);
+  }
+  for (const auto& row : rows_) {
+    auto& cells = told.rows_.emplace_back();
+    if (row.empty()) continue;
+    for (const std::size_t c : columns) cells.push_back(row[c]);
+  }
+  return told.all_columns();
+}
+
+std::string Table::all_columns() const {
   std::vector<Width> widths;
   for (std::size_t c = 0; c < columns_.size(); ++c) widths.push_back(width_of(c));
   std::string out = head_text(widths);

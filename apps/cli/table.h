@@ -14,6 +14,8 @@ class Table {
 
   /// `head` may have several lines, parted by '\n'; the lowest stands on the column.
   void column(std::string head, Align align = Align::kDecimal);
+  /// One that is left out where all of its cells are empty or "-".
+  void column_if_told(std::string head, Align align = Align::kDecimal);
   void row(std::vector<std::string> cells);
   /// A line of dots where rows were left out.
   void gap();
@@ -23,7 +25,9 @@ class Table {
   struct Column {
     std::vector<std::string> head;
     Align align = Align::kDecimal;
+    bool if_told = false;
   };
+  [[nodiscard]] bool is_told(std::size_t column) const;
   /// Widest head and cells of a column, and the widest parts before and from the decimal point.
   struct Width {
     std::size_t before = 0;
@@ -31,6 +35,7 @@ class Table {
     std::size_t total = 0;
   };
   [[nodiscard]] Width width_of(std::size_t column) const;
+  [[nodiscard]] std::string all_columns() const;
   [[nodiscard]] std::string head_text(const std::vector<Width>& widths) const;
   [[nodiscard]] static std::string padded(const std::string& cell, const Width& width, Align align);
 

@@ -20,6 +20,16 @@ AlignmentKind kind_of(const std::array<int, 2>& ends, Transition law) {
   return ends[0] == Chain::kStraight ? AlignmentKind::kLine : AlignmentKind::kArc;
 }
 
+/// The alignment begins and ends at feet of points, to which equations are solved: what they leave
+/// is rounding.
+double on_the_end(double station, double length) {
+  constexpr double kSolved = 1e-9;  // of the length
+  for (const double end : {0.0, length}) {
+    if (std::abs(station - end) <= kSolved * length) return end;
+  }
+  return station;
+}
+
 Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
                        const std::vector<double>& tolerance, bool closed) {
   Alignment out;
@@ -46,6 +56,7 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   for (std::size_t i = 0; i < feet.size(); ++i) {
     double at = station[feet[i].element] + feet[i].s;
     if (closed && at >= station[0] + out.length) at -= out.length;
+    if (!closed) at = on_the_end(at, out.length);
     out.deviations.push_back({at, feet[i].offset});
     out.largest_share = std::max(out.largest_share, std::abs(feet[i].offset) / tolerance[i]);
     squares += feet[i].offset * feet[i].offset;

@@ -85,6 +85,27 @@ ProfilePlace on_element(const ProfileElement& e, ProfileCurves curves, double al
   return {e.height + along * std::tan(0.5 * (theta0 + theta)), std::tan(theta)};
 }
 
+/// The same from the first height's station to that of the last one: the search begins and ends at
+/// the feet of both, which of arcs lie across the profile, and of parabolas there but for rounding.
+void begin_and_end_at(VerticalProfile& profile, double from, double to) {
+  ProfileElement& first = profile.elements.front();
+  const double before = from - first.station;
+  if (before < first.length) {
+    const ProfilePlace start = on_element(first, profile.curves, before);
+    first.station = from;
+    first.length -= before;
+    first.height = start.height;
+    first.grade0 = start.grade;
+  }
+  ProfileElement& last = profile.elements.back();
+  if (!(to > last.station)) return;
+  last.length = to - last.station;
+  const ProfilePlace end = on_element(last, profile.curves, last.length);
+  last.grade1 = end.grade;
+  profile.end_station = to;
+  profile.end_height = end.height;
+}
+
 /// The same loop from another station on. What passes it is cut there.
 VerticalProfile begun_at(const VerticalProfile& profile, double begin, double lap) {
   constexpr double kAtJoint = 1e-9;  // of a lap
@@ -190,7 +211,9 @@ Result<VerticalProfile> fit_profile(const std::vector<Vec2>& points,
   }
   if (!best) return fail(*refused);
   VerticalProfile& out = best->profile;
-  return limits.closed ? alignment::begun_at(out, options.begin, options.lap) : std::move(out);
+  if (limits.closed) return alignment::begun_at(out, options.begin, options.lap);
+  alignment::begin_and_end_at(out, points.front().x, points.back().x);
+  return std::move(out);
 }
 
 ProfilePlace profile_at(const VerticalProfile& profile, double station) {

@@ -132,6 +132,7 @@ class Simplifier {
       OBVID_TRY(simplify(run));
       turn_to(chain_.size() / 2);
     }
+    OBVID_TRY(merge_at_each_seam(run));
     OBVID_TRY(simplify_mended(run));
     OBVID_TRY(merge_all(run));
     turn_to_first_given();
@@ -627,6 +628,28 @@ class Simplifier {
       if (last == chain_.size()) break;
     }
     find_feet(chain_, points_, feet_);
+    return {};
+  }
+
+  /// Windows of a loop of few elements reach from its seam to its seam, whose joint they hold where
+  /// it came to lie: with each joint as the seam once, each of the others moves. What has no fewer
+  /// elements then stays as it was.
+  Result<void> merge_at_each_seam(const RunContext& run) {
+    constexpr std::size_t kFew = 2 * kBeside + 2;
+    const std::size_t had = chain_.size();
+    const auto whole = std::tuple(points_, tolerance_, first_given_, chain_, feet_);
+    for (std::size_t turn = 1; had <= kFew && turn < had; ++turn) {
+      turn_to(1);
+      const auto before = std::pair(chain_, feet_);
+      const bool was_good = is_good();
+      OBVID_TRY(polish(run));
+      if (was_good && !is_good()) std::tie(chain_, feet_) = before;
+      OBVID_TRY(merge_all(run));
+      if (chain_.size() == had) continue;
+      OBVID_TRY(simplify(run));
+      return merge_at_each_seam(run);
+    }
+    std::tie(points_, tolerance_, first_given_, chain_, feet_) = whole;
     return {};
   }
 

@@ -134,6 +134,8 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"trailing-edge", number(f.trailing_edge)},
                 {"trailing-edge-form", text(f.trailing_form)},
                 {"unit-chord", flag(f.unit_chord)},
+                {"thickness", text(f.thickness)},
+                {"camber", text(f.camber)},
                 {"svg", text(f.svg)},
                 {"step", text(f.step)},
                 {"dxf", text(f.dxf)},

@@ -31,6 +31,10 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
+std::string and_more(std::size_t all, std::size_t named) {
+  return all > named ? fmt::format(" and {} more", all - named) : std::string();
+}
+
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;

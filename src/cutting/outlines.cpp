@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "edge_arcs.h"
 #include "joined_curves.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/core/internal/figures.h"
@@ -109,6 +110,11 @@ class TrackMaker {
     track.deviation = along->deviation * scale_;
     for (const Piece& piece : along->pieces) track.edge.pieces.push_back(scaled(piece, scale_));
     track.edge.closed = contour.closed;
+    if (outlines_[i].edges_of_curve) {
+      EdgeArcs fewer = arcs_over_edges(track.edge, part * options_.tolerance * scale_);
+      track.edge = std::move(fewer.path);
+      track.deviation += fewer.deviation;
+    }
     track.is_cut = outlines_[i].is_cut;
     if (!contour.closed) close_by_tolerance(track);
     track.room = box_around(track.edge);

@@ -47,6 +47,12 @@ class XmlWarnings {
   explicit XmlWarnings(const XmlFile& file) : file_(file) {}
 
   void add(const std::string& sentence, pugi::xml_node node);
+  /// Of what would be a curve and is not read, or not in full.
+  void leave_out(const std::string& sentence, pugi::xml_node node) {
+    ++left_out_;
+    add(sentence, node);
+  }
+  [[nodiscard]] std::size_t left_out() const { return left_out_; }
   /// In the order in which they came up first.
   [[nodiscard]] std::vector<std::string> take() const;
 
@@ -58,7 +64,7 @@ class XmlWarnings {
   };
   const XmlFile& file_;
   std::map<std::string, Entry> entries_;
-  std::size_t unlisted_ = 0;
+  std::size_t unlisted_ = 0, left_out_ = 0;
 };
 
 /// Name of an element or attribute without the prefix of its namespace.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "obvid/core/internal/figures.h"
 #include "obvid/geom/internal/box.h"
 #include "read_points_reader.h"
 
@@ -256,7 +257,7 @@ void RowReader::warn_about_names() {
   for (std::size_t i = 0; i < std::min(count, kMostNames); ++i) {
     names += (i == 0 ? "" : ", ") + shown(layout_.unused[i]);
   }
-  if (count > kMostNames) names += " and " + std::to_string(count - kMostNames) + " more";
+  names += and_more(count, kMostNames);
   raw_.warnings.push_back((count == 1 ? "The column " : "The columns ") + names +
                           (count == 1 ? " is" : " are") + " not used: known are " +
                           std::string(known_columns()) + ".");

@@ -544,6 +544,20 @@ TEST(ClosedAlignment, OfAStadiumIsTwoLinesAndTwoArcsAtEveryTolerance) {
   }
 }
 
+TEST(ClosedAlignment, OfAStadiumHasFourElementsWhicheverJointTheSearchHeld) {
+  const auto points = rounded(stadium(30.0, 90, 37.0), 1e-4);
+  for (const double tolerance : {4.5e-4, 5e-4, 5.5e-4}) {
+    AlignmentOptions options;
+    options.closed = true;
+    const auto made = fit_alignment(points, std::vector<double>(points.size(), tolerance), options);
+    ASSERT_TRUE(made) << made.error().what;
+    EXPECT_EQ(made->elements.size(), 4U) << tolerance;
+    for (const AlignmentElement& e : made->elements) {
+      EXPECT_NE(e.kind, AlignmentKind::kClothoid) << tolerance;
+    }
+  }
+}
+
 TEST(ClosedAlignment, OfACircleIsOneArcOfAnySizeAnywhere) {
   for (const double size : {1e-9, 1.0, 1e9}) {
     for (const double sense : {1.0, -1.0}) {

@@ -113,6 +113,26 @@ TEST(Profile, GradesAndHeightsAreContinuous) {
   }
 }
 
+TEST(Profile, BeginsAndEndsAtTheStationsOfTheFirstAndTheLastHeight) {
+  auto points = levelled(5.0, 0.003);
+  for (const double first : {0.0, 12000.0, -90.3}) {
+    auto there = points;
+    for (Vec2& p : there) p.x += first;
+    for (const auto curves : {ProfileCurves::kParabolas, ProfileCurves::kArcs}) {
+      const auto found =
+          fit_profile(there, std::vector<double>(there.size(), 0.012), {curves, 0.0});
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->elements.front().station, there.front().x);
+      EXPECT_EQ(found->end_station, there.back().x);
+      const ProfileElement& last = found->elements.back();
+      EXPECT_NEAR(last.station + last.length, found->end_station, 1e-9);
+      EXPECT_NEAR(profile_at(*found, there.back().x).height, found->end_height, 1e-9);
+      // straight there: the height is that of the line which the elements say
+      EXPECT_NEAR(last.height + last.length * last.grade0, found->end_height, 1e-9);
+    }
+  }
+}
+
 TEST(Profile, FindsArcsWhereTheyAreAsked) {
   // a grade of 4 % into a crest of radius 1000 m and on with -4 %; over so wide an arc a parabola
   // would be 1.6e-4 m off

@@ -264,6 +264,63 @@ class Airfoils(unittest.TestCase):
                               "b.dat")
         self.assertNotIn("has a corner", text)
 
+    def test_thickness_and_camber_are_those_asked_for(self):
+        # the made section has its camber and half thickness as heights over x, normal to the chord
+        self.write("a.dat", 1)
+        self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json")
+        for options, thick, bent in ((["--thickness", "9%"], 9 / 12.0, 1), (["--camber", "0.03"], 1, 1.5),
+                                     (["--thickness", "0.15", "--camber", "0"], 15 / 12.0, 0),
+                                     (["--camber", "-1%"], 1, -0.5)):
+            code, text = self.run_it("convert", "a.json", "-o", "b.dat", *options)
+            self.assertEqual(code, 0, text)
+            # the printed figures are those of the contour: factors come from them
+            (was, _, camber_was, _), _ = self.figures(text)
+            wanted = {"--thickness": 100 * float(options[1].rstrip("%")) / (100 if "%" in options[1] else 1)}
+            scale = thick * 100 * 2 * half(root(slope, 0.1, 0.6)) / was if thick == 1 else wanted["--thickness"] / was
+            bend = bent * 2 / camber_was
+            self.assertIn("undone by", text)
+            upper = [p for p in numbers(self.folder / "b.dat")][:81]
+            for x, y in upper:
+                self.assertAlmostEqual(y, scale * half(max(x, 0)) + bend * camber(x), delta=4e-5, msg=str(options))
+        file = re.search(r"the file, straight lines between its points: thickness ([\d.]+) %", text)
+        self.assertAlmostEqual(float(file.group(1)), 12, delta=0.02)
+        self.assertRegex(text, r"camber \S+ % -> -1\.000 %")
+        # what is printed as undoing it does
+        self.run_it("convert", "a.json", "-o", "b.dat", "--thickness", "9%")
+        code, text = self.run_it("fit", "b.dat", "--noise", "rounding", "-o", "c.dat", "--thickness", "12%")
+        self.assertEqual(code, 0, text)
+        for a, b in zip(numbers(self.folder / "c.dat"), points(1), strict=False):
+            self.assertLess(min(abs(a[1] - half(max(a[0], 0)) - camber(a[0])),
+                                abs(a[1] + half(max(a[0], 0)) - camber(a[0]))), 1e-4)
+
+    def test_a_trailing_edge_goes_with_a_thickness_and_its_round_form_touches_the_scaled_sides(self):
+        self.write("a.dat", 1)
+        self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json")
+        for form in ([], ["--trailing-edge-form", "round"]):
+            code, text = self.run_it("convert", "a.json", "-o", "b.dat", "--thickness", "10%",
+                                     "--trailing-edge", "0.004", *form)
+            self.assertEqual(code, 0, text)
+            shape = numbers(self.folder / "b.dat")
+            if not form:
+                self.assertAlmostEqual(shape[0][1] - shape[-1][1], 0.004, delta=1e-6)
+            else:
+                self.assertAlmostEqual(max(p[0] for p in shape), 1, delta=1e-4)
+                turns = [math.atan2((c[1] - b[1]) * (b[0] - a[0]) - (c[0] - b[0]) * (b[1] - a[1]),
+                                    (c[0] - b[0]) * (b[0] - a[0]) + (c[1] - b[1]) * (b[1] - a[1]))
+                         for a, b, c in zip(shape, shape[1:], shape[2:])]
+                self.assertLess(max(map(abs, turns)), 1.6)
+
+    def test_what_cannot_be_scaled_is_refused(self):
+        self.write("a.dat")
+        self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json")
+        for options, told in ((["--camber", "2%"], "no camber"), (["--thickness", "12"], "half of the chord"),
+                              (["--thickness", "x"], "a length in chords"), (["--thickness", "0"], "above 0")):
+            code, text = self.run_it("convert", "a.json", "-o", "b.dat", *options)
+            self.assertEqual(code, 2, text)
+            self.assertIn(told, text)
+        code, text = self.run_it("convert", "a.json", "-o", "b.dat", "--camber", "0")
+        self.assertEqual(code, 0, text)
+
     def test_unit_chord_is_undone_by_what_is_printed(self):
         self.write("a.dat")
         place = ["--scale", "250", "--rotate", "20", "--move", "3,4"]

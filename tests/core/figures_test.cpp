@@ -18,6 +18,13 @@ TEST(Figures, HaveSoManyDigits) {
   EXPECT_EQ(significant(HUGE_VAL), "inf");
 }
 
+TEST(Figures, WhatFollowsTheNamedOnesIsCounted) {
+  EXPECT_EQ(and_more(8, 8), "");
+  EXPECT_EQ(and_more(3, 8), "");
+  EXPECT_EQ(and_more(9, 8), " and 1 more");
+  EXPECT_EQ(and_more(20, 8), " and 12 more");
+}
+
 TEST(Figures, BoundsAreNeverPrintedBelowThemselvesAndHardlyAbove) {
   for (double bound = 1.2345678e-12; bound < 1e9; bound *= 1.37) {
     for (const int digits : {2, 3, 5}) {

@@ -174,6 +174,24 @@ TEST(SvgRead, ATransformWithAnErrorIsNotUsedAndNamed) {
   expect_near(end_point(d.curves[0].pieces[0]), {10.0, 100.0});
 }
 
+TEST(SvgRead, WhatIsNotReadAsDrawnIsCounted) {
+  const std::string line = "<path d='M0 0h1'/>";
+  for (const char* one :
+       {"<path d='M0 0h1 x'/>", "<polygon points='0,0 1,0 z'/>", "<circle r='5x'/>",
+        "<rect width='4' height='!' x='1'/>", "<use href='#none'/>",
+        "<path transform='rotate(' d='M0 0h1'/>", "<path transform='scale(0)' d='M0 0h1'/>",
+        "<path style='transform: scale(2)' d='M0 0h1'/>",
+        "<path d='M0 0L1e308 1e308' "
+        "transform='scale(1e300)'/>"}) {
+    EXPECT_EQ(read_svg_text(sheet(line + one)).left_out, 1U) << one;
+  }
+  // what draws nothing by definition, and what is no curve
+  for (const char* one : {"", "<text>a</text>", "<g display='none'><path d='M0 0h1'/></g>",
+                          "<rect width='0' height='4'/>", "<image href='a.png'/>"}) {
+    EXPECT_EQ(read_svg_text(sheet(line + one)).left_out, 0U) << one;
+  }
+}
+
 TEST(SvgRead, RoundedRectanglesHaveFourLinesAndFourArcs) {
   const Drawing d = read_svg_text(sheet("<rect x='10' y='10' width='40' height='20' rx='5'/>"));
   ASSERT_EQ(d.curves[0].pieces.size(), 8U);

@@ -72,6 +72,50 @@ TEST(Strays, AreFoundWhereverTheyLie) {
   }
 }
 
+TEST(Strays, AtAnEndOfARowAreNamedWhereTheRowGoesOnWithoutThem) {
+  // steps of 0.42; the row begins at (50, 0) and comes from above, errors of 0.01
+  const std::vector<std::vector<Vec2>> kinds = {
+      {{50.5, -0.3}}, {{49.5, -0.4}}, {{50, -0.4}, {51, -0.6}}, {{53, -3}}};
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+      const Cloud cloud = circle_with(kinds[kind], 300, seed, 0.4);
+      const auto whole = order_along_curve(cloud.points);
+      ASSERT_TRUE(whole);
+      const auto found = without_end_strays(cloud.points, *whole);
+      ASSERT_TRUE(found) << kind << ' ' << seed;
+      // (50, -0.4) is where the row goes on to: what is behind it strays alone
+      EXPECT_EQ(named(*found).size(), 1U) << kind;
+      EXPECT_EQ(found->order.order.size(), cloud.points.size() - 1);
+      const Vec2 stray = cloud.points[found->strays.points.front().index];
+      EXPECT_EQ(stray, kinds[kind].back());
+      EXPECT_NEAR(found->strays.points.front().off, std::abs(norm(stray) - 50.0),
+                  0.1 + 0.2 * std::abs(norm(stray) - 50.0));
+    }
+  }
+}
+
+TEST(Strays, AtAnEndAreNoneOfRowsThatGoOn) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Cloud cloud = circle_with({}, 300, seed, 0.4);
+    const auto whole = order_along_curve(cloud.points);
+    ASSERT_TRUE(whole);
+    EXPECT_FALSE(without_end_strays(cloud.points, *whole));
+  }
+  // a spiral that winds up towards its end, and rows without errors
+  std::vector<Vec2> spiral, parabola, coarse;
+  for (int k = 0; k < 120; ++k) {
+    const double t = 0.05 * k;
+    spiral.push_back(20.0 * std::exp(-0.25 * t) * unit_at(t));
+    parabola.push_back({0.1 * k - 6.0, std::pow(0.1 * k - 6.0, 2)});
+    coarse.push_back({std::round(100.0 * k) / 100.0, std::round(10.0 * std::sin(0.1 * k)) / 10.0});
+  }
+  for (const auto& row : {spiral, parabola, coarse}) {
+    const auto whole = order_along_curve(row);
+    ASSERT_TRUE(whole);
+    EXPECT_FALSE(without_end_strays(row, *whole));
+  }
+}
+
 TEST(Strays, AreSoFarOffAsTheyAre) {
   const Cloud cloud = circle_with({{0, 0}}, 300, 7);
   const auto found = order_beside_strays(cloud.points);

@@ -73,8 +73,10 @@ struct ProfileOptions {
 /// Guaranteed: every offset is at most its tolerance (else an error), grades are continuous but for
 /// rounding, elements are as long as asked for. Not guaranteed: that no fewer elements exist, nor
 /// that heights bear every grade between them (`unborne_grades`), where elements have to be long.
-/// Around a loop (`lap`; heights within one lap) height and grade at the end are those at the
-/// start; the element that passes `begin` is cut there. Deterministic; reentrant.
+/// The profile begins at the station of the first height and ends at that of the last one; its
+/// first and last arc may be shorter than the least length by what lies beyond them. Around a loop
+/// (`lap`; heights within one lap) height and grade at the end are those at the start; the element
+/// that passes `begin` is cut there. Deterministic; reentrant.
 ///
 /// Errors: E203 a least length or a lap that is negative or no number, E304 fewer than two heights
 /// (around a loop three), E402 stations that do not ascend or are a lap apart (`index`), E401 none

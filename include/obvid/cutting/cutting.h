@@ -72,8 +72,9 @@ struct CutOptions {
 /// A curve to cut.
 struct CutOutline {
   std::string name;
-  Contour contour;     ///< all of one unit
-  bool is_cut = true;  ///< else it only says what lies in what
+  Contour contour;              ///< all of one unit
+  bool is_cut = true;           ///< else it only says what lies in what
+  bool edges_of_curve = false;  ///< lines that are chords of a curve: arcs may stand for several
 };
 
 /// What became of an outline, in the order of cutting. Lengths in units of the drawing.
@@ -124,8 +125,9 @@ struct CutProgram {
 /// pieces.
 [[nodiscard]] std::optional<Piece> parallel_piece(const Piece& piece, double by);
 
-/// The program. Each outline becomes arcs and lines within the tolerance (`arcs_along`); the tool's
-/// path is their exact parallel at half the diameter (arcs of other radii, arcs around outer
+/// The program. Each outline becomes arcs and lines within the tolerance (`arcs_along`; in place of
+/// chords of curves the longest arcs, one after another, that stay within it of the chords); the
+/// tool's path is their exact parallel at half the diameter (arcs of other radii, arcs around outer
 /// corners, cut off at inner ones). Outlines inside others are cut before them, the nearest first,
 /// improved by exchanges: short, not proved to be shortest. With splines, neighbouring lines and
 /// arcs at one height become cubics (G5) as far as one stays within what is left of the tolerance;

@@ -33,7 +33,8 @@ struct Drawing {
   std::vector<PointSeries> series;    ///< lists of points, and polylines whose lines are
                                       ///< chords of a curve, in the order of the file
   std::vector<std::string> warnings;  ///< what was left out and why, in sentences
-  std::size_t left_out = 0;           ///< entities that would be curves, which `warnings` name
+  std::size_t left_out = 0;           ///< what would be curves and was not read, or not in full or
+                                      ///< not where it is drawn: `warnings` name it
 };
 
 }  // namespace obvid

@@ -27,7 +27,7 @@ struct MadeCut {
   std::vector<CutOutline> outlines;
   std::vector<std::size_t> curves;  ///< of each outline: number in its drawing, from 0
   Units units;
-  std::size_t left_out = 0;  ///< entities of the drawings that would be curves and were not read,
+  std::size_t left_out = 0;  ///< entities of the drawings that would be curves, not read as drawn,
                              ///< where no curves were chosen
   double tolerance = 0.0;    ///< of the program, units; curves are drawn within it
   std::vector<std::string> remarks;  ///< what was taken from the drawings

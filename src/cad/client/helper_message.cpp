@@ -55,7 +55,9 @@ void fields(auto& io, IsA<SurfaceModel> auto& m) { io(m.name, m.units, m.patches
 void fields(auto& io, IsA<CadWriteOptions> auto& o) { io(o.format, o.units, o.face_width); }
 void fields(auto& io, IsA<CadSurfaces> auto& s) { io(s.model, s.warnings); }
 /// Series of points do not come out of these files.
-void fields(auto& io, IsA<Drawing> auto& d) { io(d.name, d.units, d.curves, d.warnings); }
+void fields(auto& io, IsA<Drawing> auto& d) {
+  io(d.name, d.units, d.curves, d.warnings, d.left_out);
+}
 void fields(auto& io, IsA<Error> auto& e) { io(e.code, e.what, e.where, e.hint, e.index, e.value); }
 
 void fields(auto& io, IsA<ReadCurves> auto& job) { io(job.path); }

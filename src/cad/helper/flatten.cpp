@@ -222,6 +222,11 @@ std::string plane_text(const Plane& plane) {
                      n.Z() + 0.0);  // no -0
 }
 
+void leave_out(const EdgeChain& chain, const std::string& why, Drawing& drawing) {
+  drawing.warnings.push_back(chain.label + " was left out: " + why);
+  ++drawing.left_out;
+}
+
 /// What the whole is not, its edges may be.
 void add_one_by_one(const EdgeChain& chain, Drawing& drawing) {
   for (std::size_t i = 0; i < chain.edges.size(); ++i) {
@@ -236,25 +241,21 @@ void add_chain(const EdgeChain& chain, Drawing& drawing) {
     auto curve = curve_of(edge, why);
     if (!curve && chain.edges.size() > 1) return add_one_by_one(chain, drawing);
     if (!curve) {
-      drawing.warnings.push_back(chain.label + " was left out: it " + why);
-      return;
+      return leave_out(chain, "it " + why, drawing);
     }
     curves.push_back(std::move(*curve));
   }
   const std::vector<gp_Pnt> points = poles_of(curves);
   if (points.empty()) return;
   if (!all_finite(points)) {
-    drawing.warnings.push_back(chain.label + " was left out: it has numbers that are not finite");
-    return;
+    return leave_out(chain, "it has numbers that are not finite", drawing);
   }
   const double size = size_of_points(points);
   double away = 0.0;
   const auto plane = plane_of(points, size, away);
   if (!plane && chain.edges.size() > 1) return add_one_by_one(chain, drawing);
   if (!plane) {
-    drawing.warnings.push_back(
-        fmt::format("{} was left out: it is not plane, by {:.3g} mm", chain.label, away));
-    return;
+    return leave_out(chain, fmt::format("it is not plane, by {:.3g} mm", away), drawing);
   }
   const bool own = plane->normal().Z() < 0.5 || plane->origin.Distance(gp_Pnt()) > 0.0;
   if (own)
@@ -272,8 +273,7 @@ void add_flat(const EdgeChain& chain, Drawing& drawing) {
   try {
     add_chain(chain, drawing);
   } catch (const Standard_Failure& failure) {
-    drawing.warnings.push_back(chain.label + " was left out: the CAD kernel says " +
-                               failure.GetMessageString());
+    leave_out(chain, std::string("the CAD kernel says ") + failure.GetMessageString(), drawing);
   }
 }
 

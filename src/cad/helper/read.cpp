@@ -34,6 +34,7 @@ class Collector {
         wire(w, "boundary of a face, wire");
       }
     }
+    drawing_.left_out += left_out_;
     if (left_out_ > 0) {
       drawing_.warnings.push_back(
           fmt::format("{} curves beyond the first {} were not looked at", left_out_, kMostCurves));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "biarc_along.h"
+#include "fewer_arcs.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/curve/internal/path_distance.h"
 
@@ -33,8 +34,9 @@ constexpr double kShortestArc = 1e-12;    // of a contour: arcs of that length a
 constexpr double kFirstPeriod = 1.0 / 64.0;
 constexpr double kMostLean = 0.2;  // rad, between a node's heading and the contour's
 constexpr std::size_t kMostArcs = 1000000;
-constexpr std::size_t kEvened = 20;  // pairs before the end of a stretch that are made alike
-constexpr int kEvenings = 5;         // bisections for that
+constexpr std::size_t kEvened = 20;      // pairs before the end of a stretch that are made alike
+constexpr int kEvenings = 5;             // bisections for that
+constexpr std::size_t kMostFitted = 80;  // pairs of a stretch that are fitted together
 
 /// Pairs in a row: the node before each, and the last one.
 using Chain = std::vector<Node>;
@@ -43,7 +45,7 @@ using Chain = std::vector<Node>;
 class StretchArcs {
  public:
   StretchArcs(const Track& track, const SmoothPart& stretch, double tolerance, std::size_t parts,
-              Watch* watch)
+              bool fitted, Watch* watch)
       : track_(track),
         closed_(stretch.closed),
         from_(track.start_of(stretch.first)),
@@ -51,6 +53,7 @@ class StretchArcs {
         vertices_(track.vertices(stretch)),
         tolerance_(tolerance),
         parts_(parts),
+        fitted_(fitted),
         watch_(watch),
         period_(kFirstPeriod * (to_ - from_)) {
     if (closed_) seam_lean_ = kParts.front() * lean(from_, tolerance_);
@@ -61,6 +64,7 @@ class StretchArcs {
   std::optional<Chain> run(std::size_t most) {
     auto chain = fewest(node(from_, tolerance_, 0.0), tolerance_, most / 2);
     if (!chain) return std::nullopt;
+    if (auto fewer = fewer_than(*chain)) return fewer;
     even_out(*chain);
     return chain;
   }
@@ -239,6 +243,49 @@ class StretchArcs {
     return chain;
   }
 
+  /// Fewer pairs whose nodes may lie anywhere, as few as are found; nothing where there are none.
+  [[nodiscard]] std::optional<Chain> fewer_than(const Chain& chain) const {
+    const std::size_t had = chain.size() - 1;
+    if (!fitted_ || had < 2 || had > kMostFitted) return std::nullopt;
+    const arcs::PairsAlong along{track_, from_, to_, closed_, tolerance_};
+    const auto best = static_cast<std::size_t>(0.5 * arcs::best_number_of_arcs(along));
+    const bool was_monotone = is_monotone(chain);
+    const auto fitted = [&](std::size_t pairs) {
+      auto out = arcs::fitted_pairs(along, pairs, watch_);
+      if (out && was_monotone && !is_monotone(*out)) out.reset();
+      return out;
+    };
+    std::size_t pairs = std::clamp<std::size_t>(best + 1, 1, had - 1);
+    std::optional<Chain> found = fitted(pairs);
+    while (!found && ++pairs < had && !is_to_end(watch_)) found = fitted(pairs);
+    for (; found && pairs > 1 && !is_to_end(watch_); --pairs) {
+      auto next = fitted(pairs - 1);
+      if (!next) break;
+      found = std::move(next);
+    }
+    return found;
+  }
+
+  /// Whether the curvatures of arcs change as the contour's do.
+  [[nodiscard]] bool is_monotone(const Chain& chain) const {
+    struct Arc {
+      double from, to, kappa;
+    };
+    std::vector<Arc> all;
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      const auto pair = arcs::circles_between(chain[i - 1], chain[i]);
+      const double a = chain[i - 1].s, b = chain[i].s, middle = 0.5 * (a + b);
+      all.push_back({a, middle, pair.first.kappa});
+      all.push_back({middle, b, pair.second.kappa});
+    }
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      if (turns_inside(all[i - 1].from, all[i].to)) continue;
+      const double change = kappa(all[i].to) - kappa(all[i - 1].from);
+      if ((all[i].kappa - all[i - 1].kappa) * change < 0.0) return false;
+    }
+    return true;
+  }
+
   /// The same number of pairs with a smaller tolerance, so that the last one is as long as others.
   void even_out(Chain& chain) const {
     const std::size_t n = std::min(chain.size() - 1, kEvened), kept = chain.size() - 1 - n;
@@ -261,6 +308,7 @@ class StretchArcs {
   std::vector<double> vertices_;
   double tolerance_;
   std::size_t parts_;  ///< how many of kParts are tried
+  bool fitted_;        ///< whether fewer are looked for
   Watch* watch_;
   mutable double period_;  ///< the last one found: where to look for the next
   double seam_lean_ = 0.0;
@@ -287,7 +335,7 @@ double expected_arcs(const Contour& contour, double tolerance) {
 }
 
 Result<std::vector<Piece>> all_arcs(const Track& track, double tolerance, double expected,
-                                    Watch* watch) {
+                                    bool fitted, Watch* watch) {
   const std::size_t parts = expected > kManyArcs ? 1 : kParts.size();
   std::vector<Piece> out;
   for (const SmoothPart& stretch : track.stretches()) {
@@ -295,7 +343,7 @@ Result<std::vector<Piece>> all_arcs(const Track& track, double tolerance, double
       out.push_back(arcs::as_circular(track.piece(stretch.first)));
       continue;
     }
-    const auto chain = StretchArcs(track, stretch, tolerance, parts, watch).run(kMostArcs);
+    const auto chain = StretchArcs(track, stretch, tolerance, parts, fitted, watch).run(kMostArcs);
     if (is_to_end(watch)) return fail(cancelled_error());
     if (!chain || out.size() + 2 * chain->size() > kMostArcs) {
       return fail(not_reached("no million arcs are near enough to the contour", tolerance));
@@ -324,21 +372,31 @@ Result<ArcsAlong> arcs_along(const Contour& contour, double tolerance, Watch* wa
   }
   const Track track(contour);
   if (std::all_of(contour.pieces.begin(), contour.pieces.end(), arcs::is_circular)) {
-    auto same = all_arcs(track, tolerance, expected, watch);
+    auto same = all_arcs(track, tolerance, expected, false, watch);
     OBVID_TRY(same);
     return ArcsAlong{std::move(*same), 0.0};
   }
-  constexpr int kTrials = 4;
+  constexpr int kTrials = 5;
+  constexpr double kSampledBadly = 1.05;  // of the tolerance, by what was found with samples
+  constexpr double kNearerOnce = 0.7;     // of the tolerance: what is tried then
   double within = kOfArcTolerance * tolerance;
+  bool fitted = true;
   ArcsAlong out;
   for (int trial = 0; trial < kTrials; ++trial) {
-    auto pieces = all_arcs(track, within, expected, watch);
+    auto pieces = all_arcs(track, within, expected, fitted, watch);
     OBVID_TRY(pieces);
     out.pieces = std::move(*pieces);
     out.deviation = path_distance(contour.pieces, out.pieces, watch);
     if (is_to_end(watch)) return fail(cancelled_error());
     if (out.deviation <= tolerance) return out;
-    within *= kOfArcTolerance * tolerance / out.deviation;
+    const double share = kOfArcTolerance * tolerance / out.deviation;
+    const bool badly = fitted && out.deviation > kSampledBadly * tolerance;
+    if (badly && trial > 0) {
+      fitted = false;
+      within = kOfArcTolerance * tolerance;
+      continue;
+    }
+    within *= badly ? std::max(share, kNearerOnce) : share;
   }
   return fail(not_reached("the arcs do not come near enough to the contour", out.deviation));
 }

@@ -24,13 +24,6 @@ Piece arc_between(Vec2 from, double theta, Vec2 to) {
   return ArcPiece{from, to, theta, kappa, length * half / std::sin(half)};
 }
 
-/// An arc or line as what distances from it need.
-struct Circle {
-  Vec2 start;
-  Vec2 tangent;
-  double kappa = 0.0;
-};
-
 Circle circle_of(const Piece& piece) {
   if (const auto* arc = std::get_if<ArcPiece>(&piece)) {
     return {arc->start, unit_at(arc->theta0), arc->kappa};
@@ -40,12 +33,23 @@ Circle circle_of(const Piece& piece) {
   return {line.start, along / norm(along), 0.0};
 }
 
-/// Distance of a point from a whole circle: | |p - centre| - radius | without the cancellation of
-/// a large circle.
-double distance(const Circle& c, Vec2 p) {
-  const Vec2 v = p - c.start, n = left_normal(c.tangent);
-  const double twice = c.kappa * dot(v, v) - 2.0 * dot(v, n);
-  return std::abs(twice) / (1.0 + norm(c.kappa * v - n));
+double distance(const Circle& c, Vec2 p) { return std::abs(signed_distance(c, p)); }
+
+/// Where the arcs of a pair meet. Legs d and r d: |v - d (t0 + r t1)| = (1 + r) d.
+Vec2 joint_of(const Node& a, const Node& b, Vec2 t0, Vec2 t1) {
+  const Vec2 v = b.point - a.point, difference = t0 - t1;
+  const double r = b.ratio, forward = dot(v, t0 + r * t1), square = dot(v, v);
+  // (1 - cos) without cancellation
+  const double leg =
+      square / (forward + std::sqrt(forward * forward + r * dot(difference, difference) * square));
+  const Vec2 before = a.point + leg * t0, behind = b.point - (r * leg) * t1;
+  return (1.0 / (1.0 + r)) * (r * before + behind);
+}
+
+/// Curvature of the arc that leaves `from` along a unit vector and ends in `to`.
+double arc_curvature(Vec2 from, Vec2 tangent, Vec2 to) {
+  const Vec2 chord = to - from;
+  return 2.0 * cross(tangent, chord) / dot(chord, chord);
 }
 
 bool goes_forward(const Piece& piece) {
@@ -58,16 +62,28 @@ bool goes_forward(const Piece& piece) {
 
 }  // namespace
 
-/// Two arcs with tangents of equal length at both ends (Bolton, "Biarc curves", 1975): always there
-/// for headings less than half a turn apart.
+/// | |p - centre| - radius | without the cancellation of a large circle.
+double signed_distance(const Circle& c, Vec2 p) {
+  const Vec2 v = p - c.start, n = left_normal(c.tangent);
+  const double twice = 2.0 * dot(v, n) - c.kappa * dot(v, v);
+  return twice / (1.0 + norm(c.kappa * v - n));
+}
+
+CirclePair circles_between(const Node& a, const Node& b) {
+  const Vec2 t0 = unit_at(a.theta), t1 = unit_at(b.theta);
+  const Vec2 joint = joint_of(a, b, t0, t1);
+  const Vec2 chord = joint - a.point;
+  // the tangent there is that of the start, mirrored at the chord's bisector
+  const Vec2 along = (2.0 * dot(t0, chord) / dot(chord, chord)) * chord - t0;
+  return {{a.point, t0, arc_curvature(a.point, t0, joint)},
+          {joint, along, arc_curvature(joint, along, b.point)}};
+}
+
+/// Two arcs whose tangents at both ends have lengths of this ratio (Bolton, "Biarc curves", 1975):
+/// always there for headings less than half a turn apart.
 std::array<Piece, 2> arcs_between(const Node& a, const Node& b) {
-  const Vec2 v = b.point - a.point, t0 = unit_at(a.theta), t1 = unit_at(b.theta);
-  const Vec2 difference = t0 - t1;
-  // (1 - cos) without cancellation
-  const double forward = dot(v, t0 + t1), square = dot(v, v);
-  const double leg =
-      square / (forward + std::sqrt(forward * forward + dot(difference, difference) * square));
-  const Vec2 middle = 0.5 * (a.point + b.point + leg * difference);
+  const Vec2 t0 = unit_at(a.theta);
+  const Vec2 middle = joint_of(a, b, t0, unit_at(b.theta));
   const double theta = a.theta + 2.0 * turning(t0, middle - a.point);
   return {arc_between(a.point, a.theta, middle), arc_between(middle, theta, b.point)};
 }

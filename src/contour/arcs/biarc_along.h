@@ -9,12 +9,30 @@
 
 namespace obvid::arcs {
 
-/// Where two pairs of arcs meet: a point of the contour, and a heading near the contour's.
+/// Where two pairs of arcs meet: a point of the contour or near it, and a heading near the
+/// contour's.
 struct Node {
   double s = 0.0;
   Vec2 point;
   double theta = 0.0;
+  double ratio = 1.0;  ///< of the pair that ends here: length of its second leg over the first
 };
+
+/// An arc or line as what distances from it need.
+struct Circle {
+  Vec2 start;
+  Vec2 tangent;
+  double kappa = 0.0;
+};
+
+/// Distance of a point from a whole circle, to the left of its direction positive.
+[[nodiscard]] double signed_distance(const Circle& circle, Vec2 p);
+
+/// Two arcs as circles; `joint` is where they meet.
+struct CirclePair {
+  Circle first, second;
+};
+[[nodiscard]] CirclePair circles_between(const Node& a, const Node& b);
 
 /// Two arcs between nodes that share a tangent.
 [[nodiscard]] std::array<Piece, 2> arcs_between(const Node& a, const Node& b);

@@ -17,19 +17,35 @@ namespace obvid {
 namespace {
 
 constexpr std::size_t kFewestPoints = 5, kMostPoints = 100'000;  // points that are written
+/// Chords, of thickness and camber: that may be asked for; less is what rounded coordinates leave.
+constexpr double kMostHeight = 0.5, kLeastHeight = 1e-5;
 constexpr double kFinest = 1e-8;  // of the chord: a unit of the last digit is no larger
 
-/// The sides as they are written, along the chord: moved apart by an amount times (x / chord)^2,
-/// and ended by an arc where the edge is round. Places are arc lengths from the leading edge, of
-/// the sides before they are moved.
+/// What multiplies the distance of both sides and their middle, normal to the chord.
+struct SideScale {
+  double thickness = 1.0, camber = 1.0;
+
+  [[nodiscard]] bool is_none() const { return thickness == 1.0 && camber == 1.0; }
+  /// Of a height or slope of a side at a place where the other side has another one.
+  [[nodiscard]] double of(double own, double other) const {
+    const double middle = 0.5 * (own + other);
+    return camber * middle + thickness * (own - middle);
+  }
+};
+
+/// The sides as they are written, along the chord: scaled, moved apart by an amount times (x /
+/// chord)^2, and ended by an arc where the edge is round. Places are arc lengths from the leading
+/// edge, of the sides before they are moved.
 class WrittenSides {
  public:
-  explicit WrittenSides(const Airfoil& foil, double more) : foil_(foil), more_(more) {
+  WrittenSides(const Airfoil& foil, const SideScale& scale, double more)
+      : foil_(foil), scale_(scale), more_(more) {
     for (const bool upper : {true, false}) side(upper).ends = foil.side_length(upper);
   }
   /// Moved so that an arc of this radius touches both sides and reaches to the end of the chord.
   /// Error: E203 where none does.
-  [[nodiscard]] static Result<WrittenSides> rounded(const Airfoil& foil, double radius);
+  [[nodiscard]] static Result<WrittenSides> rounded(const Airfoil& foil, const SideScale& scale,
+                                                    double radius);
 
   [[nodiscard]] double more() const { return more_; }
   [[nodiscard]] bool is_round() const { return radius_ > 0.0; }
@@ -41,9 +57,11 @@ class WrittenSides {
     return side(upper).ends + radius_ * std::abs(side(upper).turn);
   }
   [[nodiscard]] Vec2 point(bool upper, double s) const;
-  [[nodiscard]] double x_on(bool upper, double s) const { return point(upper, s).x; }
+  [[nodiscard]] double x_on(bool upper, double s) const {
+    return is_on_arc(upper, s) ? point(upper, s).x : foil_.x_on(upper, s);
+  }
   [[nodiscard]] double kappa(bool upper, double s) const {
-    return s > side(upper).ends ? 1.0 / radius_ : std::abs(foil_.on_side(upper, s).kappa);
+    return is_on_arc(upper, s) ? 1.0 / radius_ : std::abs(foil_.on_side(upper, s).kappa);
   }
   [[nodiscard]] double place_of(bool upper, double x) const;
   [[nodiscard]] std::size_t looks() const { return foil_.looks(); }
@@ -56,7 +74,12 @@ class WrittenSides {
   [[nodiscard]] Side& side(bool upper) { return sides_[upper ? 0 : 1]; }
   [[nodiscard]] const Side& side(bool upper) const { return sides_[upper ? 0 : 1]; }
 
+  [[nodiscard]] bool is_on_arc(bool upper, double s) const {
+    return is_round() && s > side(upper).ends;
+  }
+
   const Airfoil& foil_;
+  SideScale scale_;
   double more_ = 0.0;  ///< of the trailing edge, units
   double radius_ = 0.0;
   Vec2 centre_{};
@@ -65,12 +88,13 @@ class WrittenSides {
 
 Vec2 WrittenSides::point(bool upper, double s) const {
   const Side& on = side(upper);
-  if (is_round() && s > on.ends) {
+  if (is_on_arc(upper, s)) {
     const double left = 1.0 - (s - on.ends) / (radius_ * std::abs(on.turn));
     const double a = on.turn * std::max(left, 0.0);
     return centre_ + radius_ * Vec2{std::cos(a), std::sin(a)};
   }
   Vec2 q = foil_.local(foil_.on_side(upper, s).point);
+  if (!scale_.is_none()) q.y = scale_.of(q.y, foil_.height(!upper, q.x));
   const double x = q.x / foil_.chord();
   q.y += (upper ? 0.5 : -0.5) * more_ * x * x;
   return q;
@@ -80,15 +104,22 @@ double WrittenSides::place_of(bool upper, double x) const {
   return place_with_x(x, length(upper), [&](double s) { return x_on(upper, s); });
 }
 
-Result<WrittenSides> WrittenSides::rounded(const Airfoil& foil, double radius) {
+Result<WrittenSides> WrittenSides::rounded(const Airfoil& foil, const SideScale& scale,
+                                           double radius) {
   constexpr int kSteps = 200;         // each gains some digits: the sides are nearly straight there
   constexpr double kSettled = 1e-15;  // of the chord
   const double c = foil.chord();
-  WrittenSides out(foil, 0.0);
+  WrittenSides out(foil, scale, 0.0);
   out.radius_ = radius;
   out.centre_.x = c - radius;
   // slopes of the moved sides where the arc touches them, and x there
   std::array<double, 2> slope{}, x{out.centre_.x, out.centre_.x};
+  // height and slope of a side before it is moved
+  const auto side_at = [&](bool upper, double at) {
+    const auto place = foil.on_side(upper, foil.place_of(upper, at));
+    const Vec2 tangent = foil.local(foil.leading() + place.tangent);
+    return Vec2{foil.local(place.point).y, tangent.y / tangent.x};
+  };
   const auto no_room = [&] {
     return error(ErrorCode::kBadOption, "no arc of this diameter touches both sides")
         .where("--trailing-edge-form")
@@ -100,11 +131,14 @@ Result<WrittenSides> WrittenSides::rounded(const Airfoil& foil, double radius) {
     for (const bool upper : {true, false}) {
       const std::size_t i = upper ? 0 : 1;
       if (!(x[i] > 0.0)) return no_room();
-      const auto place = foil.on_side(upper, foil.place_of(upper, x[i]));
-      const Vec2 tangent = foil.local(foil.leading() + place.tangent);
-      y[i] = foil.local(place.point).y;
+      Vec2 here = side_at(upper, x[i]);
+      if (!scale.is_none()) {
+        const Vec2 other = side_at(!upper, x[i]);
+        here = {scale.of(here.x, other.x), scale.of(here.y, other.y)};
+      }
+      y[i] = here.x;
       const double moved = (upper ? 1.0 : -1.0) * out.more_ * x[i] / (c * c);
-      slope[i] = tangent.y / tangent.x + moved;
+      slope[i] = here.y + moved;
       if (!std::isfinite(slope[i])) return no_room();
       up[i] = 1.0 / std::sqrt(1.0 + slope[i] * slope[i]);
     }
@@ -164,12 +198,57 @@ std::vector<double> places(const WrittenSides& sides, bool upper, std::size_t m,
   return out;
 }
 
+/// Errors: E203.
+Result<SideScale> scale_of(const AirfoilOptions& options, const AirfoilFigures& figures) {
+  SideScale out;
+  if (options.thickness) {
+    if (!(*options.thickness > 0.0 && *options.thickness < kMostHeight)) {
+      return error(ErrorCode::kBadOption,
+                   "a thickness above 0 and below half of the chord is expected")
+          .where("--thickness")
+          .hint("for example 12% or 0.12")
+          .value(*options.thickness);
+    }
+    if (!(figures.thickness > kLeastHeight)) {
+      return error(ErrorCode::kBadOption, "the section has no thickness that could be scaled")
+          .where("--thickness")
+          .value(figures.thickness);
+    }
+    out.thickness = *options.thickness / figures.thickness;
+  }
+  if (options.camber) {
+    if (!(std::abs(*options.camber) < kMostHeight)) {
+      return error(ErrorCode::kBadOption, "a camber below half of the chord is expected")
+          .where("--camber")
+          .hint("for example 2% or 0.02")
+          .value(*options.camber);
+    }
+    // what rounded coordinates leave of a symmetric section has no shape that can be scaled
+    if (*options.camber != 0.0 && std::abs(figures.camber) < kLeastHeight) {
+      return error(ErrorCode::kBadOption, "the section has no camber that could be scaled")
+          .where("--camber")
+          .hint("leave it out, or give 0")
+          .value(figures.camber);
+    }
+    out.camber = *options.camber == 0.0 ? 0.0 : *options.camber / figures.camber;
+  }
+  return out;
+}
+
 /// The sides as the options ask for them. Errors: E203.
 Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options,
                               const AirfoilFigures& figures) {
   const double c = foil.chord();
-  const Vec2 a = foil.local(foil.end(true)), b = foil.local(foil.end(false));
-  const double thick = options.trailing_thickness.value_or(figures.trailing_thickness);
+  const auto scale = scale_of(options, figures);
+  OBVID_TRY(scale);
+  const auto scaled_end = [&](bool upper) {
+    Vec2 at = foil.local(foil.end(upper));
+    if (!scale->is_none()) at.y = scale->of(at.y, foil.height(!upper, at.x));
+    return at;
+  };
+  const Vec2 a = scaled_end(true), b = scaled_end(false);
+  const double thick =
+      options.trailing_thickness.value_or(scale->thickness * figures.trailing_thickness);
   const bool round = options.trailing_form == TrailingEdgeForm::kRound;
   if (round && !(thick > 0.0)) {
     return error(ErrorCode::kBadOption, "a round trailing edge has a thickness")
@@ -179,8 +258,8 @@ Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options
   // ends that lie at different places along the chord are moved by different amounts
   const double squares = (a.x * a.x + b.x * b.x) / (c * c);
   const double more = options.trailing_thickness ? 2.0 * (thick * c - (a.y - b.y)) / squares : 0.0;
-  Result<WrittenSides> sides =
-      round ? WrittenSides::rounded(foil, 0.5 * thick * c) : WrittenSides(foil, more);
+  Result<WrittenSides> sides = round ? WrittenSides::rounded(foil, *scale, 0.5 * thick * c)
+                                     : WrittenSides(foil, *scale, more);
   OBVID_TRY(sides);
   const bool as_contour = foil.goes_on(true) == 0.0 && foil.goes_on(false) == 0.0;
   if (!(sides->more() < 0.0) && as_contour) return sides;
@@ -189,7 +268,8 @@ Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options
     const double x = c * k / kPlaces;
     if (round && x > std::min(sides->arc_from(true), sides->arc_from(false))) break;
     const double moved = sides->more() * (x / c) * (x / c);
-    if (foil.height(true, x) - foil.height(false, x) + moved > 0.0) continue;
+    const double apart = scale->thickness * (foil.height(true, x) - foil.height(false, x));
+    if (apart + moved > 0.0) continue;
     return error(ErrorCode::kBadOption,
                  fmt::format("with this trailing edge the sides cross at {:.3f} chords", x / c))
         .hint("choose a thicker one")
@@ -217,7 +297,8 @@ Airfoil to_be_closed(Airfoil foil, const AirfoilOptions& options, AirfoilText& o
     closed.left_open = "it would meet the other side before";
   } else {
     closed.gone_on = level.goes_on(closed.upper) / level.chord();
-    closed.moved = 0.5 * figures.trailing_thickness;
+    const auto scale = scale_of(options, figures);
+    closed.moved = 0.5 * figures.trailing_thickness * (scale ? scale->thickness : 1.0);
   }
   out.closed = closed;
   return closed.left_open.empty() ? level : foil;
@@ -237,10 +318,15 @@ Result<AirfoilText> airfoil_text(const Contour& contour, const AirfoilOptions& o
   const Airfoil foil = to_be_closed(std::move(*made), options, out);
   out.figures = foil.figures();
   const double c = foil.chord();
+  const auto scale = scale_of(options, out.figures);
+  OBVID_TRY(scale);
+  out.thickness_scale = scale->thickness;
+  out.camber_scale = scale->camber;
   const auto written = sides_of(foil, options, out.figures);
   OBVID_TRY(written);
   if (written->is_round()) {
-    const double thick = options.trailing_thickness.value_or(out.figures.trailing_thickness);
+    const double thick =
+        options.trailing_thickness.value_or(scale->thickness * out.figures.trailing_thickness);
     out.rounded = {thick, written->arc_from(true) / c, written->arc_from(false) / c, 0};
   }
   const std::size_t below = (options.count - 1) / 2, above = options.count - 1 - below;

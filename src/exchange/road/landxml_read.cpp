@@ -62,6 +62,7 @@ class LandXmlReader {
     }
     for (const pugi::xml_node node : geometries) geometry(node);
     drawing_.warnings = warnings_.take();
+    drawing_.left_out = warnings_.left_out();
     if (off_end_ > 0.0) {
       drawing_.warnings.push_back(
           fmt::format("curves and spirals end up to {:.2g} {} from their stated ends", off_end_,
@@ -134,7 +135,7 @@ class LandXmlReader {
 
   void leave_out(const std::string& what, pugi::xml_node node,
                  std::optional<double> length = std::nullopt) {
-    warnings_.add(what + " left out", node);
+    warnings_.leave_out(what + " left out", node);
     finish();
     if (!length) length = number_of(node.attribute("length").value());
     if (station_ && length) {

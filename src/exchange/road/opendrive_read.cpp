@@ -95,6 +95,7 @@ class OpenDriveReader {
     drawing_.name = file_.name();
     drawing_.units = "m";
     drawing_.warnings = warnings_.take();
+    drawing_.left_out = warnings_.left_out();
     if (drawing_.curves.empty()) {
       return error(ErrorCode::kNothingThere, "no road of the file has a reference line")
           .where(file_.name());
@@ -161,7 +162,7 @@ class OpenDriveReader {
                              {"y", &base.y},
                              {"hdg", &base.hdg},
                              {"length", &base.length}})) {
-      warnings_.add("an element whose s, x, y, hdg or length is no number left out", node);
+      warnings_.leave_out("an element whose s, x, y, hdg or length is no number left out", node);
       return std::nullopt;
     }
     if (!(base.length > 0.0)) {
@@ -171,7 +172,7 @@ class OpenDriveReader {
     auto piece = shape(node, base);
     if (!piece) return std::nullopt;
     if (!has_finite_places(*piece) || start_point(*piece) == end_point(*piece)) {
-      warnings_.add("an element that comes to no point or goes nowhere left out", node);
+      warnings_.leave_out("an element that comes to no point or goes nowhere left out", node);
       return std::nullopt;
     }
     return piece;
@@ -203,7 +204,7 @@ class OpenDriveReader {
         return cubic_piece(base, u, v, range_of(child, base));
       }
     }
-    warnings_.add(
+    warnings_.leave_out(
         "an element without line, arc, spiral, poly3 or paramPoly3 that can be read left out",
         node);
     return std::nullopt;

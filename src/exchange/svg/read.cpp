@@ -79,6 +79,7 @@ class SvgReader {
     children(file_.root(), sheet());
     drawing_.name = file_.name();
     drawing_.units = "mm";
+    drawing_.left_out = warnings_.left_out();
     if (empty_segments_ > 0) {
       drawing_.warnings.push_back(
           fmt::format("{} segments of no length left out", empty_segments_));
@@ -161,18 +162,19 @@ class SvgReader {
     const string_view text = node.attribute("transform").value();
     const auto transform = exchange::svg_transform(text);
     if (!transform) {
-      warnings_.add(fmt::format("transform \"{}\" has an error and is not used", shortened(text)),
-                    node);
+      warnings_.leave_out(
+          fmt::format("transform \"{}\" has an error and is not used", shortened(text)), node);
     }
     if (string_view(node.attribute("style").value()).find("transform") != string_view::npos) {
-      warnings_.add("a transform in a style is not followed", node);
+      warnings_.leave_out("a transform in a style is not followed", node);
     }
     return transform.value_or(Affine{});
   }
 
   void children(pugi::xml_node node, const State& state) {
     if (state.depth >= kMaxGroupDepth) {
-      warnings_.add(fmt::format("groups nested more than {} deep left out", kMaxGroupDepth), node);
+      warnings_.leave_out(fmt::format("groups nested more than {} deep left out", kMaxGroupDepth),
+                          node);
       return;
     }
     for (const pugi::xml_node child : node.children()) {
@@ -188,7 +190,8 @@ class SvgReader {
     const std::size_t cost = kElementCost + string_view(node.attribute("d").value()).size() +
                              string_view(node.attribute("points").value()).size();
     if (cost > budget_) {
-      warnings_.add("more is drawn through use than 16 times the file; the rest left out", node);
+      warnings_.leave_out("more is drawn through use than 16 times the file; the rest left out",
+                          node);
       budget_ = 0;
       return false;
     }
@@ -204,7 +207,7 @@ class SvgReader {
     State state = {outer.to_sheet * own_transform(node), outer.viewport, outer.depth + 1,
                    outer.layer};
     if (!state.to_sheet.is_finite() || state.to_sheet.determinant() == 0.0) {
-      return warnings_.add("elements with a transform that flattens them left out", node);
+      return warnings_.leave_out("elements with a transform that flattens them left out", node);
     }
     if (SvgShape::knows(name)) return shape(node, name, state);
     if (name == "g") state.layer = layer_inside(node, outer.layer);
@@ -224,7 +227,7 @@ class SvgReader {
     drawn.draw(name);
     empty_segments_ += builder.empty_segments();
     if (!builder.all_finite()) {
-      return warnings_.add("shapes beyond the range of numbers left out", node);
+      return warnings_.leave_out("shapes beyond the range of numbers left out", node);
     }
     auto curves = builder.take();
     if (curves.empty()) {
@@ -296,13 +299,13 @@ class SvgReader {
     const string_view href = exchange::trimmed(attribute_of(node, "href").value());
     const auto found = href.starts_with('#') ? ids_.find(std::string(href.substr(1))) : ids_.end();
     if (found == ids_.end()) {
-      return warnings_.add(
+      return warnings_.leave_out(
           fmt::format("use of '{}', which is not in the file, left out", shortened(href)), node);
     }
     const pugi::xml_node target = found->second;
     if (std::find(active_.begin(), active_.end(), target) != active_.end() ||
         static_cast<int>(active_.size()) >= kMaxGroupDepth || state.depth >= kMaxGroupDepth) {
-      return warnings_.add("a use that contains itself left out", node);
+      return warnings_.leave_out("a use that contains itself left out", node);
     }
     const auto length = [&](const char* name, SvgAxis axis) {
       return exchange::svg_length(node.attribute(name).value(), axis, state.viewport).value_or(0.0);

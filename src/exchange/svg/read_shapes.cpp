@@ -31,9 +31,10 @@ std::optional<double> SvgShape::given(const char* name, SvgAxis axis) {
   if (text.empty() || text == "auto") return std::nullopt;
   const auto value = svg_length(text, axis, viewport_);
   if (!value) {
-    warnings_.add(fmt::format("{} {}=\"{}\" is no length that can be used; taken as not given",
-                              local_name(node_), name, shortened(text)),
-                  node_);
+    warnings_.leave_out(
+        fmt::format("{} {}=\"{}\" is no length that can be used; taken as not given",
+                    local_name(node_), name, shortened(text)),
+        node_);
   }
   return value;
 }
@@ -42,9 +43,9 @@ void SvgShape::path() {
   const std::string_view data = node_.attribute("d").value();
   const auto wrong = draw_path(data, out_);
   if (wrong) {
-    warnings_.add(fmt::format("path data have an error near \"{}\"; drawn up to there",
-                              shortened(data.substr(*wrong, 20))),
-                  node_);
+    warnings_.leave_out(fmt::format("path data have an error near \"{}\"; drawn up to there",
+                                    shortened(data.substr(*wrong, 20))),
+                        node_);
   }
 }
 
@@ -63,9 +64,9 @@ void SvgShape::polyline(bool closed) {
     in.skip_separator();
     const auto y = x ? in.number() : std::nullopt;
     if (!y) {
-      warnings_.add(fmt::format("points of a {} have an error near \"{}\"; drawn up to there",
-                                local_name(node_), shortened(text.substr(place, 20))),
-                    node_);
+      warnings_.leave_out(fmt::format("points of a {} have an error near \"{}\"; drawn up to there",
+                                      local_name(node_), shortened(text.substr(place, 20))),
+                          node_);
       break;
     }
     points_.push_back({*x, *y});

@@ -58,8 +58,7 @@ std::string places_of_vertices(const Contour& contour) {
     const bool last = k + 1 == places.size();
     text += (k == 0 ? "" : last ? " and " : ", ") + places[k];
   }
-  if (places.size() > kMostPlaces) text += fmt::format(" and {} more", places.size() - kMostPlaces);
-  return text;
+  return text + and_more(places.size(), kMostPlaces);
 }
 
 Error with_tolerance(Error error, const std::optional<WhyNot>& why, const PointSeries& series) {

@@ -67,9 +67,7 @@ class Taken {
       names += name.empty() ? fmt::format("curve {}", number + 1)
                             : fmt::format("{} (curve {})", name, number + 1);
     }
-    [[nodiscard]] std::string text() const {
-      return count > kMostNamed ? names + fmt::format(" and {} more", count - kMostNamed) : names;
-    }
+    [[nodiscard]] std::string text() const { return names + and_more(count, kMostNamed); }
   };
 
   /// Places that nobody joined by a line.
@@ -85,8 +83,9 @@ class Taken {
     }
     if (edges_.count > 0 && options_.use != DrawnUse::kExact) {
       made_.warnings.push_back(fmt::format(
-          "{}: cut as drawn, along straight edges, where the vertices look like points of a curve: "
-          "{}; `obvid fit {} --curve N -o outline.json` forms a curve of one, --drawing exact says "
+          "{}: cut as drawn, along straight edges, with arcs in place of several where they are "
+          "within the tolerance of them, where the vertices look like points of a curve: {}; "
+          "`obvid fit {} --curve N -o outline.json` forms a curve of one, --drawing exact says "
           "that the edges are meant",
           drawing.name, edges_.text(), drawing.name));
     }
@@ -137,7 +136,10 @@ class Taken {
     OBVID_TRY(drawn);
     std::string name = drawn->name.empty() ? fmt::format("curve {}", number + 1) : drawn->name;
     if (several_) name = drawing.name + ": " + name;
-    made_.outlines.push_back({std::move(name), std::move(drawn->stored.contour), is_cut});
+    const bool chords = number >= drawing.curves.size() &&
+                        !drawing.series[number - drawing.curves.size()].spline &&
+                        options_.use != DrawnUse::kExact;
+    made_.outlines.push_back({std::move(name), std::move(drawn->stored.contour), is_cut, chords});
     made_.curves.push_back(number);
     return {};
   }
@@ -218,7 +220,7 @@ Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& opt
 std::optional<Error> not_cut(const MadeCut& made) {
   if (made.left_out == 0) return std::nullopt;
   return error(ErrorCode::kNotAllCut,
-               fmt::format("{} of the drawing could not be read and {} not cut",
+               fmt::format("{} of the drawing could not be read as drawn and {} not cut so",
                            counted(made.left_out, "entity", "entities"),
                            made.left_out == 1 ? "is" : "are"))
       .hint(

@@ -297,6 +297,30 @@ std::string points_text(const AirfoilPointFigures& f) {
       100.0 * f.nose_gap, 100.0 * f.nose_radius);
 }
 
+/// What scaling made of thickness and camber; empty where none was asked for.
+std::string scaled_text(const AirfoilText& made, const AirfoilOptions& asked) {
+  const AirfoilFigures& f = made.figures;
+  std::string what, undo;
+  const auto add = [&](const char* name, const char* option, double from, double scale) {
+    what += fmt::format("{}{} {:.3f} % -> {:.3f} %", what.empty() ? "" : ", ", name, 100.0 * from,
+                        100.0 * scale * from);
+    if (scale != 0.0) undo += fmt::format(" {} {}", option, from);
+  };
+  if (asked.thickness) add("thickness", "--thickness", f.thickness, made.thickness_scale);
+  if (asked.camber) add("camber", "--camber", f.camber, made.camber_scale);
+  if (what.empty()) return {};
+  std::string out =
+      "scaled normal to the chord, the distance of both sides or their middle at each place by one "
+      "factor: " +
+      what;
+  if (asked.thickness) {
+    out += fmt::format("; leading edge radius {:.3f} % -> {:.3f} %", 100.0 * f.nose_radius,
+                       100.0 * made.thickness_scale * made.thickness_scale * f.nose_radius);
+  }
+  out += undo.empty() ? "; not undone by any option" : "; undone by" + undo;
+  return out;
+}
+
 Result<Exported> airfoil_file(const ContourExport& e) {
   AirfoilOptions write = e.options.airfoil;
   write.name = e.options.picture.name.empty() ? e.options.name : e.options.picture.name;
@@ -309,6 +333,7 @@ Result<Exported> airfoil_file(const ContourExport& e) {
   out.remarks.push_back(fmt::format("{} points, {} on the upper and {} on the lower side",
                                     write.count, made->upper, made->lower));
   if (write.unit_chord) out.remarks.push_back(unit_chord_remark(f));
+  if (auto told = scaled_text(*made, write); !told.empty()) out.remarks.push_back(std::move(told));
   if (made->rounded) {
     out.remarks.push_back(rounded_text(*made->rounded));
   } else if (made->closed && made->closed->left_open.empty()) {

@@ -145,10 +145,7 @@ std::string stepping_points_text(const Contour& contour) {
   for (std::size_t i = 0; i < std::min(beside.size(), kMostNamed); ++i) {
     out += fmt::format("{}{}", i > 0 ? ", " : "", beside[i] + 1);
   }
-  if (beside.size() > kMostNamed) {
-    out += fmt::format(" and {} more", beside.size() - kMostNamed);
-  }
-  return out;
+  return out + and_more(beside.size(), kMostNamed);
 }
 
 }  // namespace

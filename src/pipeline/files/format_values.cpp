@@ -198,6 +198,21 @@ Result<void> choose_plot(const std::optional<std::string>& typed, PicturePlots& 
 
 }  // namespace
 
+/// A length in chords as it is typed: 0.12 or 12%.
+Result<void> set_chords(const std::optional<std::string>& typed, const char* option,
+                        const char* hint, std::optional<double>& chords) {
+  constexpr double kPercent = 0.01;
+  if (!typed) return {};
+  const bool percent = typed->ends_with('%');
+  const auto number =
+      typed_number(std::string_view(*typed).substr(0, typed->size() - (percent ? 1 : 0)));
+  if (!number || !std::isfinite(*number)) {
+    return fail(bad_option("a length in chords is expected", option, hint));
+  }
+  chords = percent ? kPercent * *number : *number;
+  return {};
+}
+
 Result<void> set_plots(const FormatValues& typed, PicturePlots& plots) {
   return choose_plot(typed.plot, plots).and_then([&] {
     return set_shown(typed, plots.curvatures);
@@ -231,6 +246,9 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
   }
   options.airfoil.trailing_thickness = typed.trailing_edge;
   options.airfoil.unit_chord = typed.unit_chord;
+  OBVID_TRY(set_chords(typed.thickness, "--thickness", "for example 12% or 0.12",
+                       options.airfoil.thickness));
+  OBVID_TRY(set_chords(typed.camber, "--camber", "for example 2% or 0.02", options.airfoil.camber));
   if (typed.face_width) options.face_width = *typed.face_width;
   if (typed.feed) options.feed = *typed.feed;
   return choose(typed.step, kSteps, "--step", options.step)
@@ -284,6 +302,8 @@ std::vector<std::string> idle_options(const FormatValues& typed,
   look(typed.trailing_edge.has_value(), foil, "--trailing-edge", ".dat");
   look(typed.trailing_form.has_value(), foil, "--trailing-edge-form", ".dat");
   look(typed.unit_chord, foil, "--unit-chord", ".dat");
+  look(typed.thickness.has_value(), foil, "--thickness", ".dat");
+  look(typed.camber.has_value(), foil, "--camber", ".dat");
   look(typed.face_width.has_value(), written({kStep, kIges, kBrep}), "--face",
        "STEP, IGES or BREP file");
   return out;

@@ -306,9 +306,7 @@ std::string strays_text(const PointSeries& series, const std::vector<Outlier>& s
                         k > 0 ? "," : "", numbers[strays[k].index] + 1, significant(at.x),
                         significant(at.y), significant(strays[k].off, 4), unit);
   }
-  if (strays.size() > kMostPointsNamed)
-    text += fmt::format(" and {} more", strays.size() - kMostPointsNamed);
-  return text;
+  return text + and_more(strays.size(), kMostPointsNamed);
 }
 
 /// An order, of all points or without those that stray.
@@ -316,8 +314,17 @@ Result<CurveOrder> order_of(const PointSeries& series, const std::vector<std::si
                             const ImportOptions& options, InOrder& out) {
   auto whole = order_along_curve(series.points);
   if (!whole && whole.error().code != ErrorCode::kOutOfOrder) return whole;
-  if (whole && !options.drop_outliers && !whole->is_outline) return whole;
-  auto found = order_beside_strays(series.points);
+  const bool is_row = whole && !whole->is_outline;
+  std::optional<OrderBesideStrays> found;
+  if (!is_row || options.drop_outliers) found = order_beside_strays(series.points);
+  if (const CurveOrder* row = found ? &found->order : is_row ? &*whole : nullptr) {
+    auto shorter = without_end_strays(series.points, *row);
+    if (shorter && found) {
+      auto& strays = shorter->strays.points;
+      strays.insert(strays.begin(), found->strays.points.begin(), found->strays.points.end());
+    }
+    if (shorter) found = std::move(shorter);
+  }
   if (!found) return whole;
   const std::string strays = strays_text(series, found->strays.points, numbers);
   if (whole && !options.drop_outliers) {
@@ -393,8 +400,8 @@ std::string outliers_text(const PointSeries& series, const Outliers& found,
                         numbers.empty() ? "" : " of the list", significant(found.points[k].off, 4),
                         unit, count == 1 ? " off the curve of its neighbours" : "");
   }
-  if (count > kMostPointsNamed) text += fmt::format(" and {} more", count - kMostPointsNamed);
-  return text + fmt::format("; the others deviate by {} {}", significant(found.deviation, 3), unit);
+  return text + and_more(count, kMostPointsNamed) +
+         fmt::format("; the others deviate by {} {}", significant(found.deviation, 3), unit);
 }
 
 /// Points that go once around, the first one not again, as far as they tell: the ends are not much

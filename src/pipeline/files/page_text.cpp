@@ -34,6 +34,18 @@ std::string cell_text(const DataCell& cell) {
   return text.empty() ? "-" : escaped_xml(text);
 }
 
+/// Columns that have a cell which says something.
+std::vector<std::size_t> told_columns(const DataTable& table) {
+  std::vector<std::size_t> out;
+  for (std::size_t c = 0; c < table.heads.size(); ++c) {
+    const bool told = std::any_of(table.rows.begin(), table.rows.end(), [c](const DataRow& row) {
+      return c < row.size() && !row[c].text(kPageDigits).empty();
+    });
+    if (told) out.push_back(c);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string figures_of_page(const ReportPage::Figures& figures) {
@@ -51,15 +63,14 @@ std::string table_of_page(std::string_view id, std::string_view caption, const D
   if (shown < table.rows.size()) {
     out += fmt::format(", the first {} of {}", shown, table.rows.size());
   }
+  const std::vector<std::size_t> columns = told_columns(table);
   out += "</caption>\n<thead><tr>";
-  for (const std::string& head : table.heads) {
-    out += fmt::format("<th>{}</th>", cell_text(head));
-  }
+  for (const std::size_t c : columns) out += fmt::format("<th>{}</th>", cell_text(table.heads[c]));
   out += "</tr>\n</thead>\n<tbody>\n";
   for (std::size_t k = 0; k < shown; ++k) {
     out += "<tr>";
     const DataRow& row = table.rows[k];
-    for (std::size_t c = 0; c < table.heads.size(); ++c) {
+    for (const std::size_t c : columns) {
       out += fmt::format("<td>{}</td>", cell_text(c < row.size() ? row[c] : DataCell{}));
     }
     out += "</tr>\n";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "obvid/core/internal/figures.h"
 #include "surface/cloud_input.h"
 #include "surface/surface_kinds.h"
 
@@ -25,9 +26,7 @@ std::string left_out_text(const ScatteredSurface& made, const std::vector<Vec3>&
     text += fmt::format("{}{} {} by {:+.4g} {}", k == 0 ? "" : ", ", one.point + 1,
                         place(points[one.point]), one.off, units);
   }
-  if (made.outliers.size() > kMostNamed) {
-    text += fmt::format(" and {} more", made.outliers.size() - kMostNamed);
-  }
+  text += and_more(made.outliers.size(), kMostNamed);
   return fmt::format(
       "{}: {} off their neighbours: {}",
       dropped ? "--drop-outliers: left out" : "kept, --drop-outliers leaves them out",

@@ -20,6 +20,9 @@ inline constexpr int kDigitsOfBounds = 3;
 /// "1 vertex", "2 vertices".
 [[nodiscard]] std::string counted(std::size_t count, const char* one, const char* many);
 
+/// What follows the first `named` of a list: " and 3 more", nothing where they are all.
+[[nodiscard]] std::string and_more(std::size_t all, std::size_t named);
+
 /// "a.svg, b.json"
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 

@@ -38,6 +38,7 @@ struct FormatValues {
   std::optional<double> trailing_edge;  ///< thickness, chords
   std::optional<std::string> trailing_form;
   bool unit_chord = false;
+  std::optional<std::string> thickness, camber;  ///< chords, or with % behind
   std::optional<std::string> svg;
   std::optional<std::string> plot;
   std::optional<std::string> curvature_range;  ///< of pictures: auto, all or LOW..HIGH

@@ -23,4 +23,12 @@ struct OrderBesideStrays {
 /// compared, or more than a tenth of the points would stray. O(n^2), n at most 20,000.
 [[nodiscard]] std::optional<OrderBesideStrays> order_beside_strays(const std::vector<Vec2>& points);
 
+/// The same row without up to three points at each of its ends that are off the parabola of the six
+/// behind them four times as far as any other point of the row is off that of the six beside it,
+/// and by a quarter of the middle step, where these six go on as the row does. Such points hang on
+/// an end: the others have an order with them. Nothing where there are none, of outlines and rows
+/// whose ends are as near as three steps, and of fewer than 38 points. O(n log n).
+[[nodiscard]] std::optional<OrderBesideStrays> without_end_strays(const std::vector<Vec2>& points,
+                                                                  const CurveOrder& order);
+
 }  // namespace obvid

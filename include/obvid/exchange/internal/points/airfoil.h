@@ -38,6 +38,9 @@ struct AirfoilOptions {
   std::optional<double> trailing_thickness;  ///< chords, 0 closes it [as the contour has it]
   TrailingEdgeForm trailing_form = TrailingEdgeForm::kBlunt;
   bool unit_chord = false;  ///< leading edge to 0, 0, trailing edge to 1, 0
+  /// Of the file, chords, measured as `AirfoilFigures` are; camber with its sign [as the contour
+  /// has them].
+  std::optional<double> thickness{}, camber{};
 };
 
 /// The arc that ends a round trailing edge; x along the chord, all in chords.
@@ -62,19 +65,22 @@ struct AirfoilText {
   std::size_t upper = 0, lower = 0;  ///< points on each side, the leading edge on both
   double last_digit = 0.0;           ///< a unit of the last digit written, units of the file
   std::optional<RoundedEdge> rounded{};
-  std::optional<ClosedEdge> closed{};  ///< where a thickness of 0 was asked for
+  std::optional<ClosedEdge> closed{};                ///< where a thickness of 0 was asked for
+  double thickness_scale = 1.0, camber_scale = 1.0;  ///< of the file over those of `figures`
 };
 
-/// A list of points on the contour. With `trailing_thickness` on the contour whose sides are moved
-/// apart by an amount times (x / chord)^2, which leaves the nose as it is: that the ends are so far
-/// apart across the chord, or that an arc of this diameter touches both sides (G1) and reaches to
-/// the end of the chord, which stays as long as it was. With a thickness of 0 both sides end at one
-/// point: a side that ends before the other one along the chord, by up to a tenth of it, goes on
-/// straight to there first, and the chord is that to this point. A round edge without a thickness
-/// has that of the contour. The points of the arc follow the spacing of the sides. Closed contours
-/// need a trailing edge: one corner, or two with the base between them. Errors: E203 options out of
-/// range, sides that would cross, or no room for the arc; E311 no trailing edge, or a side that
-/// folds back along the chord.
+/// A list of points on the contour. With `thickness` or `camber` on the contour whose sides'
+/// distance and middle, normal to the chord, are multiplied each by one factor, before the trailing
+/// edge is formed; places along the chord stay. With `trailing_thickness` on the contour whose
+/// sides are moved apart by an amount times (x / chord)^2, which leaves the nose as it is: that the
+/// ends are so far apart across the chord, or that an arc of this diameter touches both sides (G1)
+/// and reaches to the end of the chord, which stays as long as it was. With a thickness of 0 both
+/// sides end at one point: a side that ends before the other one along the chord, by up to a tenth
+/// of it, goes on straight to there first, and the chord is that to this point. A round edge
+/// without a thickness has that of the contour. The points of the arc follow the spacing of the
+/// sides. Closed contours need a trailing edge: one corner, or two with the base between them.
+/// Errors: E203 options out of range, a camber asked of a section that has none, sides that would
+/// cross, or no room for the arc; E311 no trailing edge, or a side that folds back along the chord.
 [[nodiscard]] Result<AirfoilText> airfoil_text(const Contour& contour,
                                                const AirfoilOptions& options);
 
