@@ -27,12 +27,18 @@ constexpr std::size_t kIsoSteps = 64;         // to guess the length of a line o
 /// unit normal): it changes from one side of a valley to the other.
 constexpr double kJump = 10.0;
 constexpr double kLeansOtherwise = 0.05;
+constexpr double kUpright = 1e-3;  // z of normals of walls
 
 /// Distance of a point from the line through a and b.
 double off_line(Vec3 a, Vec3 b, Vec3 p) {
   const Vec3 way = b - a;
   const double length = norm(way);
   return length > 0.0 ? norm(cross(way, p - a)) / length : norm(p - a);
+}
+
+Vec2 direction_of(Vec2 way) {
+  const double size = norm(way);
+  return size > 0.0 ? way / size : Vec2{};
 }
 
 bool changes_sides(const PassPoint& a, const PassPoint& b) {
@@ -115,13 +121,32 @@ void keep_flat(Pass& pass, double flat_from, double beyond) {
   pass.pieces = std::move(pieces);
 }
 
-Walker::Station Walker::resting(Vec2 axis, double t) const {
-  const auto place = part_.drop(axis);
+// Beyond an open border a resting cutter would roll down over it. It goes out as far as it touches
+// the surface there with its side; beyond that only along the border, a part of a step far, and no
+// lower. True: the pass ends before.
+bool Walker::ends_at_border(const Rail& rail, double t, Place& place) const {
+  const Vec2 axis{place.tip.x, place.tip.y};
+  const Vec2 away = axis - Vec2{place.contact.x, place.contact.y};
+  const double side = dot(part_.offset(place.normal), place.outwards);
+  const bool upright = place.normal.z < kUpright;  // either side of a wall is open
+  const double touching = std::max(upright ? std::abs(side) : side, 0.0);
+  const double beyond = dot(away, place.outwards) - touching;
+  if (!(beyond > 0.0)) return false;
+  constexpr double kAside = 1e-3;  // of the rail
+  const Vec2 way = direction_of(rail.axis_at(t + kAside) - rail.axis_at(t - kAside));
+  const double along = rail.across ? 1.0 : std::abs(cross(way, place.outwards));
+  if (beyond > along * overrun_ + part_.tolerance()) return true;
+  const double from_axis = norm(away - beyond * place.outwards);
+  place.tip.z = std::max(place.tip.z, part_.tip_over(place.contact, from_axis));
+  return false;
+}
+
+Walker::Station Walker::resting(const Rail& rail, double t) const {
+  const Vec2 axis = rail.axis_at(t);
+  auto place = part_.drop(axis);
   if (!place) return std::nullopt;
-  if (place->open) {
-    const double allowed = norm(part_.offset(place->normal)) + overrun_;
-    const Vec2 away = axis - Vec2{place->contact.x, place->contact.y};
-    if (norm(away) > allowed && !part_.surface_over(axis)) return std::nullopt;
+  if (place->open && !part_.surface_over(axis) && ends_at_border(rail, t, *place)) {
+    return std::nullopt;
   }
   return PassPoint{t, *place, false};
 }
@@ -136,6 +161,7 @@ Walker::Station Walker::touching(const Rail& rail, double t) const {
   place.patch = static_cast<std::uint32_t>(rail.patch);
   place.u = rail.along_v ? rail.fixed : along;
   place.v = rail.along_v ? along : rail.fixed;
+  if (!part_.is_there(rail.patch, place.u, place.v)) return std::nullopt;
   const SurfaceJet jet = evaluate(surface, place.u, place.v);
   const Vec3 n = unit(cross(jet.du, jet.dv));
   if (n == Vec3{}) return std::nullopt;
@@ -164,7 +190,7 @@ Walker::Station Walker::no_lower(Vec2 axis, double t, double floor) const {
 
 Walker::Station Walker::at(const Rail& rail, double t) const {
   if (rail.floor) return no_lower(rail.axis_at(t), t, *rail.floor);
-  return rail.of_parameters() ? touching(rail, t) : resting(rail.axis_at(t), t);
+  return rail.of_parameters() ? touching(rail, t) : resting(rail, t);
 }
 
 /// Derivations: docs/methods/toolpath.md. Round bodies: no part can hide between two that are so
