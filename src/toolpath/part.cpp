@@ -32,16 +32,14 @@ int feature_at(const Triangle& t, int feature, Vec3 contact) {
   return feature;
 }
 
-/// Across the border that a cutter rests on, away from its triangle; at corners of borders away
-/// from the part's point.
-Vec2 outwards_of(const Triangle& t, int feature, Vec2 away) {
-  const Vec2 radial = direction(away);
-  if (feature < 1 || feature > 3) return radial;
+/// Across the border that a cutter rests on, away from its triangle; 0 at corners and on walls.
+Vec2 outwards_of(const Triangle& t, int feature) {
+  if (feature < 1 || feature > 3) return {};
   const auto k = static_cast<std::size_t>(feature - 1);
   const auto level = [](Vec3 p) { return Vec2{p.x, p.y}; };
   const Vec2 a = level(t[k]), across = direction(left_normal(level(t[(k + 1) % 3]) - a));
   const double inside = dot(across, level(t[(k + 2) % 3]) - a);
-  if (across == Vec2{} || inside == 0.0) return radial;
+  if (inside == 0.0) return {};
   return inside > 0.0 ? -across : across;
 }
 
@@ -162,8 +160,7 @@ std::optional<Place> Part::drop(Vec2 axis) const {
   const int feature = feature_at(t.corners, found->rest.feature, found->rest.point);
   place.open = ((static_cast<unsigned>(t.open) >> feature) & 1U) != 0;
   if (place.open) {
-    const Vec2 away = axis - Vec2{place.contact.x, place.contact.y};
-    place.outwards = outwards_of(t.corners, feature, away);
+    place.outwards = outwards_of(t.corners, feature);
   } else {
     polish(axis, place);
   }

@@ -39,7 +39,7 @@ struct Place {
   Vec3 contact;
   Vec3 normal;        ///< of the surface at the contact, upwards
   bool open = false;  ///< rests on an open border
-  Vec2 outwards;      ///< there, seen from above, across the border, length 1
+  Vec2 outwards;      ///< there, seen from above, across the border, length 1; 0: on a corner of it
   std::uint32_t patch = 0;
   double u = 0.0, v = 0.0;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "obvid/core/internal/parallel.h"
 #include "reach.h"
@@ -121,10 +122,29 @@ void keep_flat(Pass& pass, double flat_from, double beyond) {
   pass.pieces = std::move(pieces);
 }
 
+// From the nearest place of the part that is found beside the axis; where that is far, from the
+// corner that holds the cutter.
+Vec2 Walker::out_of_part(const Place& place) const {
+  constexpr int kDirections = 16;
+  constexpr double kNoDirection = 1e-6;  // of unit vectors on all sides
+  const Vec2 axis{place.tip.x, place.tip.y};
+  for (const double part : {0.05, 0.25, 0.5, 1.0}) {
+    Vec2 sum;
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kDirections;
+      const Vec2 out{std::cos(angle), std::sin(angle)};
+      if (part_.surface_over(axis - part * overrun_ * out)) sum = sum + out;
+    }
+    if (norm(sum) > kNoDirection) return direction_of(sum);
+  }
+  return direction_of(axis - Vec2{place.contact.x, place.contact.y});
+}
+
 // Beyond an open border a resting cutter would roll down over it. It goes out as far as it touches
 // the surface there with its side; beyond that only along the border, a part of a step far, and no
 // lower. True: the pass ends before.
 bool Walker::ends_at_border(const Rail& rail, double t, Place& place) const {
+  if (place.outwards == Vec2{}) place.outwards = out_of_part(place);
   const Vec2 axis{place.tip.x, place.tip.y};
   const Vec2 away = axis - Vec2{place.contact.x, place.contact.y};
   const double side = dot(part_.offset(place.normal), place.outwards);

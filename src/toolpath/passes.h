@@ -95,6 +95,7 @@ class Walker {
   [[nodiscard]] Station at(const Rail& rail, double t) const;
   [[nodiscard]] Station touching(const Rail& rail, double t) const;
   [[nodiscard]] Station resting(const Rail& rail, double t) const;
+  [[nodiscard]] Vec2 out_of_part(const Place& place) const;
   [[nodiscard]] bool ends_at_border(const Rail& rail, double t, Place& place) const;
   [[nodiscard]] Station no_lower(Vec2 axis, double t, double floor) const;
   [[nodiscard]] bool round_enough(Vec3 a, Vec3 b) const;
