@@ -200,6 +200,19 @@ void Part::polish(Vec2 axis, Place& place) const {
   }
 }
 
+double Part::beyond_border(const Place& place, Vec2 outwards) const {
+  constexpr double kWall = 1e-3;  // z of normals: either side of a wall is open
+  const Vec2 away = Vec2{place.tip.x, place.tip.y} - Vec2{place.contact.x, place.contact.y};
+  const double side = dot(offset(place.normal), outwards);
+  const double touching = std::max(place.normal.z < kWall ? std::abs(side) : side, 0.0);
+  return dot(away, outwards) - touching;
+}
+
+double Part::kept_up(const Place& place, Vec2 outwards, double beyond) const {
+  const Vec2 away = Vec2{place.tip.x, place.tip.y} - Vec2{place.contact.x, place.contact.y};
+  return std::max(place.tip.z, tip_over(place.contact, norm(away - beyond * outwards)));
+}
+
 std::optional<Place> Part::surface_over(Vec2 at) const {
   const auto found = field_.height(at);
   if (!found) return std::nullopt;

@@ -66,6 +66,11 @@ class Part {
   [[nodiscard]] double tip_over(Vec3 contact, double from_axis) const {
     return contact.z - wide_.height(std::min(from_axis, wide_.radius)) + allowance_;
   }
+  /// How far the axis of a cutter that rests on an open border lies out over it, beyond where it
+  /// still touches the surface with its side; `outwards` as of the place.
+  [[nodiscard]] double beyond_border(const Place& place, Vec2 outwards) const;
+  /// Height of the tip where it does not go down there.
+  [[nodiscard]] double kept_up(const Place& place, Vec2 outwards, double beyond) const;
   /// Whether that place of a patch is there, and not trimmed away.
   [[nodiscard]] bool is_there(std::size_t patch, double u, double v) const {
     const auto& region = (*regions_)[patch];

@@ -28,7 +28,6 @@ constexpr std::size_t kIsoSteps = 64;         // to guess the length of a line o
 /// unit normal): it changes from one side of a valley to the other.
 constexpr double kJump = 10.0;
 constexpr double kLeansOtherwise = 0.05;
-constexpr double kUpright = 1e-3;  // z of normals of walls
 
 /// Distance of a point from the line through a and b.
 double off_line(Vec3 a, Vec3 b, Vec3 p) {
@@ -145,19 +144,13 @@ Vec2 Walker::out_of_part(const Place& place) const {
 // lower. True: the pass ends before.
 bool Walker::ends_at_border(const Rail& rail, double t, Place& place) const {
   if (place.outwards == Vec2{}) place.outwards = out_of_part(place);
-  const Vec2 axis{place.tip.x, place.tip.y};
-  const Vec2 away = axis - Vec2{place.contact.x, place.contact.y};
-  const double side = dot(part_.offset(place.normal), place.outwards);
-  const bool upright = place.normal.z < kUpright;  // either side of a wall is open
-  const double touching = std::max(upright ? std::abs(side) : side, 0.0);
-  const double beyond = dot(away, place.outwards) - touching;
+  const double beyond = part_.beyond_border(place, place.outwards);
   if (!(beyond > 0.0)) return false;
   constexpr double kAside = 1e-3;  // of the rail
   const Vec2 way = direction_of(rail.axis_at(t + kAside) - rail.axis_at(t - kAside));
   const double along = rail.across ? 1.0 : std::abs(cross(way, place.outwards));
   if (beyond > along * overrun_ + part_.tolerance()) return true;
-  const double from_axis = norm(away - beyond * place.outwards);
-  place.tip.z = std::max(place.tip.z, part_.tip_over(place.contact, from_axis));
+  place.tip.z = part_.kept_up(place, place.outwards, beyond);
   return false;
 }
 

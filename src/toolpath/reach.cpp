@@ -19,8 +19,8 @@ constexpr double kNextStep = 0.125;                   // likewise, beside a plac
 constexpr double kLevel = 1e-6;   // size of x and y of normals: any place of a flat bottom touches
 constexpr double kBottom = 0.99;  // of a flat bottom's radius: the farthest such place
 constexpr int kDirections = 8;
-constexpr double kSteep = 0.5;  // z of normals: a little to the side is not higher by as much
-constexpr double kBeside = 0.5;    // of the tolerance: more than the triangles' share
+constexpr double kSteep = 0.5;   // z of normals: a little to the side is not higher by as much
+constexpr double kBeside = 0.5;  // of the tolerance: more than the triangles' share
 constexpr double kUprightCell = 1e-3;  // z of normals of walls: which side is open is looked up
 
 class Search {
@@ -52,7 +52,14 @@ class Search {
   bool look(Vec2 axis) {
     const auto rest = part_.drop(axis);
     // nothing there: it goes down as far as it likes
-    const Vec3 tip = rest ? rest->tip : Vec3{axis.x, axis.y, point_.z - part_.cutter().radius};
+    Vec3 tip = rest ? rest->tip : Vec3{axis.x, axis.y, point_.z - part_.cutter().radius};
+    if (rest && rest->open && !part_.surface_over(axis)) {  // passes do not go down there
+      const Vec2 away = axis - Vec2{rest->contact.x, rest->contact.y};
+      const double far = norm(away);
+      const Vec2 out = rest->outwards == Vec2{} && far > 0.0 ? away / far : rest->outwards;
+      const double beyond = part_.beyond_border(*rest, out);
+      if (beyond > 0.0) tip.z = part_.kept_up(*rest, out, beyond);
+    }
     const SweepEntry entry = entry_into(part_.cutter(), {tip, tip}, point_, normal_, best_.height);
     if (entry.height < best_.height) {
       best_.height = entry.height;
