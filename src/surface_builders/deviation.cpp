@@ -65,7 +65,7 @@ std::vector<Node> even_or_by_spans(const std::vector<double>& knots, const Range
 }
 
 /// What of a patch is there; nothing: all of it.
-std::optional<TrimRegion> region_of(const SurfacePatch& patch) {
+std::optional<TrimRegion> trims_left_of(const SurfacePatch& patch) {
   if (patch.trims.empty()) return std::nullopt;
   return TrimRegion(patch);
 }
@@ -109,7 +109,7 @@ Result<Deviation> deviation_of(const SurfaceModel& model, const NearestOnModel& 
   constexpr std::array kSigns = {-1.0, 1.0};
   for (std::size_t patch = 0; patch < model.patches.size(); ++patch) {
     const NurbsSurface& s = model.patches[patch].surface;
-    const auto region = region_of(model.patches[patch]);
+    const auto region = trims_left_of(model.patches[patch]);
     const auto us = even_or_by_spans(s.knots_u, domain_u(s), samples);
     const auto vs = even_or_by_spans(s.knots_v, domain_v(s), samples);
     std::array<Peaks, 2> peaks{Peaks(us.size(), vs.size()), Peaks(us.size(), vs.size())};
@@ -148,7 +148,7 @@ Result<Deviation> deviation_of(const SurfaceModel& model, const NearestOnModel& 
     for (const Start& start : starts[side]) {
       OBVID_TRY(may_go_on(run));
       const NurbsSurface& s = model.patches[start.patch].surface;
-      const auto region = region_of(model.patches[start.patch]);
+      const auto region = trims_left_of(model.patches[start.patch]);
       const double sign = kSigns[side];
       const Peak top = climbed(
           [&](double u, double v) {

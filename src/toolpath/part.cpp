@@ -24,10 +24,10 @@ Vec3 upwards(Vec3 n) { return n.z < 0.0 ? -n : n; }
 
 /// The feature of a triangle that holds a cutter at a point: at the ends of edges the corner.
 int feature_at(const Triangle& t, int feature, Vec3 contact) {
-  constexpr double kEnd = 1e-9;  // of the longest edge
+  constexpr double kAtCorner = 1e-9;  // of the longest edge
   const double longest = std::max({norm(t[1] - t[0]), norm(t[2] - t[1]), norm(t[0] - t[2])});
   for (int k = 0; k < 3; ++k) {
-    if (norm(contact - t[static_cast<std::size_t>(k)]) <= kEnd * longest) return 4 + k;
+    if (norm(contact - t[static_cast<std::size_t>(k)]) <= kAtCorner * longest) return 4 + k;
   }
   return feature;
 }
@@ -201,10 +201,10 @@ void Part::polish(Vec2 axis, Place& place) const {
 }
 
 double Part::beyond_border(const Place& place, Vec2 outwards) const {
-  constexpr double kWall = 1e-3;  // z of normals: either side of a wall is open
+  constexpr double kUprightSide = 1e-3;  // z of normals: either side of a wall is open
   const Vec2 away = Vec2{place.tip.x, place.tip.y} - Vec2{place.contact.x, place.contact.y};
   const double side = dot(offset(place.normal), outwards);
-  const double touching = std::max(place.normal.z < kWall ? std::abs(side) : side, 0.0);
+  const double touching = std::max(place.normal.z < kUprightSide ? std::abs(side) : side, 0.0);
   return dot(away, outwards) - touching;
 }
 

@@ -124,13 +124,13 @@ void keep_flat(Pass& pass, double flat_from, double beyond) {
 // From the nearest place of the part that is found beside the axis; where that is far, from the
 // corner that holds the cutter.
 Vec2 Walker::out_of_part(const Place& place) const {
-  constexpr int kDirections = 16;
+  constexpr int kWaysOut = 16;
   constexpr double kNoDirection = 1e-6;  // of unit vectors on all sides
   const Vec2 axis{place.tip.x, place.tip.y};
   for (const double part : {0.05, 0.25, 0.5, 1.0}) {
     Vec2 sum;
-    for (int k = 0; k < kDirections; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / kDirections;
+    for (int k = 0; k < kWaysOut; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kWaysOut;
       const Vec2 out{std::cos(angle), std::sin(angle)};
       if (part_.surface_over(axis - part * overrun_ * out)) sum = sum + out;
     }
