@@ -88,7 +88,7 @@ class Helper(unittest.TestCase):
         clean = {k: v for k, v in os.environ.items() if k not in ("OBVID_PLUGINS", "OBVID_CAD_BUILDER")}
         missing, out = self.folder / "missing.json", self.folder / "out.step"
         for command in (("convert", missing), ("skin", missing), ("offset", missing, "--distance", "1"),
-                        ("trim", missing, "--plane", "z=0"), ("cut", missing, "--waterlines", "0", "--fair", "1")):
+                        ("trim", missing, "--plane", "z=0", "--keep", "above"), ("cut", missing, "--waterlines", "0", "--fair", "1")):
             target = self.folder / "{id}.iges" if command[0] == "cut" else out
             done = subprocess.run([self.program, "surface", *map(str, command), "-o", target], cwd=self.folder, env=clean,
                                   capture_output=True, text=True)
