@@ -34,7 +34,13 @@ Result<void> check_outputs_of(const SurfaceCutOptions& options) {
             .where(path)
             .hint("--fair EPS makes contours of them, in all formats of contours");
       }
-      OBVID_TRY(output_of(path));
+      const auto of_contour = output_of(path);
+      OBVID_TRY(of_contour);
+      // STEP files of contours are written without the kernel
+      if (of_contour->format == FileFormat::kStep) continue;
+      if (auto able = can_write_surfaces(of_contour->format); !able) {
+        return fail(of_file(able.error(), path));
+      }
       continue;
     }
     if (ending == ".json" || ending == ".csv" || ending == ".svg" || ending == ".dxf") continue;

@@ -142,7 +142,8 @@ void add_skin_options(CLI::App& app, RawSurface& raw) {
          "--match", raw.values.matching,
          "What belongs together in the sections: points, length, angle (half of it arc length), "
          "optimised (lines across bend little) or auto (points when all sections have "
-         "equally many; with --fair-across what all of them force is told) [auto]")
+         "equally many; with --fair-across the one that forces the fewest changes, if runs "
+         "of curvature are kept) [auto]")
       ->type_name("NAME");
   app.add_option("--spacing", raw.values.spacing,
                  "Distance of sections whose files have no z, input units [1]")

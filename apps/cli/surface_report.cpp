@@ -82,21 +82,6 @@ std::string light_text(const LightSkinReport& light, const std::string& units) {
       significant(light.tolerance, 3));
 }
 
-/// What the sections of a light skin, or of one that is fair across, lost.
-std::string lost_text(const std::vector<SkinSectionReport>& sections) {
-  constexpr double kLost = 1e-3;  // of the largest curvature: it is in no picture
-  std::size_t lost = 0;
-  double worst = 0.0;
-  for (const SkinSectionReport& s : sections) {
-    lost += s.ripple > kLost ? 1 : 0;
-    worst = std::max(worst, s.ripple);
-  }
-  return fmt::format(
-      "in {} of {} sections curvature goes against its run by more than 0.1 % of "
-      "the largest there; at most {} %",
-      lost, sections.size(), significant(100.0 * worst, 2));
-}
-
 std::string matching_text(const Skin& skin) {
   const auto named = [](SkinMatching matching) -> std::string {
     switch (matching) {
@@ -114,8 +99,14 @@ std::string matching_text(const Skin& skin) {
   if (!skin.fair || skin.fair->tried.size() < 2) return text;
   text += "; changes forced on lines of each: ";
   for (const MatchingTrial& trial : skin.fair->tried) {
-    if (&trial != &skin.fair->tried.front()) text += ", ";
-    text += fmt::format("{} {} of {}", named(trial.matching), trial.forced, trial.isolines);
+    if (&trial != &skin.fair->tried.front()) text += "; ";
+    text += fmt::format("{} {} on {} lines", named(trial.matching), trial.forced, trial.isolines);
+    if (&trial == &skin.fair->tried.front()) {
+      text += ", used";
+    } else if (trial.ripple) {
+      text += fmt::format(", which loses {} % of curvature against runs with {} times the spans",
+                          significant(100.0 * *trial.ripple, 2), significant(*trial.heavier, 2));
+    }
   }
   return text;
 }
@@ -132,10 +123,14 @@ void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& 
   facts.add("tolerance", significant(fitted.tolerance, 3) + " " + units);
   if (skin.light) {
     facts.add("light",
-              light_text(*skin.light, units) + (skin.fair ? ", before it was made fair" : ""));
+              light_text(*skin.light, units) + (skin.fair ? ", made after it was fair" : ""));
   }
   if (skin.fair) facts.add("fair across", fair_text(*skin.fair, skin.across, units));
-  if (skin.light || skin.fair) facts.add("runs lost", lost_text(skin.sections));
+  if (const auto lost = runs_lost(skin)) {
+    facts.add("runs lost", *lost);
+  } else if (skin.light || skin.fair) {
+    facts.add("runs lost", "none");
+  }
   if (skin.across.isolines > 0) facts.add("across", across_text(skin.across));
 }
 

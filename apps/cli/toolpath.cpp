@@ -57,7 +57,7 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<Output>& outp
                        ProgressBar& bar) {
   Made made;
   bar.tell("reading", 0.0);
-  auto model = read_surface(command.input, made.warnings);
+  auto model = read_surface(command.input, made.warnings, ReadTrims::kKept);
   OBVID_TRY(model);
   made.model = std::move(*model);
   auto path = make_toolpath(made.model, command.job, bar.progress());
@@ -168,12 +168,20 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                                   significant(r.gouge.found, 3), unit,
                                   bound_text("none beyond {}", r.gouge.most), r.lifted_points));
   if (!rough) {
-    facts.add("not seen from above", area_share(r.hidden_area, r.surface_area));
+    facts.add(
+        "not seen from above",
+        area_share(r.hidden_area, r.surface_area) +
+            (r.hidden_area > 0.0 ? fmt::format(" ({}): undersides and undercuts, the lowest at {}",
+                                               counted(r.hidden_places, "place", "places"),
+                                               toolpath_place(r.hidden_place))
+                                 : ""));
     facts.add("not reached",
               area_share(r.unreached_area, r.surface_area) +
                   (r.unreached_area > 0.0
-                       ? fmt::format(", up to {} {} left at {}", significant(r.unreached_depth, 3),
-                                     unit, toolpath_place(r.unreached_place))
+                       ? fmt::format(" ({}): narrower than the cutter, up to {} {} left at {}",
+                                     counted(r.unreached_places, "place", "places"),
+                                     significant(r.unreached_depth, 3), unit,
+                                     toolpath_place(r.unreached_place))
                        : ""));
   }
   facts.add("program", fmt::format("{} blocks, {} of them arcs; read back and simulated at places "

@@ -86,6 +86,9 @@ void write_patch(std::string& out, const SurfacePatch& patch) {
     write_list(out, s.weights);
   }
   if (!patch.trims.empty()) write_trims(out, patch.trims);
+  if (!patch.trims.empty() && patch.trims_within > 0.0) {
+    format_into(out, ",\n   \"trims_within\": {}", patch.trims_within);
+  }
   format_into(out, "}}");
 }
 
@@ -171,6 +174,10 @@ class SurfaceReader : private JsonValues {
     if (const auto trims = optional_field(node, "trims")) {
       if (!has_trims_) refuse(*trims, "version 1 of the format has no trims");
       each(*trims, [&](const Node& one) { out.trims.push_back(trim_loop(one)); });
+      if (const auto within = optional_field(node, "trims_within")) {
+        out.trims_within = number(*within);
+        if (!failed() && !(out.trims_within >= 0.0)) refuse(*within, "a distance is not negative");
+      }
     }
     if (failed()) return out;
     if (auto good = check(out); !good) refuse(node, good.error().what);

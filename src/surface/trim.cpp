@@ -262,8 +262,50 @@ class AreaOf {
 
 }  // namespace
 
+namespace {
+
+/// Whether a curve runs along a side of the patch.
+bool along_side(const NurbsCurve& curve, const Range& u, const Range& v) {
+  const auto all = [&](auto coordinate, double side, double small) {
+    return std::all_of(curve.points.begin(), curve.points.end(),
+                       [&](Vec2 p) { return std::abs(coordinate(p) - side) <= small; });
+  };
+  const auto x = [](Vec2 p) { return p.x; };
+  const auto y = [](Vec2 p) { return p.y; };
+  const double du = kMeets * u.length(), dv = kMeets * v.length();
+  return all(x, u.from, du) || all(x, u.to, du) || all(y, v.from, dv) || all(y, v.to, dv);
+}
+
+/// Length on the surface of the trims that are no sides of the patch.
+double length_of_trims(const SurfacePatch& patch) {
+  const Range u = domain_u(patch.surface), v = domain_v(patch.surface);
+  double sum = 0.0;
+  for (const TrimLoop& loop : patch.trims) {
+    for (const NurbsCurve& curve : loop.curves) {
+      if (along_side(curve, u, v)) continue;
+      const auto speed = [&](double t) {
+        const auto at = evaluate(curve, t);
+        const SurfaceJet jet = evaluate(patch.surface, std::clamp(at.point.x, u.from, u.to),
+                                        std::clamp(at.point.y, v.from, v.to));
+        return norm(at.d1.x * jet.du + at.d1.y * jet.dv);
+      };
+      const std::vector<double> spans = distinct(curve.knots);
+      for (std::size_t k = 0; k + 1 < spans.size(); ++k) {
+        sum += gauss_integral<8>(spans[k], spans[k + 1], speed);
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
 Result<PatchArea> area_of(const SurfacePatch& patch, const RunContext& run) {
-  return AreaOf(patch, run).found();
+  auto out = AreaOf(patch, run).found();
+  OBVID_TRY(out);
+  if (patch.trims_within > 0.0) out->of_trims = patch.trims_within * length_of_trims(patch);
+  out->error += out->of_trims;
+  return out;
 }
 
 }  // namespace obvid

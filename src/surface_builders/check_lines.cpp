@@ -34,6 +34,18 @@ std::vector<double> curvatures(const SpaceCurve& curve) {
   return values;
 }
 
+/// A side of a patch that ends in a point is a line of rounding, which has no shape.
+bool shrinks_to_a_point(const SpaceCurve& curve, double size) {
+  constexpr double kPoint = 1e-9;      // of the model's size
+  constexpr double kRounding = 1e-12;  // of the coordinates: files have twelve digits or more
+  double coordinate = 0.0, extent = 0.0;
+  for (const Vec3& p : curve.points) {
+    coordinate = std::max({coordinate, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    extent = std::max(extent, norm(p - curve.points.front()));
+  }
+  return extent <= std::max(kPoint * size, kRounding * coordinate);
+}
+
 /// Extrema that stand out by more than `least` on both sides.
 std::size_t extrema(const std::vector<double>& values, double least) {
   std::size_t count = 0;
@@ -87,7 +99,9 @@ Result<LineReport> check_lines(const NurbsSurface& surface, std::size_t lines,
     OBVID_TRY(may_go_on(run));
     const double v =
         range.at(lines > 1 ? static_cast<double>(j) / static_cast<double>(lines - 1) : 0.5);
-    const std::vector<double> values = curvatures(isocurve_at_v(surface, v));
+    const SpaceCurve line = isocurve_at_v(surface, v);
+    if (shrinks_to_a_point(line, size)) continue;
+    const std::vector<double> values = curvatures(line);
     if (values.empty()) continue;
     constexpr double kNoSize = 1e-300;               // units: below it nothing can be divided by
     double largest = 1.0 / std::max(size, kNoSize);  // flatter than the model is large: straight

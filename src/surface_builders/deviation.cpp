@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "climb.h"
 #include "obvid/core/internal/parallel.h"
+#include "obvid/surface/internal/trim.h"
 
 namespace obvid {
 namespace {
@@ -62,6 +64,12 @@ std::vector<Node> even_or_by_spans(const std::vector<double>& knots, const Range
   return nodes_of(knots, domain, samples);
 }
 
+/// What of a patch is there; nothing: all of it.
+std::optional<TrimRegion> trims_left_of(const SurfacePatch& patch) {
+  if (patch.trims.empty()) return std::nullopt;
+  return TrimRegion(patch);
+}
+
 struct Start {
   std::size_t patch = 0;
   Peak peak;
@@ -101,6 +109,7 @@ Result<Deviation> deviation_of(const SurfaceModel& model, const NearestOnModel& 
   constexpr std::array kSigns = {-1.0, 1.0};
   for (std::size_t patch = 0; patch < model.patches.size(); ++patch) {
     const NurbsSurface& s = model.patches[patch].surface;
+    const auto region = trims_left_of(model.patches[patch]);
     const auto us = even_or_by_spans(s.knots_u, domain_u(s), samples);
     const auto vs = even_or_by_spans(s.knots_v, domain_v(s), samples);
     std::array<Peaks, 2> peaks{Peaks(us.size(), vs.size()), Peaks(us.size(), vs.size())};
@@ -108,9 +117,13 @@ Result<Deviation> deviation_of(const SurfaceModel& model, const NearestOnModel& 
     for (std::size_t first = 0; first < vs.size(); first += rows) {
       std::vector<Vec3> points;
       std::vector<double> areas;
+      std::vector<std::array<std::size_t, 2>> numbers;
       for (std::size_t j = first; j < std::min(vs.size(), first + rows); ++j) {
         OBVID_TRY(may_go_on(run));
-        for (const Node& u : us) {
+        for (std::size_t i = 0; i < us.size(); ++i) {
+          const Node& u = us[i];
+          if (region && !region->contains(u.at, vs[j].at)) continue;
+          numbers.push_back({i, j});
           const SurfaceJet jet = evaluate(s, u.at, vs[j].at);
           points.push_back(jet.point);
           areas.push_back(norm(cross(jet.du, jet.dv)) * u.weight * vs[j].weight);
@@ -119,7 +132,7 @@ Result<Deviation> deviation_of(const SurfaceModel& model, const NearestOnModel& 
       const auto nearest = nearest_of(points, from, run);
       OBVID_TRY(nearest);
       for (std::size_t k = 0; k < points.size(); ++k) {
-        const std::size_t i = k % us.size(), j = first + k / us.size();
+        const auto [i, j] = numbers[k];
         const NearestPlace& there = (*nearest)[k];
         sums.add({there.off, points[k], patch, us[i].at, vs[j].at, there}, areas[k]);
         for (std::size_t side = 0; side < 2; ++side) {
@@ -135,8 +148,13 @@ Result<Deviation> deviation_of(const SurfaceModel& model, const NearestOnModel& 
     for (const Start& start : starts[side]) {
       OBVID_TRY(may_go_on(run));
       const NurbsSurface& s = model.patches[start.patch].surface;
+      const auto region = trims_left_of(model.patches[start.patch]);
+      const double sign = kSigns[side];
       const Peak top = climbed(
-          [&](double u, double v) { return kSigns[side] * from.at(evaluate(s, u, v).point).off; },
+          [&](double u, double v) {
+            if (region && !region->contains(u, v)) return std::nan("");
+            return sign * from.at(evaluate(s, u, v).point).off;
+          },
           start.peak);
       if (!(top.value > kSigns[side] * extreme.off)) continue;
       const Vec3 point = evaluate(s, top.u.at, top.v.at).point;

@@ -117,6 +117,14 @@ double curvature_of(Vec2 d1, Vec2 d2) {
   return speed > 0.0 ? cross(d1, d2) / (speed * speed * speed) : 0.0;
 }
 
+/// A surface with as many knots along as both have.
+NurbsSurface with_knots_of(const NurbsSurface& surface, const NurbsSurface& other) {
+  std::vector<double> missing;
+  std::set_difference(other.knots_u.begin(), other.knots_u.end(), surface.knots_u.begin(),
+                      surface.knots_u.end(), std::back_inserter(missing));
+  return with_knots_u(surface, missing);
+}
+
 class Correction {
  public:
   Correction(const SkinStretch& stretch, const FairAcross& wanted, std::size_t along)
@@ -154,6 +162,14 @@ class Correction {
   }
 
   [[nodiscard]] const NurbsSurface& surface() const { return current_; }
+
+  /// What is added to the given surface, on its own knots along.
+  [[nodiscard]] NurbsSurface alone() const {
+    std::vector<Vec3> rows = moved_;
+    how_.across.matrix.solve_rows(rows, count_);
+    for (Vec3& p : rows) p = how_.tolerance * p;
+    return {kSkinDegree, given_.degree_v, knots_, given_.knots_v, std::move(rows), {}};
+  }
 
   /// Bound for each section, units.
   [[nodiscard]] std::vector<double> moved() const {
@@ -595,19 +611,7 @@ class Correction {
   }
 
   /// The sum on the knots of the given surface, among which those of the correction are.
-  void rebuild() {
-    std::vector<Vec3> rows = moved_;
-    how_.across.matrix.solve_rows(rows, count_);
-    std::vector<double> missing;
-    std::set_difference(given_.knots_u.begin(), given_.knots_u.end(), knots_.begin(), knots_.end(),
-                        std::back_inserter(missing));
-    const NurbsSurface added = with_knots_u(
-        {kSkinDegree, given_.degree_v, knots_, given_.knots_v, std::move(rows), {}}, missing);
-    current_ = given_;
-    for (std::size_t i = 0; i < current_.points.size(); ++i) {
-      current_.points[i] = current_.points[i] + how_.tolerance * added.points[i];
-    }
-  }
+  void rebuild() { current_ = sum_of(given_, alone()); }
 
   const SkinStretch& stretch_;
   const NurbsSurface& given_;
@@ -690,10 +694,18 @@ Result<Waves> waves_of(const SkinStretch& stretch, const NurbsSurface& surface,
 
 }  // namespace
 
+NurbsSurface sum_of(const NurbsSurface& surface, const NurbsSurface& added) {
+  NurbsSurface out = with_knots_of(surface, added);
+  const NurbsSurface other = with_knots_of(added, surface);
+  for (std::size_t i = 0; i < out.points.size(); ++i)
+    out.points[i] = out.points[i] + other.points[i];
+  return out;
+}
+
 Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross& wanted,
                                     const RunContext& run, double from, double to) {
   const std::size_t sections = wanted.v.size();
-  FairedStretch best{stretch.surface, std::vector<double>(sections, 0.0)};
+  FairedStretch best{stretch.surface, std::nullopt, std::vector<double>(sections, 0.0)};
   if (stretch.surface.degree_v < 2 || stretch.breaks.size() < 2) return best;
   const std::vector<double> at = meter_places(stretch.breaks);
   std::vector<RunPlaces> runs(sections);
@@ -729,7 +741,7 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
       }
       in_vain = 0;
       least = *left;
-      best = {correction.surface(), correction.moved()};
+      best = {correction.surface(), correction.alone(), correction.moved()};
     }
   }
   return best;

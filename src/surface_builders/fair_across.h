@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -23,10 +24,16 @@ struct FairAcross {
 
 struct FairedStretch {
   NurbsSurface surface;
+  /// What was added, on its own few knots along; none where the given surface stays.
+  std::optional<NurbsSurface> correction;
   /// Bound of the distance of each section of the surface from where it was, at the same
   /// parameter, units: of the control points of the difference, by the convex hull.
   std::vector<double> moved;
 };
+
+/// The sum of two polynomial surfaces with the same degrees and the same knots across, on the knots
+/// along of both.
+[[nodiscard]] NurbsSurface sum_of(const NurbsSurface& surface, const NurbsSurface& added);
 
 /// The surface of a stretch with a correction that keeps every section within the tolerance of
 /// where it was, such that lines across change their bending seldom and curvature along the

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "obvid/curve/internal/basis.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/surface/internal/trim.h"
 #include "obvid/surface_builders/internal/deviation.h"
 #include "span_net.h"
 
@@ -81,18 +84,128 @@ static void add_cells(const NurbsSurface& surface, std::uint32_t patch, double p
   }
 }
 
-/// Half of a node's cells each; leaves have none.
-struct Branch {
-  Box3 box;
-  std::uint32_t first = 0, count = 0;  ///< cells
-  std::uint32_t left = 0, right = 0;   ///< branches; 0: a leaf
-};
-
 /// Place and squared distance while one is looked for.
 struct Found {
   double square = HUGE_VAL;
   std::uint32_t patch = 0;
   double u = 0.0, v = 0.0;
+};
+
+/// What of a trimmed patch is there, and its trims in short pieces.
+class Trimmed {
+ public:
+  explicit Trimmed(const SurfacePatch& patch) : patch_(patch), region_(patch) {
+    for (const TrimLoop& loop : patch.trims) {
+      for (const NurbsCurve& curve : loop.curves) add(curve);
+    }
+  }
+
+  enum class Side { kThere, kGone, kAcross };
+  [[nodiscard]] Side side_of(const Cell& cell) const {
+    for (const Piece& piece : pieces_) {
+      const bool meets = piece.u.from <= cell.u.to && piece.u.to >= cell.u.from &&
+                         piece.v.from <= cell.v.to && piece.v.to >= cell.v.from;
+      if (meets) return Side::kAcross;
+    }
+    return contains(cell.u.at(0.5), cell.v.at(0.5)) ? Side::kThere : Side::kGone;
+  }
+  [[nodiscard]] bool contains(double u, double v) const { return region_.contains(u, v); }
+
+  /// The nearest place of the trims, where that is nearer.
+  void nearest(Vec3 p, std::uint32_t patch, Found& best) const {
+    for (const Piece& piece : pieces_) keep(piece, piece.t.at(0.5), p, patch, best);
+    for (const Piece& piece : pieces_) {
+      if (square_from(piece.box, p) < best.square) keep(piece, least_on(piece, p), p, patch, best);
+    }
+  }
+
+ private:
+  struct Piece {
+    const NurbsCurve* curve = nullptr;
+    Range t, u, v;
+    Box3 box;
+  };
+
+  [[nodiscard]] Vec2 place(const NurbsCurve& curve, double t) const {
+    const Range u = domain_u(patch_.surface), v = domain_v(patch_.surface);
+    const Vec2 at = evaluate(curve, t).point;
+    return {std::clamp(at.x, u.from, u.to), std::clamp(at.y, v.from, v.to)};
+  }
+  [[nodiscard]] Vec3 point(Vec2 at) const { return evaluate(patch_.surface, at.x, at.y).point; }
+
+  void add(const NurbsCurve& curve) {
+    constexpr int kPieces = 16, kPlaces = 4;  // of a span, of a piece
+    constexpr double kMargin = 0.25;          // of a piece: what lies between its places
+    const std::vector<double> spans = distinct(curve.knots);
+    for (std::size_t s = 0; s + 1 < spans.size(); ++s) {
+      const Range span{spans[s], spans[s + 1]};
+      for (int k = 0; k < kPieces; ++k) {
+        Piece piece{&curve,
+                    {span.at(static_cast<double>(k) / kPieces),
+                     span.at(static_cast<double>(k + 1) / kPieces)},
+                    {HUGE_VAL, -HUGE_VAL},
+                    {HUGE_VAL, -HUGE_VAL},
+                    {}};
+        for (int i = 0; i <= kPlaces; ++i) {
+          const Vec2 at = place(curve, piece.t.at(static_cast<double>(i) / kPlaces));
+          piece.u = {std::min(piece.u.from, at.x), std::max(piece.u.to, at.x)};
+          piece.v = {std::min(piece.v.from, at.y), std::max(piece.v.to, at.y)};
+          piece.box.add(point(at));
+        }
+        const double du = kMargin * piece.u.length(), dv = kMargin * piece.v.length();
+        piece.u = {piece.u.from - du, piece.u.to + du};
+        piece.v = {piece.v.from - dv, piece.v.to + dv};
+        const double d = kMargin * piece.box.diagonal();
+        piece.box.low = piece.box.low - Vec3{d, d, d};
+        piece.box.high = piece.box.high + Vec3{d, d, d};
+        pieces_.push_back(piece);
+      }
+    }
+  }
+
+  void keep(const Piece& piece, double t, Vec3 p, std::uint32_t patch, Found& best) const {
+    const Vec2 at = place(*piece.curve, t);
+    const Vec3 away = point(at) - p;
+    if (dot(away, away) < best.square) best = {dot(away, away), patch, at.x, at.y};
+  }
+
+  /// Golden sections: a piece is so short that it has one valley.
+  [[nodiscard]] double least_on(const Piece& piece, Vec3 p) const {
+    constexpr double kGolden = 0.6180339887498949;
+    constexpr int kSections = 40;  // 1e-8 of a piece: distances are as exact as their rounding
+    const auto f = [&](double t) {
+      const Vec3 away = point(place(*piece.curve, t)) - p;
+      return dot(away, away);
+    };
+    double a = piece.t.from, b = piece.t.to;
+    double x = b - kGolden * (b - a), y = a + kGolden * (b - a), fx = f(x), fy = f(y);
+    for (int k = 0; k < kSections; ++k) {
+      if (fx <= fy) {
+        b = std::exchange(y, x);
+        fy = fx;
+        x = b - kGolden * (b - a);
+        fx = f(x);
+      } else {
+        a = std::exchange(x, y);
+        fx = fy;
+        y = a + kGolden * (b - a);
+        fy = f(y);
+      }
+    }
+    const double ends = f(piece.t.from) < f(piece.t.to) ? piece.t.from : piece.t.to;
+    return f(ends) < std::min(fx, fy) ? ends : fx <= fy ? x : y;
+  }
+
+  const SurfacePatch& patch_;
+  TrimRegion region_;
+  std::vector<Piece> pieces_;
+};
+
+/// Half of a node's cells each; leaves have none.
+struct Branch {
+  Box3 box;
+  std::uint32_t first = 0, count = 0;  ///< cells
+  std::uint32_t left = 0, right = 0;   ///< branches; 0: a leaf
 };
 
 /// A cell, or a part of one, that may hold a nearer place than was found: at least that far off.
@@ -128,6 +241,7 @@ static std::array<double, 2> step_of(const SurfaceJet& jet, Vec3 r, const Cell& 
 
 struct NearestOnModel::Tree {
   std::vector<const NurbsSurface*> patches;
+  std::vector<std::unique_ptr<nearest_detail::Trimmed>> trimmed;  ///< of each patch; null: whole
   std::vector<nearest_detail::Cell> cells;
   std::vector<nearest_detail::Branch> branches;
   double model_size = 0.0;
@@ -161,9 +275,14 @@ struct NearestOnModel::Tree {
     return number;
   }
 
-  /// From a place of the cell downhill to a nearer one. True: there is no nearer one in the cell,
-  /// if it has one valley.
-  bool go_down(const nearest_detail::Cell& cell, Vec3 p, double u, double v,
+  [[nodiscard]] nearest_detail::Trimmed::Side side_of(const nearest_detail::Cell& cell) const {
+    const auto& cut = trimmed[cell.patch];
+    return cut ? cut->side_of(cell) : nearest_detail::Trimmed::Side::kThere;
+  }
+
+  /// From a place of the cell downhill to a nearer one that is there. True: there is no nearer one
+  /// in the cell, if it has one valley.
+  bool go_down(const nearest_detail::Cell& cell, bool across, Vec3 p, double u, double v,
                nearest_detail::Found& best) const {
     struct Step {
       double u = 0.0, v = 0.0;
@@ -205,6 +324,7 @@ struct NearestOnModel::Tree {
       here = next;
       arrived = last;
     }
+    if (across && !trimmed[cell.patch]->contains(here.u, here.v)) return false;
     const double square = here.distance * here.distance;
     if (square < best.square) best = {square, cell.patch, here.u, here.v};
     return arrived;
@@ -215,10 +335,14 @@ struct NearestOnModel::Tree {
   }
 
   void look_inside(const nearest_detail::Cell& cell, Vec3 p, nearest_detail::Looked& looked) const {
+    using Side = nearest_detail::Trimmed::Side;
+    const Side side = side_of(cell);
+    if (side == Side::kGone) return;
     const nearest_detail::SpanNet net(*patches[cell.patch], cell.u, cell.v);
     const auto [least, u, v] = net.flat_foot(p);
     if (least >= decided_from(looked.best)) return;
-    const bool arrived = go_down(cell, p, cell.u.at(u), cell.v.at(v), looked.best);
+    const bool arrived =
+        go_down(cell, side == Side::kAcross, p, cell.u.at(u), cell.v.at(v), looked.best);
     if (least >= decided_from(looked.best) || (arrived && net.one_valley(p))) return;
     looked.undecided.push_back({least, cell, net.longer_along_u()});
     std::push_heap(looked.undecided.begin(), looked.undecided.end());
@@ -273,6 +397,13 @@ NearestOnModel::NearestOnModel(const SurfaceModel& model) : tree_(new Tree) {
     nearest_detail::add_cells(*tree_->patches[i], static_cast<std::uint32_t>(i), parts,
                               tree_->cells);
   }
+  for (const SurfacePatch& patch : model.patches) {
+    tree_->trimmed.push_back(
+        patch.trims.empty() ? nullptr : std::make_unique<nearest_detail::Trimmed>(patch));
+  }
+  std::erase_if(tree_->cells, [&](const nearest_detail::Cell& cell) {
+    return tree_->side_of(cell) == nearest_detail::Trimmed::Side::kGone;
+  });
   if (tree_->cells.empty()) return;
   tree_->build(0, static_cast<std::uint32_t>(tree_->cells.size()));
   tree_->model_size = tree_->branches.front().box.diagonal();
@@ -282,6 +413,9 @@ NearestOnModel::~NearestOnModel() = default;
 
 NearestPlace NearestOnModel::at(Vec3 point) const {
   nearest_detail::Looked looked;
+  for (std::uint32_t i = 0; i < tree_->trimmed.size(); ++i) {
+    if (tree_->trimmed[i]) tree_->trimmed[i]->nearest(point, i, looked.best);
+  }
   if (!tree_->branches.empty()) {
     tree_->search(0, point, looked);
     tree_->decide(point, looked);

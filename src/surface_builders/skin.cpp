@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "fair_across.h"
@@ -15,6 +16,7 @@
 #include "obvid/surface/internal/collocation.h"
 #include "obvid/surface_builders/internal/grid.h"
 #include "obvid/surface_builders/internal/lighten.h"
+#include "ripple_meter.h"
 #include "skin_breaks.h"
 #include "skin_marks.h"
 #include "skin_report.h"
@@ -173,26 +175,110 @@ Result<MatchingTrial> tried(const std::vector<MeasuredSection>& sections, const 
   return out;
 }
 
+/// A matching with what it forces.
+struct TriedMatching {
+  Matched match;
+  MatchingTrial trial;
+};
+
 /// What each matching forces, the one at hand first. Those that these sections do not have are left
 /// out: points where their numbers differ, the others where numbers of corners do.
-Result<std::vector<MatchingTrial>> all_tried(const std::vector<MeasuredSection>& sections,
-                                             const Matched& given, double tolerance,
+Result<std::vector<TriedMatching>> all_tried(const std::vector<MeasuredSection>& sections,
+                                             Matched given, double tolerance,
                                              const RunContext& run) {
   const auto first = tried(sections, given, tolerance, run);
   OBVID_TRY(first);
-  std::vector<MatchingTrial> trials = {*first};
+  std::vector<TriedMatching> out;
+  out.push_back({std::move(given), *first});
   for (const SkinMatching matching :
        {SkinMatching::kByLength, SkinMatching::kByAngle, SkinMatching::kOptimised}) {
-    if (matching == given.matching) continue;
-    OBVID_TRY(tell(run, "matching sections", static_cast<double>(trials.size()) / 4.0));
-    const auto match = matched(sections, matching, run);
-    if (!match) continue;
+    if (matching == out.front().match.matching) continue;
+    OBVID_TRY(tell(run, "matching sections", static_cast<double>(out.size()) / 4.0));
+    auto match = matched(sections, matching, run);
+    if (!match && match.error().code != ErrorCode::kCancelled) continue;
+    OBVID_TRY(match);
     const auto trial = tried(sections, *match, tolerance, run);
     if (!trial && trial.error().code != ErrorCode::kCancelled) continue;
     OBVID_TRY(trial);
-    trials.push_back(*trial);
+    out.push_back({std::move(*match), *trial});
   }
-  return trials;
+  return out;
+}
+
+/// An exact skin: the largest change of curvature against its run, share of a section's largest,
+/// and spans along.
+struct ExactRuns {
+  double ripple = 0.0;
+  std::size_t spans = 0;
+};
+
+/// Of what this matching makes of every `stride`-th section, as if there were no others.
+Result<ExactRuns> runs_of(const std::vector<MeasuredSection>& sections, const Matched& match,
+                          double tolerance, std::size_t stride, const RunContext& run) {
+  ExactRuns out;
+  for (const MatchedStretch& stretch : match.stretches) {
+    std::vector<SectionCurve> curves;
+    for (std::size_t k = 0; k < sections.size(); k += stride) {
+      OBVID_TRY(may_go_on(run));
+      auto curve = SectionCurve::make(sections[k], stretch.marks[k], stretch.at);
+      OBVID_TRY(curve);
+      curves.push_back(std::move(*curve));
+    }
+    const auto breaks = breaks_for(curves, stretch.at, {tolerance}, run);
+    OBVID_TRY(breaks);
+    std::vector<RippleMeter> meters(curves.size());
+    OBVID_TRY(in_parallel(curves.size(), 0, run, [&](std::size_t k) {
+      if (!curves[k].is_point()) add_ripple(curves[k], *breaks, meters[k]);
+    }));
+    for (const RippleMeter& meter : meters) out.ripple = std::max(out.ripple, meter.ripple());
+    out.spans += breaks->size() - 1;
+  }
+  return out;
+}
+
+/// The matching that forces the fewest changes a line, of those whose sections keep their runs of
+/// curvature, or lose no more than those of the one at hand, which is the first, with no more than
+/// twice its spans. Puts it first.
+Result<void> choose(const std::vector<MeasuredSection>& sections, double tolerance,
+                    std::vector<TriedMatching>& all, const RunContext& run) {
+  constexpr double kRunKept = 1e-3;        // of a section's largest curvature
+  constexpr double kMostHeavier = 2.0;     // spans, of those of the first
+  constexpr std::size_t kFewSections = 6;  // enough to see that a matching loses runs
+  const auto of_line = [](const MatchingTrial& trial) {
+    return static_cast<double>(trial.forced) / static_cast<double>(trial.isolines);
+  };
+  std::vector<std::size_t> order;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (of_line(all[i].trial) < of_line(all.front().trial)) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return of_line(all[a].trial) < of_line(all[b].trial);
+  });
+  if (order.empty()) return {};
+  const auto given = runs_of(sections, all.front().match, tolerance, 1, run);
+  OBVID_TRY(given);
+  all.front().trial.ripple = given->ripple;
+  all.front().trial.heavier = 1.0;
+  const double allowed = std::max(kRunKept, given->ripple);
+  for (const std::size_t i : order) {
+    TriedMatching& one = all[i];
+    std::size_t stride = (sections.size() + kFewSections - 1) / kFewSections;
+    for (bool last = false; !last; stride = 1) {
+      last = stride == 1;
+      const auto runs = runs_of(sections, one.match, tolerance, stride, run);
+      if (!runs && runs.error().code != ErrorCode::kCancelled) break;  // not followed
+      OBVID_TRY(runs);
+      one.trial.ripple = runs->ripple;
+      one.trial.heavier = static_cast<double>(runs->spans) / static_cast<double>(given->spans);
+      if (runs->ripple > allowed || *one.trial.heavier > kMostHeavier) break;
+      if (last) {
+        std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(i),
+                    all.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        return {};
+      }
+    }
+  }
+  return {};
 }
 
 /// Puts surfaces with few control points in the place of the exact ones.
@@ -239,14 +325,14 @@ Seam seam_at(const std::vector<SkinStretch>& stretches, std::size_t n, bool end)
   return {};
 }
 
-/// Puts surfaces that are fair across in the place of the given ones, whose sections lie within
-/// `moved` of the exact ones; returns what those force.
-Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretches, double moved,
+/// Puts surfaces that are fair across in the place of the exact ones, of whose tolerance `kept` is
+/// left for what comes after; returns what the exact ones force.
+Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretches, double kept,
                                               double fine, const std::vector<double>& v,
                                               const Collocation& across, const RunContext& run,
-                                              FairAcrossReport& report) {
+                                              FairAcrossReport& report,
+                                              std::vector<std::optional<NurbsSurface>>& added) {
   std::vector<ForcedAcross> forced;
-  report.moved = moved;
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const auto part = [&](std::size_t k) {
       return static_cast<double>(k) / static_cast<double>(stretches.size());
@@ -256,7 +342,7 @@ Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretche
     OBVID_TRY(least);
     OBVID_TRY(
         add_across_report(stretch.surface, stretch.breaks, v, *least, fine, run, report.before));
-    FairAcross how{fine, report.tolerance - moved, v, across, *least, {}, {}};
+    FairAcross how{fine, report.tolerance - kept, v, across, *least, {}, {}};
     for (const std::size_t side : {0u, 1u}) {
       const Seam seam = seam_at(stretches, n, side == 1);
       how.fixed[side] = seam.shared;
@@ -264,8 +350,9 @@ Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretche
     }
     auto fair = faired_across(stretch, how, run, part(n), part(n + 1));
     OBVID_TRY(fair);
-    for (const double by : fair->moved) report.moved = std::max(report.moved, moved + by);
+    for (const double by : fair->moved) report.moved = std::max(report.moved, by);
     stretch.surface = std::move(fair->surface);
+    added.push_back(std::move(fair->correction));
     forced.push_back(std::move(*least));
   }
   return forced;
@@ -292,9 +379,11 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
   OBVID_TRY(match);
   std::vector<MatchingTrial> trials;
   if (options.fair_across && options.matching == SkinMatching::kAutomatic) {
-    auto all = all_tried(measured_sections, *match, *options.fair_across, run);
+    auto all = all_tried(measured_sections, std::move(*match), *options.fair_across, run);
     OBVID_TRY(all);
-    trials = std::move(*all);
+    OBVID_TRY(choose(measured_sections, options.tolerance, *all, run));
+    for (const TriedMatching& one : *all) trials.push_back(one.trial);
+    match = std::move(all->front().match);
   }
   std::vector<Net> nets;
   for (const MatchedStretch& stretch : match->stretches) {
@@ -322,22 +411,40 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     NurbsSurface surface = surface_of(net, *across);
     stretches.push_back({std::move(net.curves), std::move(net.breaks), std::move(surface)});
   }
+  std::vector<ForcedAcross> forced;
+  const double bulge = options.fair_across.value_or(options.tolerance);
+  const double fine = std::min(options.tolerance, bulge);
+  std::vector<NurbsSurface> exact;
+  std::vector<std::optional<NurbsSurface>> added;
+  if (options.fair_across && options.light) {
+    for (const SkinStretch& stretch : stretches) exact.push_back(stretch.surface);
+  }
+  if (options.fair_across) {  // before knots go: what moves by less makes hardly any high bulges
+    result.fair.emplace().tolerance = *options.fair_across;
+    result.fair->tried = std::move(trials);
+    auto least = fair_across(stretches, options.light.value_or(0.0), fine, *v, *across, run,
+                             *result.fair, added);
+    OBVID_TRY(least);
+    forced = std::move(*least);
+  }
   if (options.light) {
     const LightWhere where = options.fair_across ? LightWhere::kAlong : LightWhere::kBoth;
     auto light = lighten(stretches, *options.light, where, run);
     OBVID_TRY(light);
+    if (options.fair_across && light->points == light->points_before) {
+      // the fair one has no lighter one: that of the exact one, and the correction as it is
+      for (std::size_t n = 0; n < stretches.size(); ++n) stretches[n].surface = exact[n];
+      light = lighten(stretches, *options.light, where, run);
+      OBVID_TRY(light);
+      light->points = 0;
+      for (std::size_t n = 0; n < stretches.size(); ++n) {
+        NurbsSurface& surface = stretches[n].surface;
+        if (added[n]) surface = sum_of(surface, *added[n]);
+        light->points += surface.points.size();
+      }
+    }
     result.light = *light;
-  }
-  std::vector<ForcedAcross> forced;
-  const double bulge = options.fair_across.value_or(options.tolerance);
-  const double fine = std::min(options.tolerance, bulge);
-  if (options.fair_across) {
-    result.fair.emplace().tolerance = *options.fair_across;
-    result.fair->tried = std::move(trials);
-    auto least = fair_across(stretches, result.light ? result.light->moved : 0.0, fine, *v, *across,
-                             run, *result.fair);
-    OBVID_TRY(least);
-    forced = std::move(*least);
+    if (result.fair) result.fair->moved += light->moved;
   }
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const double part = static_cast<double>(n) / static_cast<double>(stretches.size());

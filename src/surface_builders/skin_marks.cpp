@@ -95,6 +95,28 @@ std::optional<MatchedStretch> stretch_of(std::vector<std::vector<double>> marks)
   return stretch;
 }
 
+/// "section 5 (name) has a corner at its point 12 that its neighbours do not have".
+void tell_single_corners(const std::vector<MeasuredSection>& sections, Matched& out) {
+  std::vector<std::set<std::size_t>> corners;
+  std::vector<std::size_t> numbers;  // of sections that are no points
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    if (!sections[k].path) continue;
+    numbers.push_back(k);
+    corners.emplace_back();
+    for (const double s : corners_of(sections[k])) corners.back().insert(point_at(sections[k], s));
+  }
+  for (std::size_t k = 0; k < numbers.size() && numbers.size() > 1; ++k) {
+    for (const std::size_t i : corners[k]) {
+      if (k > 0 && corners[k - 1].count(i) > 0) continue;
+      if (k + 1 < numbers.size() && corners[k + 1].count(i) > 0) continue;
+      out.warnings.push_back(fmt::format(
+          "section {} ({}) has a corner at its point {} that no section beside it has: it cuts the "
+          "whole skin into patches there",
+          numbers[k] + 1, sections[numbers[k]].section->name, i + 1));
+    }
+  }
+}
+
 Result<Matched> by_points(const std::vector<MeasuredSection>& sections, std::size_t count) {
   std::set<std::size_t> fences = {0, count - 1};
   for (const MeasuredSection& section : sections) {
@@ -102,6 +124,7 @@ Result<Matched> by_points(const std::vector<MeasuredSection>& sections, std::siz
     for (const double s : corners_of(section)) fences.insert(point_at(section, s));
   }
   Matched result;
+  tell_single_corners(sections, result);
   for (auto from = fences.begin(), to = std::next(from); to != fences.end(); from = to++) {
     std::vector<std::vector<double>> marks;
     for (const MeasuredSection& section : sections) {

@@ -12,6 +12,19 @@
 
 namespace obvid {
 
+void add_ripple(const SectionCurve& section, const std::vector<double>& breaks,
+                RippleMeter& meter) {
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double length = breaks[i + 1] - breaks[i];
+    const auto piece = quintic(section.at(breaks[i]), section.at(breaks[i + 1]), length);
+    for (int j = 0; j < kReportSamplesPerSpan; ++j) {
+      const double part = (j + 0.5) / kReportSamplesPerSpan;
+      meter.add(plane_curvature(section.at(breaks[i] + part * length), section.frame()),
+                plane_curvature(evaluate(piece, part, length), section.frame()));
+    }
+  }
+}
+
 void add_section_report(const SkinStretch& stretch, const MeasuredSection& measured, std::size_t k,
                         double v, int samples_per_span, SkinSectionReport& report) {
   const SectionCurve& section = stretch.sections[k];

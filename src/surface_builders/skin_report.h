@@ -6,6 +6,7 @@
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/surface_builders/internal/skin.h"
+#include "ripple_meter.h"
 #include "section_curve.h"
 
 namespace obvid {
@@ -20,6 +21,9 @@ struct SkinStretch {
   std::vector<double> breaks;
   NurbsSurface surface;
 };
+
+/// Adds what the curvature of a section does in an exact skin with these breaks along.
+void add_ripple(const SectionCurve& section, const std::vector<double>& breaks, RippleMeter& meter);
 
 /// Adds what this stretch shows about section k.
 void add_section_report(const SkinStretch& stretch, const MeasuredSection& measured, std::size_t k,

@@ -125,6 +125,7 @@ class Trimmer {
       }
       SurfacePatch left = half;
       left.trims = std::move(made->trims);
+      left.trims_within = std::max(patch.trims_within, made->deviation);
       out.left.push_back(std::move(left));
     }
     if (whole == halves.size()) out.left = {patch};

@@ -103,7 +103,10 @@ bool on_edge(const CutterShape& cutter, Vec2 axis, Vec3 a, Vec3 b, int feature, 
 bool inside(const Triangle& t, Vec2 p, std::array<double, 3>& w) {
   const Vec2 a{t[0].x, t[0].y}, b{t[1].x, t[1].y}, c{t[2].x, t[2].y};
   const double area = cross(b - a, c - a);
-  if (area == 0.0) return false;
+  if (area == 0.0) {
+    w.fill(-1.0);
+    return false;
+  }
   w[1] = cross(p - a, c - a) / area;
   w[2] = cross(b - a, p - a) / area;
   w[0] = 1.0 - w[1] - w[2];
@@ -158,7 +161,10 @@ bool drop_on(const CutterShape& cutter, Vec2 axis, const Triangle& t, unsigned s
 }
 
 bool height_over(const Triangle& t, Vec2 place, double& z, std::array<double, 3>& w) {
-  if (!inside(t, place, w)) return false;
+  // on a side two triangles share a place, whatever rounding says of each
+  constexpr double kOnSide = 1e-9;  // of the triangle
+  inside(t, place, w);
+  if (!(std::min({w[0], w[1], w[2]}) >= -kOnSide)) return false;
   z = w[0] * t[0].z + w[1] * t[1].z + w[2] * t[2].z;
   return true;
 }

@@ -15,7 +15,44 @@ constexpr double kSettled = 1e-12;     // of the radius
 constexpr double kLevelNormal = 1e-6;  // below, the rim's point is not defined by the normal
 constexpr double kAgree = 1.0;         // shares of triangles, between exact and triangles' height
 
+Vec2 direction(Vec2 a) {
+  const double size = norm(a);
+  return size > 0.0 ? a / size : Vec2{};
+}
+
 Vec3 upwards(Vec3 n) { return n.z < 0.0 ? -n : n; }
+
+/// The feature of a triangle that holds a cutter at a point: at the ends of edges the corner.
+int feature_at(const Triangle& t, int feature, Vec3 contact) {
+  constexpr double kAtCorner = 1e-9;  // of the longest edge
+  const double longest = std::max({norm(t[1] - t[0]), norm(t[2] - t[1]), norm(t[0] - t[2])});
+  for (int k = 0; k < 3; ++k) {
+    if (norm(contact - t[static_cast<std::size_t>(k)]) <= kAtCorner * longest) return 4 + k;
+  }
+  return feature;
+}
+
+/// Across the border that a cutter rests on, away from its triangle; 0 at corners and on walls.
+Vec2 outwards_of(const Triangle& t, int feature) {
+  if (feature < 1 || feature > 3) return {};
+  const auto k = static_cast<std::size_t>(feature - 1);
+  const auto level = [](Vec3 p) { return Vec2{p.x, p.y}; };
+  const Vec2 a = level(t[k]), across = direction(left_normal(level(t[(k + 1) % 3]) - a));
+  const double inside = dot(across, level(t[(k + 2) % 3]) - a);
+  if (inside == 0.0) return {};
+  return inside > 0.0 ? -across : across;
+}
+
+std::shared_ptr<const std::vector<std::optional<TrimRegion>>> regions_of(
+    const SurfaceModel& model) {
+  auto out = std::make_shared<std::vector<std::optional<TrimRegion>>>();
+  out->reserve(model.patches.size());
+  for (const SurfacePatch& patch : model.patches) {
+    out->emplace_back();
+    if (!patch.trims.empty()) out->back().emplace(patch);
+  }
+  return out;
+}
 
 std::array<double, 3> weights_at(const Triangle& t, Vec3 p) {
   const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
@@ -75,6 +112,7 @@ Result<Part> Part::make(const SurfaceModel& model, const CutterShape& cutter, do
 Part::Part(const SurfaceModel& model, CutterShape cutter, double tolerance, double allowance,
            std::vector<Mesh> meshes, std::size_t threads)
     : model_(model),
+      regions_(regions_of(model)),
       tolerance_(tolerance),
       allowance_(allowance),
       meshes_(std::move(meshes)),
@@ -119,8 +157,13 @@ std::optional<Place> Part::drop(Vec2 axis) const {
   Place place = on_triangle(found->triangle, weights_at(t.corners, found->rest.point));
   place.tip = {axis.x, axis.y, found->rest.tip_z};
   place.contact = found->rest.point;
-  place.open = ((static_cast<unsigned>(t.open) >> found->rest.feature) & 1U) != 0;
-  if (!place.open) polish(axis, place);
+  const int feature = feature_at(t.corners, found->rest.feature, found->rest.point);
+  place.open = ((static_cast<unsigned>(t.open) >> feature) & 1U) != 0;
+  if (place.open) {
+    place.outwards = outwards_of(t.corners, feature);
+  } else {
+    polish(axis, place);
+  }
   place.tip.z += allowance_;
   return place;
 }
@@ -155,6 +198,19 @@ void Part::polish(Vec2 axis, Place& place) const {
     v += cross(by_u, gap) / area;
     if (!(u >= us.from && u <= us.to && v >= vs.from && v <= vs.to)) return;
   }
+}
+
+double Part::beyond_border(const Place& place, Vec2 outwards) const {
+  constexpr double kUprightSide = 1e-3;  // z of normals: either side of a wall is open
+  const Vec2 away = Vec2{place.tip.x, place.tip.y} - Vec2{place.contact.x, place.contact.y};
+  const double side = dot(offset(place.normal), outwards);
+  const double touching = std::max(place.normal.z < kUprightSide ? std::abs(side) : side, 0.0);
+  return dot(away, outwards) - touching;
+}
+
+double Part::kept_up(const Place& place, Vec2 outwards, double beyond) const {
+  const Vec2 away = Vec2{place.tip.x, place.tip.y} - Vec2{place.contact.x, place.contact.y};
+  return std::max(place.tip.z, tip_over(place.contact, norm(away - beyond * outwards)));
 }
 
 std::optional<Place> Part::surface_over(Vec2 at) const {

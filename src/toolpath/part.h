@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "drop_field.h"
+#include "obvid/surface/internal/trim.h"
 #include "obvid/surface/surface.h"
 
 namespace obvid::toolpath {
@@ -35,6 +39,7 @@ struct Place {
   Vec3 contact;
   Vec3 normal;        ///< of the surface at the contact, upwards
   bool open = false;  ///< rests on an open border
+  Vec2 outwards;      ///< there, seen from above, across the border, length 1; 0: on a corner of it
   std::uint32_t patch = 0;
   double u = 0.0, v = 0.0;
 };
@@ -57,6 +62,20 @@ class Part {
   [[nodiscard]] Vec3 tip(Vec3 contact, Vec3 normal) const {
     return wide_.tip(contact, normal) + Vec3{0.0, 0.0, allowance_};
   }
+  /// Height of the tip when the body touches a point that lies this far from the axis.
+  [[nodiscard]] double tip_over(Vec3 contact, double from_axis) const {
+    return contact.z - wide_.height(std::min(from_axis, wide_.radius)) + allowance_;
+  }
+  /// How far the axis of a cutter that rests on an open border lies out over it, beyond where it
+  /// still touches the surface with its side; `outwards` as of the place.
+  [[nodiscard]] double beyond_border(const Place& place, Vec2 outwards) const;
+  /// Height of the tip where it does not go down there.
+  [[nodiscard]] double kept_up(const Place& place, Vec2 outwards, double beyond) const;
+  /// Whether that place of a patch is there, and not trimmed away.
+  [[nodiscard]] bool is_there(std::size_t patch, double u, double v) const {
+    const auto& region = (*regions_)[patch];
+    return !region || region->contains(u, v);
+  }
   [[nodiscard]] double tolerance() const { return tolerance_; }
   [[nodiscard]] const DropField& field() const { return field_; }
   [[nodiscard]] const SurfaceModel& model() const { return model_; }
@@ -77,6 +96,7 @@ class Part {
   void polish(Vec2 axis, Place& place) const;
 
   const SurfaceModel& model_;
+  std::shared_ptr<const std::vector<std::optional<TrimRegion>>> regions_;  ///< of trimmed patches
   CutterShape cutter_;
   CutterShape wide_;  ///< by the allowance
   CutterShape slim_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "obvid/core/internal/parallel.h"
 #include "reach.h"
@@ -33,6 +34,11 @@ double off_line(Vec3 a, Vec3 b, Vec3 p) {
   const Vec3 way = b - a;
   const double length = norm(way);
   return length > 0.0 ? norm(cross(way, p - a)) / length : norm(p - a);
+}
+
+Vec2 direction_of(Vec2 way) {
+  const double size = norm(way);
+  return size > 0.0 ? way / size : Vec2{};
 }
 
 bool changes_sides(const PassPoint& a, const PassPoint& b) {
@@ -115,13 +121,45 @@ void keep_flat(Pass& pass, double flat_from, double beyond) {
   pass.pieces = std::move(pieces);
 }
 
-Walker::Station Walker::resting(Vec2 axis, double t) const {
-  const auto place = part_.drop(axis);
+// From the nearest place of the part that is found beside the axis; where that is far, from the
+// corner that holds the cutter.
+Vec2 Walker::out_of_part(const Place& place) const {
+  constexpr int kWaysOut = 16;
+  constexpr double kNoDirection = 1e-6;  // of unit vectors on all sides
+  const Vec2 axis{place.tip.x, place.tip.y};
+  for (const double part : {0.05, 0.25, 0.5, 1.0}) {
+    Vec2 sum;
+    for (int k = 0; k < kWaysOut; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kWaysOut;
+      const Vec2 out{std::cos(angle), std::sin(angle)};
+      if (part_.surface_over(axis - part * overrun_ * out)) sum = sum + out;
+    }
+    if (norm(sum) > kNoDirection) return direction_of(sum);
+  }
+  return direction_of(axis - Vec2{place.contact.x, place.contact.y});
+}
+
+// Beyond an open border a resting cutter would roll down over it. It goes out as far as it touches
+// the surface there with its side; beyond that only along the border, a part of a step far, and no
+// lower. True: the pass ends before.
+bool Walker::ends_at_border(const Rail& rail, double t, Place& place) const {
+  if (place.outwards == Vec2{}) place.outwards = out_of_part(place);
+  const double beyond = part_.beyond_border(place, place.outwards);
+  if (!(beyond > 0.0)) return false;
+  constexpr double kAside = 1e-3;  // of the rail
+  const Vec2 way = direction_of(rail.axis_at(t + kAside) - rail.axis_at(t - kAside));
+  const double along = rail.across ? 1.0 : std::abs(cross(way, place.outwards));
+  if (beyond > along * overrun_ + part_.tolerance()) return true;
+  place.tip.z = part_.kept_up(place, place.outwards, beyond);
+  return false;
+}
+
+Walker::Station Walker::resting(const Rail& rail, double t) const {
+  const Vec2 axis = rail.axis_at(t);
+  auto place = part_.drop(axis);
   if (!place) return std::nullopt;
-  if (place->open) {
-    const double allowed = norm(part_.offset(place->normal)) + overrun_;
-    const Vec2 away = axis - Vec2{place->contact.x, place->contact.y};
-    if (norm(away) > allowed && !part_.surface_over(axis)) return std::nullopt;
+  if (place->open && !part_.surface_over(axis) && ends_at_border(rail, t, *place)) {
+    return std::nullopt;
   }
   return PassPoint{t, *place, false};
 }
@@ -136,6 +174,7 @@ Walker::Station Walker::touching(const Rail& rail, double t) const {
   place.patch = static_cast<std::uint32_t>(rail.patch);
   place.u = rail.along_v ? rail.fixed : along;
   place.v = rail.along_v ? along : rail.fixed;
+  if (!part_.is_there(rail.patch, place.u, place.v)) return std::nullopt;
   const SurfaceJet jet = evaluate(surface, place.u, place.v);
   const Vec3 n = unit(cross(jet.du, jet.dv));
   if (n == Vec3{}) return std::nullopt;
@@ -164,7 +203,7 @@ Walker::Station Walker::no_lower(Vec2 axis, double t, double floor) const {
 
 Walker::Station Walker::at(const Rail& rail, double t) const {
   if (rail.floor) return no_lower(rail.axis_at(t), t, *rail.floor);
-  return rail.of_parameters() ? touching(rail, t) : resting(rail.axis_at(t), t);
+  return rail.of_parameters() ? touching(rail, t) : resting(rail, t);
 }
 
 /// Derivations: docs/methods/toolpath.md. Round bodies: no part can hide between two that are so

@@ -62,7 +62,9 @@ void keep_flat(Pass& pass, double flat_from, double beyond);
 /// neighbours, cuts nothing deeper than its share of the tolerance and leaves no more than that.
 class Walker {
  public:
-  /// `overrun`: how far the axis may leave open borders. `direction`: of all passes; nothing: any.
+  /// `overrun`: how far the axis may run beside open borders, farther out than where the cutter
+  /// still touches the surface; across them it ends there. `direction`: of all passes; nothing:
+  /// any.
   Walker(const Part& part, double overrun, std::optional<Vec2> direction,
          const ToolpathOptions& options)
       : part_(part),
@@ -92,7 +94,9 @@ class Walker {
   };
   [[nodiscard]] Station at(const Rail& rail, double t) const;
   [[nodiscard]] Station touching(const Rail& rail, double t) const;
-  [[nodiscard]] Station resting(Vec2 axis, double t) const;
+  [[nodiscard]] Station resting(const Rail& rail, double t) const;
+  [[nodiscard]] Vec2 out_of_part(const Place& place) const;
+  [[nodiscard]] bool ends_at_border(const Rail& rail, double t, Place& place) const;
   [[nodiscard]] Station no_lower(Vec2 axis, double t, double floor) const;
   [[nodiscard]] bool round_enough(Vec3 a, Vec3 b) const;
   [[nodiscard]] bool flat_enough(const Rail& rail, Vec3 a, Vec3 b) const;

@@ -209,6 +209,9 @@ void take_over(const SimulationReport& seen, double spacing, ToolpathReport& out
   out.spacing = spacing;
   out.surface_area = seen.area;
   out.hidden_area = seen.hidden_area;
+  out.hidden_places = seen.hidden;
+  out.hidden_place = seen.hidden_place;
+  out.unreached_places = seen.held_places;
   out.unreached_area = seen.held_area;
   out.unreached_depth = seen.held;
   out.unreached_place = seen.held_place;
@@ -287,8 +290,9 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
   }
   if (r.hidden_area > 0.0) {
     out.warnings.push_back(
-        fmt::format("about {:.3g} % of the surface is hidden from above and is not cut",
-                    100.0 * r.hidden_area / r.surface_area));
+        fmt::format("about {:.3g} % of the surface is hidden from above (undersides and undercuts, "
+                    "the lowest at {}) and is not cut",
+                    100.0 * r.hidden_area / r.surface_area, place_text(r.hidden_place)));
   }
 }
 
@@ -318,6 +322,8 @@ Result<void> finish(const Part& part, const SurfaceCells& cells, LargeList<Neare
                                   *exchange::machine_units_in(out.units), options, run);
   OBVID_TRY(seen);
   take_over(*seen, cells.spacing(), out.report);
+  out.hidden_strokes = seen->hidden_strokes;
+  out.unreached_strokes = seen->held_strokes;
   return {};
 }
 

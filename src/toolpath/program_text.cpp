@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "biarc.h"
@@ -22,7 +23,11 @@ constexpr double kLargestRadius = 1e4;  // machine units: beyond, centres need m
 /// Cosine of half the turn of the flattest arcs that are told as one: less than half a turn.
 constexpr double kMostLean = 0.2;
 constexpr std::size_t kMostAhead = 512;  // points that one biarc stands for: bounds the search
-constexpr double kCornerCosine = 0.98;   // sharper ones end a biarc
+/// Places between two points, and how far arcs may lie from them, in what they may from points:
+/// that, and what passes themselves may lie beside the chords of their points.
+constexpr std::array<double, 3> kOnChord = {0.25, 0.5, 0.75};
+constexpr double kMostBulge = 2.0;
+constexpr double kCornerCosine = 0.98;  // sharper ones end a biarc
 
 double round_to(double value, int decimals) {
   const double places = std::pow(10.0, decimals);
@@ -190,6 +195,16 @@ std::optional<std::array<ProgramText::Block, 2>> ProgramText::biarc(const Flat& 
   const Block one = block(flat.flat(stands), arc_middle(a, leaving, *joint), *joint);
   const Block two = block(one.to, arc_middle(b, -arriving, *joint), b);
   if (!one.arc && !two.arc) return std::nullopt;
+  // where points lie far apart arcs through them may bulge: a way straight up ends a biarc
+  const auto strays = [&](Vec2 from, Vec2 way) {
+    return std::any_of(kOnChord.begin(), kOnChord.end(), [&](double part) {
+      const Vec2 p = from + part * way;
+      return std::min(one.distance(p), two.distance(p)) > kMostBulge * within_;
+    });
+  };
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    if (strays(flat.points[i - 1], flat.points[i] - flat.points[i - 1])) return std::nullopt;
+  }
   for (std::size_t i = first + 1; i < last; ++i) {
     const Vec2 way = flat.points[i] - flat.points[i - 1];
     if (dot(way, flat.directions[i]) < kCornerCosine * norm(way)) return std::nullopt;

@@ -238,6 +238,7 @@ Result<void> Simulation::cut(const std::vector<Sweep>& sweeps, const RunContext&
         double about = kAbout * part_.cutter().radius;
         for (std::size_t i = tile.first; i < tile.first + tile.count && !questions.end(); ++i) {
           const Cell& cell = cells_.cells()[i];
+          if (!cell.there) continue;
           const double most = radius_of(kForBoth, cell, nodes_[i]);
           const CellBounds b = bounds(kForBoth, cell, fresh, std::min(about, most), most, near);
           about = kAbout * radius_of(kForBoth, cell, b);  // the next one is much alike

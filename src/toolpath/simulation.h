@@ -45,6 +45,9 @@ struct SimulationReport {
   double held = 0.0;       ///< where it cannot: distance of the cutter from the part
   Vec3 held_place;
   double hidden_area = 0.0, held_area = 0.0, area = 0.0;
+  std::size_t hidden = 0, held_places = 0, places = 0;            ///< cells
+  Vec3 hidden_place;                                              ///< the lowest one
+  std::vector<std::array<Vec3, 2>> hidden_strokes, held_strokes;  ///< on some of them, for pictures
 };
 
 /// What bounds of a cell are for. Nothing has to be looked into any closer once no more than `left`
@@ -188,6 +191,7 @@ void Simulation::quarter(const Looking& what, const Piece& whole,
     const double du = 0.5 * at.du, dv = 0.5 * at.dv;
     for (const double v : {at.v - dv, at.v + dv}) {
       for (const double u : {at.u - du, at.u + du}) {
+        if (!part_.is_there(at.patch, u, v)) continue;
         Waiting next{{{at.patch, u, v, du, dv}, {}, {}}, {}, one.levels - 1};
         next.part.cell =
             cell_at(part_.model(), next.part.place, one.part.cell.normal, part_.allowance());

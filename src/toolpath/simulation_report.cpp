@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "obvid/core/internal/parallel.h"
 #include "simulation.h"
@@ -39,6 +40,35 @@ double out_of_box(const std::array<Vec3, 2>& box, const Cell& cell) {
   leave(cell.point.z, cell.normal.z, box[0].z, box[1].z);
   return way;
 }
+
+/// A short line on the surface in the middle of a cell.
+std::array<Vec3, 2> stroke_on(const Cell& cell) {
+  constexpr double kLong = 0.35;  // of the cell, to both sides
+  const Vec3 n = cell.normal;
+  const Vec3 along = unit(std::abs(n.x) < 0.5 ? cross(n, Vec3{1, 0, 0}) : cross(n, Vec3{0, 1, 0}));
+  const Vec3 half = kLong * cell.reach * along;
+  return {cell.point - half, cell.point + half};
+}
+
+/// Strokes that stand for many, evenly: every second one goes when there are too many.
+class Strokes {
+ public:
+  void add(const Cell& cell) {
+    constexpr std::size_t kMostStrokes = 2'000;
+    if (count_++ % every_ != 0) return;
+    list_.push_back(stroke_on(cell));
+    if (list_.size() < kMostStrokes) return;
+    for (std::size_t k = 0; 2 * k < list_.size(); ++k) list_[k] = list_[2 * k];
+    list_.resize((list_.size() + 1) / 2);
+    every_ *= 2;
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::vector<std::array<Vec3, 2>> taken() { return std::move(list_); }
+
+ private:
+  std::vector<std::array<Vec3, 2>> list_;
+  std::size_t count_ = 0, every_ = 1;
+};
 
 }  // namespace
 
@@ -76,13 +106,20 @@ Result<void> Simulation::report_depth(double allowed, SimulationReport& out,
 
 Result<void> Simulation::report_reach(SimulationReport& out, const RunContext& run) {
   OBVID_TRY(look_into_reach(part_.tolerance(), run));
+  Strokes hidden, held_at;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Cell& cell = cells_.cells()[i];
     out.area += cell.area;
+    out.places += cell.there ? 1 : 0;
     if (!(nodes_[i].left > part_.tolerance()) || !counts(i)) continue;
     const Nearest& near = nearest_[i];
-    if (near.reach == Reach::kHidden) out.hidden_area += cell.area;
+    if (near.reach == Reach::kHidden) {
+      if (hidden.count() == 0 || cell.point.z < out.hidden_place.z) out.hidden_place = cell.point;
+      hidden.add(cell);
+      out.hidden_area += cell.area;
+    }
     if (near.reach != Reach::kHeld) continue;
+    held_at.add(cell);
     out.held_area += cell.area;
     const double held =
         std::max(near.height, std::isfinite(nodes_[i].depth) ? -nodes_[i].depth : near.height);
@@ -91,6 +128,10 @@ Result<void> Simulation::report_reach(SimulationReport& out, const RunContext& r
       out.held_place = cell.point;
     }
   }
+  out.hidden = hidden.count();
+  out.held_places = held_at.count();
+  out.hidden_strokes = hidden.taken();
+  out.held_strokes = held_at.taken();
   return {};
 }
 

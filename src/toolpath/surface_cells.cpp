@@ -179,7 +179,14 @@ Result<void> SurfaceCells::fill(const Part& part, double tile, std::size_t threa
 
 // The allowance lies on the open side, which is looked for from the surface itself.
 Cell SurfaceCells::made(const Part& part, const Origin& origin) const {
-  Cell cell = cell_at(part.model(), place(origin), {0.0, 0.0, 1.0}, 0.0);
+  const CellPlace at = place(origin);
+  Cell cell = cell_at(part.model(), at, {0.0, 0.0, 1.0}, 0.0);
+  if (!part.is_there(at.patch, at.u, at.v)) {
+    cell.there = false;
+    cell.area = 0.0;
+    cell.normal = {};
+    return cell;
+  }
   cell.normal = open_side(part, cell.point, cell.normal);
   move_out(cell, part.allowance());
   return cell;

@@ -25,6 +25,7 @@ struct Cell {
   Vec3 normal;  ///< upwards; none where the surface has no tangent plane
   double reach = 0.0, rise = 0.0, turn = 0.0;
   double area = 0.0;
+  bool there = true;  ///< its middle is not trimmed away
 };
 
 /// Takes the normal on the side of `side`.

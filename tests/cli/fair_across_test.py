@@ -81,10 +81,14 @@ def main():
                                   capture_output=True, text=True, check=True)
             return json.loads(done.stdout)["skin"], json.loads(file.read_text())["patches"]
 
-        exact_report, exact = made("exact.json")
         for allowed in (1e-3, 6e-3, 2e-2):
             report, fair = made("fair.json", "--fair-across", repr(allowed))
             said = report["fair_across"]
+            tried = said["tried"]
+            assert tried[0]["matched_by"] == report["matched_by"], tried
+            for trial in tried[1:]:  # what forces less loses runs of curvature, or is heavy
+                assert trial["forced"] >= tried[0]["forced"] or trial["ripple"] > 1e-3 or trial["heavier"] > 2.0, tried
+            exact_report, exact = made("exact.json", "--match", report["matched_by"])
             assert said["tolerance"] == allowed and said["moved"] <= allowed, said
             farthest = 0.0
             for one, other in zip(exact, fair):

@@ -88,11 +88,11 @@ def main():
         high = abs(points[:, 0][before < 0.0])
         assert len(high) > 100 and high.max() < edge, (len(high), high.max(), edge)
         share = length(edge) / length(WIDE)
-        for cutter, corner, strategy, most in (("ball", 1.0, ("zigzag",), 0.45), ("ball", 1.0, ("zigzag", "--angle", 30), 0.45),
-                                               ("ball", 1.0, ("scallop",), 0.5), ("ball", 1.0, ("isoparametric",), 0.6),
+        for cutter, corner, strategy, most in (("ball", 1.0, ("zigzag",), 0.55), ("ball", 1.0, ("zigzag", "--angle", 30), 0.55),
+                                               ("ball", 1.0, ("scallop",), 0.6), ("ball", 1.0, ("isoparametric",), 0.6),
                                                ("ball", 1.0, ("isoparametric", "--along-v"), 0.7),
-                                               ("bull", 0.9, ("zigzag", "--one-way"), 0.6),
-                                               ("ball", 1.0, ("zigzag", "--steep-angle", 30), 0.6)):
+                                               ("bull", 0.9, ("zigzag", "--one-way"), 0.7),
+                                               ("ball", 1.0, ("zigzag", "--steep-angle", 30), 0.7)):
             label = f"{cutter}, {' '.join(map(str, strategy))}"
             options = ["--cutter", cutter, "--diameter", SMALL, "--strategy", *strategy, "--scallop", SCALLOP,
                        *(["--corner-radius", corner] if cutter == "bull" else [])]

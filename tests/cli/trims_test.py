@@ -136,6 +136,32 @@ class Trims(unittest.TestCase):
                     self.assertLessEqual(gap, 1e-9)
                     yield [at_surface(one, *place) for place in along(curve, 41)]
 
+    def test_offsets_keep_trims_and_areas_tell_theirs(self):
+        r, h, out = 2.0, 0.7, self.work / "moved.json"
+        cap, path = self.trimmed(model(sphere(r)), "--plane", f"0.6,0,0.8,{h}", "--keep", "above", "--tolerance", 1e-4)
+        within = max(p["trims_within"] for p in cap["patches"])
+        self.assertGreater(within, 0.0)
+        self.assertLessEqual(within, 1e-4)
+        area, patches = self.area(path)
+        rim = 2 * math.pi * math.sqrt(r * r - h * h)
+        told = sum(p["area_error"] for p in patches)
+        self.assertGreaterEqual(told, 0.9 * within * rim)  # halves of a sphere share the rim
+        self.assertLessEqual(told, 1.1 * within * rim + 1e-6)
+        self.assertLessEqual(abs(area - 2 * math.pi * r * (r - h)), told)
+        # outwards by 0.5, wherever that is: the cap of a larger or a smaller sphere
+        self.run_it("surface", "offset", path, "--distance", 0.5, "-o", out, "-q")
+        moved, _ = self.area(out)
+        wanted = [2 * math.pi * r * (r - h) * (s / r) ** 2 for s in (1.5, 2.5)]
+        self.assertLess(min(abs(moved / w - 1) for w in wanted), 1e-4)
+
+    def test_distances_are_from_what_is_there(self):
+        part, path = self.trimmed(model(plane(4, 3)), "--plane", "x=1", "--keep", "above")
+        points = self.work / "points.csv"
+        points.write_text("x,y,z\n0,1,0\n0.25,2,0\n3,1,0.125\n")
+        report = json.loads(self.run_it("surface", "check", path, "--against", points, "--json").stdout)
+        found = report["deviation"]["found"]
+        self.assertAlmostEqual(found["largest"], 1.0, delta=1e-6)
+
     def test_sphere_above_a_plane(self):
         for r, h in ((2.0, 0.7), (1e-9, 3e-10), (1e9, -4e8)):
             with self.subTest(r=r):

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "obvid/surface/internal/trim.h"
+
 namespace obvid {
 namespace {
 
@@ -43,6 +45,51 @@ TEST(CheckSurface, MeasuresASphereAndItsSeam) {
   EXPECT_EQ(found.joints[0].side, (std::array{kVStart, kVEnd}));
   EXPECT_EQ(found.joints[0].order, 2);
   EXPECT_LT(found.joints[0].angle, 1e-12);
+}
+
+/// A sphere turned and moved: the points that its poles have become are apart by rounding, which is
+/// no line with vertices and inflections.
+TEST(CheckSurface, APoleIsNoLine) {
+  const Vec3 centre{123.456, -55.3, 77.7}, axis = unit({0.3, -0.5, 0.8});
+  const Vec3 beside = unit(cross(axis, {1, 0, 0}));
+  NurbsSurface sphere = nurbs(RevolutionSurface{
+      arc_about(centre - 10.0 * axis, centre, beside, kPi), centre, axis, 2 * kPi});
+  std::size_t pole = 0;  // the last digits of its points, as files have them
+  for (Vec3& p : sphere.points) {
+    if (norm(p - centre - 10.0 * axis) < 1e-9 || norm(p - centre + 10.0 * axis) < 1e-9) {
+      p = p + 1e-14 * static_cast<double>(++pole % 5) * Vec3{1, -1, 1};
+    }
+  }
+  ASSERT_GT(pole, 10u);
+  const SurfaceCheck found = checked({"s", "mm", {{"sphere", sphere}}});
+  const PatchReport& p = found.patches[0];
+  for (const LineReport& lines : {p.along_u, p.along_v}) {
+    EXPECT_EQ(lines.vertices, 0u);
+    EXPECT_EQ(lines.inflections, 0u);
+    EXPECT_EQ(lines.monotone, lines.lines);
+    EXPECT_GE(lines.lines, 63u);
+  }
+  EXPECT_EQ(p.along_u.lines + p.along_v.lines, 2u * 65u - 2u);  // the poles are none
+}
+
+/// A disc cut out of a plate: what lies between its trim and what that stands for is a ring.
+TEST(CheckSurface, TheAreaOfATrimmedPatchIsAsExactAsItsTrims) {
+  NurbsSurface plate;
+  plate.degree_u = plate.degree_v = 1;
+  plate.knots_u = plate.knots_v = {0, 0, 1, 1};
+  plate.points = {{-3, -3, 0}, {3, -3, 0}, {-3, 3, 0}, {3, 3, 0}};
+  const double w = std::sqrt(0.5), r = 1.0 / 6.0;
+  NurbsCurve circle{2,
+                    {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4},
+                    {{r, 0}, {r, -r}, {0, -r}, {-r, -r}, {-r, 0}, {-r, r}, {0, r}, {r, r}, {r, 0}},
+                    {1, w, 1, w, 1, w, 1, w, 1}};
+  for (Vec2& p : circle.points) p = p + Vec2{0.5, 0.5};
+  SurfacePatch patch{"plate", plate, {outline_of(plate), {{circle}}}, 1e-3};
+  const PatchReport p = checked({"s", "mm", {patch}}).patches[0];
+  EXPECT_NEAR(p.area, 36.0 - kPi, 1e-9);
+  EXPECT_NEAR(p.area_error, 2 * kPi * 1e-3, 1e-6);  // the sides of the plate are exact
+  patch.trims_within = 0.0;
+  EXPECT_LT(checked({"s", "mm", {patch}}).patches[0].area_error, 1e-6);
 }
 
 TEST(CheckSurface, TellsCornersFromSmoothBorders) {

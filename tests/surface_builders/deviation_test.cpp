@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "obvid/surface/internal/trim.h"
+
 namespace obvid {
 namespace {
 
@@ -30,6 +32,50 @@ NurbsSurface flat(double from, double to, double z) {
   s.knots_u = s.knots_v = {0, 0, 1, 1};
   s.points = {{from, from, z}, {to, from, z}, {from, to, z}, {to, to, z}};
   return s;
+}
+
+/// The plate from -3 to 3 at z = 0 without the disc of radius 1 in its middle.
+SurfaceModel holed_plate() {
+  SurfaceModel model = model_of({flat(-3.0, 3.0, 0.0)});
+  const double w = std::sqrt(0.5), r = 1.0 / 6.0;  // of the parameters
+  NurbsCurve circle{2,
+                    {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4},
+                    {{r, 0}, {r, -r}, {0, -r}, {-r, -r}, {-r, 0}, {-r, r}, {0, r}, {r, r}, {r, 0}},
+                    {1, w, 1, w, 1, w, 1, w, 1}};
+  for (Vec2& p : circle.points) p = p + Vec2{0.5, 0.5};
+  model.patches[0].trims = {outline_of(model.patches[0].surface), {{circle}}};
+  return model;
+}
+
+TEST(NearestOnModel, IsNotWhereTheSurfaceIsTrimmedAway) {
+  const SurfaceModel model = holed_plate();
+  ASSERT_TRUE(check(model.patches[0]));
+  const NearestOnModel nearest(model);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-2.5, 2.5), height(-1.0, 1.0);
+  for (int k = 0; k < 400; ++k) {
+    const Vec3 p{place(random), place(random), height(random)};
+    const double from_hole = 1.0 - std::hypot(p.x, p.y);
+    const double wanted = from_hole > 0.0 ? std::hypot(from_hole, p.z) : std::abs(p.z);
+    const NearestPlace found = nearest.at(p);
+    EXPECT_NEAR(found.distance, wanted, 1e-9) << p.x << " " << p.y << " " << p.z;
+    EXPECT_EQ(found.beside, from_hole > 0.0) << p.x << " " << p.y;
+    EXPECT_GE(std::hypot(found.point.x, found.point.y), 1.0 - 1e-9);
+  }
+}
+
+TEST(DeviationOfSurfaces, IsOfWhatTrimsLeave) {
+  const SurfaceModel holed = holed_plate();
+  const SurfaceModel whole = model_of({flat(-3.0, 3.0, 0.0)});
+  const NearestOnModel from_holed(holed), from_whole(whole);
+  const auto off = deviation_of(holed, from_whole, 17, {});
+  ASSERT_TRUE(off);
+  EXPECT_NEAR(off->farthest().off, 0.0, 1e-12);
+  const auto back = deviation_of(whole, from_holed, 17, {});
+  ASSERT_TRUE(back);
+  // its middle is a radius away from what is left; a disc of pi of 36 lies beside that
+  EXPECT_NEAR(std::abs(back->farthest().off), 1.0, 1e-6);
+  EXPECT_NEAR(back->beside, kPi / 36.0, 0.02);
 }
 
 TEST(NearestOnModel, IsThePointOfASphereOnTheRayFromItsCentre) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "obvid/curve/internal/clothoid.h"
@@ -368,7 +369,85 @@ TEST(SkinFairAcross, IsTheSameInOtherUnitsAndEachTime) {
   }
 }
 
-/// What each matching forces is told; the matching stays.
+/// An open arc about the origin of its plane from -1 to 1 rad, with a point of its own at `at`.
+Contour arc_with_point(double radius, double at) {
+  Contour contour;
+  const std::array<double, 3> angles{-1.0, at, 1.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 p = radius * unit_at(angles[i]);
+    contour.points.push_back(p);
+    contour.joints.push_back({{p, angles[i] + kPi / 2, 1.0 / radius}, i, {}});
+    if (i == 0) continue;
+    contour.pieces.push_back(ArcPiece{contour.points[i - 1], p, angles[i - 1] + kPi / 2,
+                                      1.0 / radius, radius * (angles[i] - angles[i - 1])});
+  }
+  contour.runs = {{0, 1, 0}};
+  return contour;
+}
+
+/// On a one-sheeted hyperboloid lines that run straight across never change their bending; those
+/// that follow points to and fro do, and the points force it. Sections are circles: any matching
+/// keeps their runs.
+TEST(SkinFairAcross, TakesTheMatchingThatForcesTheFewestChanges) {
+  std::vector<SkinSection> sections;
+  for (int k = 0; k < 9; ++k) {
+    const double z = 0.25 * (k - 4);
+    sections.push_back(section_of(
+        arc_with_point(std::sqrt(1.0 + 0.2 * z * z), k % 2 == 0 ? 0.6 : -0.6), at_height(z)));
+  }
+  const auto made = skin(sections, fair_options(1e-6, 1e-4));
+  ASSERT_TRUE(made) << made.error().what;
+  const std::vector<MatchingTrial>& tried = made->fair->tried;
+  ASSERT_EQ(tried.size(), 4u);
+  EXPECT_EQ(made->matching, tried.front().matching);
+  EXPECT_NE(made->matching, SkinMatching::kByPoints);
+  EXPECT_EQ(tried.front().forced, 0u);
+  for (const MatchingTrial& trial : tried) {
+    EXPECT_TRUE(trial.matching != SkinMatching::kByPoints || trial.forced > 0u);
+  }
+  EXPECT_LE(*tried.front().ripple, 1e-3);
+  EXPECT_EQ(made->across.found, 0u);
+}
+
+/// A corner of one section alone is told, and where it is; one that all have is none.
+TEST(Skin, TellsACornerThatNoSectionBesideHas) {
+  const auto bent = [] {
+    Contour contour;
+    contour.points = {{0, 0}, {1, 0.5}, {2, 0}};
+    for (std::size_t i = 0; i < 2; ++i) {
+      contour.pieces.push_back(LinePiece{contour.points[i], contour.points[i + 1]});
+      contour.runs.push_back({i, i, 0});
+    }
+    const double up = std::atan(0.5);
+    contour.joints = {{{{0, 0}, up, 0.0}, 0, {}},
+                      {{{1, 0.5}, up, 0.0}, 1, Element{{1, 0.5}, -up, 0.0}},
+                      {{{2, 0}, -up, 0.0}, 2, {}}};
+    return contour;
+  };
+  const auto smooth = [] {
+    Contour contour = arc_with_point(1.2, 0.0);
+    return contour;
+  };
+  const auto single =
+      skin({section_of(smooth(), at_height(0)), section_of(bent(), at_height(1), "b"),
+            section_of(smooth(), at_height(2))},
+           {1e-6});
+  ASSERT_TRUE(single) << single.error().what;
+  EXPECT_EQ(single->patches.size(), 2u);
+  ASSERT_EQ(single->warnings.size(), 1u);
+  EXPECT_NE(single->warnings[0].find("section 2 (b) has a corner at its point 2"),
+            std::string::npos)
+      << single->warnings[0];
+  const auto all = skin({section_of(bent(), at_height(0)), section_of(bent(), at_height(1)),
+                         section_of(bent(), at_height(2))},
+                        {1e-6});
+  ASSERT_TRUE(all) << all.error().what;
+  EXPECT_EQ(all->patches.size(), 2u);
+  EXPECT_TRUE(all->warnings.empty());
+}
+
+/// What each matching forces is told; those that force less than the one that was taken lose runs
+/// of curvature or are heavy.
 TEST(SkinFairAcross, TellsWhatEachMatchingForces) {
   std::vector<SkinSection> sections;
   for (int k = 0; k < 9; ++k) {
@@ -378,9 +457,10 @@ TEST(SkinFairAcross, TellsWhatEachMatchingForces) {
   ASSERT_TRUE(made) << made.error().what;
   const std::vector<MatchingTrial>& tried = made->fair->tried;
   ASSERT_EQ(tried.size(), 4u);
-  EXPECT_EQ(made->matching, SkinMatching::kByPoints);
-  EXPECT_EQ(tried.front().matching, SkinMatching::kByPoints);
+  EXPECT_EQ(tried.front().matching, made->matching);
   for (const MatchingTrial& trial : tried) {
+    EXPECT_TRUE(trial.forced >= tried.front().forced || *trial.ripple > 1e-3 ||
+                *trial.heavier > 2.0);
     EXPECT_EQ(trial.isolines, tried.front().isolines);
     SkinOptions options{1e-5};
     options.matching = trial.matching;

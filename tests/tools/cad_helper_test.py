@@ -84,6 +84,19 @@ class Helper(unittest.TestCase):
         self.expect_refused("not installed", cwd=here)
         self.expect_refused("not installed", cwd=here, LD_LIBRARY_PATH=str(here), PATH=str(here))
 
+    def test_surfaces_are_refused_before_anything_is_read(self):
+        clean = {k: v for k, v in os.environ.items() if k not in ("OBVID_PLUGINS", "OBVID_CAD_BUILDER")}
+        missing, out = self.folder / "missing.json", self.folder / "out.step"
+        for command in (("convert", missing), ("skin", missing), ("offset", missing, "--distance", "1"),
+                        ("trim", missing, "--plane", "z=0", "--keep", "above"), ("cut", missing, "--waterlines", "0", "--fair", "1")):
+            target = self.folder / "{id}.iges" if command[0] == "cut" else out
+            done = subprocess.run([self.program, "surface", *map(str, command), "-o", target], cwd=self.folder, env=clean,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("E310", done.stderr, command)
+            self.assertIn("not installed", done.stderr)
+            self.assertNotIn("E301", done.stderr)  # the input is missing, too: nobody looked
+
     def test_a_helper_without_the_mark_is_not_started(self):
         self.put(self.bin)
         self.expect_refused("another build")

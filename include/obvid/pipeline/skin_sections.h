@@ -33,6 +33,10 @@ struct SkinJob {
                                     ///< its points, which a warning tells; else it is an error
 };
 
+/// Sections whose curvature goes against its run by more than 0.1 % of the largest there, and the
+/// worst, as a sentence; nothing: there are none.
+[[nodiscard]] std::optional<std::string> runs_lost(const Skin& skin);
+
 struct FittedSkin {
   Skin skin;
   std::size_t proved = 0;  ///< sections whose contour is proved

@@ -32,6 +32,10 @@ struct SurfaceExportOptions {
       extremes;  ///< told by page and picture [what `check_surface` finds]
 };
 
+/// Whether surfaces can be written in a format here, to be asked before the work begins. Error:
+/// E310 where the kernel's helper is needed and missing.
+[[nodiscard]] Result<void> can_write_surfaces(FileFormat format);
+
 /// A surface in all formats that were asked for; triangles are made once for all of them.
 class SurfaceExporter {
  public:

@@ -112,6 +112,8 @@ struct SurfacePatch {
   std::string name;
   NurbsSurface surface;
   std::vector<TrimLoop> trims{};
+  double trims_within = 0.0;  ///< units: how far trims may lie from what they stand for, along the
+                              ///< surface; 0: exact, or not known
 };
 
 /// The surface as `check(NurbsSurface)` has it, and its loops: curves as `check(NurbsCurve)` has

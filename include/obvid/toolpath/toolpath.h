@@ -142,9 +142,12 @@ struct ToolpathReport {
   /// Not seen from above: not cut. Roughing does not look for this, nor for what is not reached:
   /// the three figures are not numbers (NaN) then.
   double hidden_area = 0.0;
+  std::size_t hidden_places = 0;  ///< of places `spacing` apart
+  Vec3 hidden_place;              ///< the lowest of them
   /// Seen, but no place of the cutter comes within the tolerance without cutting elsewhere. Told by
   /// the middles of places `spacing` apart, as is the hidden area.
   double unreached_area = 0.0;
+  std::size_t unreached_places = 0;
   double unreached_depth = 0.0;  ///< how far from the surface the cutter stays there at most, units
   Vec3 unreached_place;
   /// After an earlier cutter: what it did not come to within the tolerance, by the middles of
@@ -175,6 +178,9 @@ struct Toolpath {
   std::vector<ToolpathMove> moves;
   ToolpathGcode program;  ///< what the report is about
   ToolpathReport report;
+  /// Short lines on places that are hidden from above, and that the cutter does not reach (on some
+  /// of many): for pictures.
+  std::vector<std::array<Vec3, 2>> hidden_strokes, unreached_strokes;
   std::vector<std::string> warnings;
   /// What was asked for and is not so (E502): gouges, more left than the scallop, places that the
   /// cutter does not reach.
@@ -183,18 +189,18 @@ struct Toolpath {
 
 /// Tool paths of three axes over all patches, and the program for them. Wherever the cutter goes at
 /// feed, it is at the height where it touches the whole surface from above. Both sides of patches
-/// count. Passes of zigzag and constant scallop run over open borders by about a step, rolling over
-/// the edge. Where passes leave too much, others are put between them. At last the printed text is
-/// read back and simulated against the surface: the report's figures for gouges, scallops and what
-/// is not reached come from that alone, and `not_kept` says what does not hold
-/// (docs/methods/toolpath.md).
-/// Roughing takes straight stretches on levels, from the top of the stock to its bottom, where the
-/// cutter stays clear of part and allowance; it goes down outside the stock or along ramps, and
-/// rapid moves stay at the safe height. With an allowance, gouges are cuts into part and allowance,
-/// and heights of what stays count from the allowance.
-/// Errors: E203 sizes, feeds, heights or options that do not go together, and a unit without a
-/// length in metres; E311 no patches; E502 more triangles or points than allowed, or decimals too
-/// few for the tolerance; those of `tessellate`.
+/// count; of trimmed ones what is there. Passes of zigzag and constant scallop end at open borders,
+/// where the cutter still touches the surface with its side or stands over it; those that run along
+/// a border do so up to a step outside of it, no lower than that. Where passes leave too much,
+/// others are put between them. At last the printed text is read back and simulated against the
+/// surface: the report's figures for gouges, scallops and what is not reached come from that alone,
+/// and `not_kept` says what does not hold (docs/methods/toolpath.md). Roughing takes straight
+/// stretches on levels, from the top of the stock to its bottom, where the cutter stays clear of
+/// part and allowance; it goes down outside the stock or along ramps, and rapid moves stay at the
+/// safe height. With an allowance, gouges are cuts into part and allowance, and heights of what
+/// stays count from the allowance. Errors: E203 sizes, feeds, heights or options that do not go
+/// together, and a unit without a length in metres; E311 no patches; E502 more triangles or points
+/// than allowed, or decimals too few for the tolerance; those of `tessellate`.
 [[nodiscard]] Result<Toolpath> plan(const SurfaceModel& model, const ToolpathOptions& options,
                                     const RunContext& run = {});
 

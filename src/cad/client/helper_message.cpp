@@ -50,7 +50,7 @@ void fields(auto& io, IsA<NurbsSurface> auto& s) {
   io(s.degree_u, s.degree_v, s.knots_u, s.knots_v, s.points, s.weights);
 }
 void fields(auto& io, IsA<TrimLoop> auto& loop) { io(loop.curves); }
-void fields(auto& io, IsA<SurfacePatch> auto& p) { io(p.name, p.surface, p.trims); }
+void fields(auto& io, IsA<SurfacePatch> auto& p) { io(p.name, p.surface, p.trims, p.trims_within); }
 void fields(auto& io, IsA<SurfaceModel> auto& m) { io(m.name, m.units, m.patches); }
 void fields(auto& io, IsA<CadWriteOptions> auto& o) { io(o.format, o.units, o.face_width); }
 void fields(auto& io, IsA<CadSurfaces> auto& s) { io(s.model, s.warnings); }

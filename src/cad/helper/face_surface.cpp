@@ -190,6 +190,8 @@ FaceSurface surface_of(const TopoDS_Face& face) {
   if (out.trimmed) {
     if (const auto loops = trims_of(face, surface, box.u, box.v, *made)) {
       out.trims = turned ? with_u_reversed(*loops, domain_u(*made)) : *loops;
+      // edges are known within their tolerance, and cubics follow them
+      out.trims_within = BRep_Tool::MaxTolerance(face, TopAbs_EDGE) + trims_follow_within(*made);
     }
   }
   out.surface = turned ? reversed_u(*made) : *std::move(made);

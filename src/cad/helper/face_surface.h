@@ -16,6 +16,7 @@ struct FaceSurface {
   std::string refused;                  ///< why there is none: "has no limits", ...
   bool trimmed = false;                 ///< the face covers a part of the box only
   std::vector<TrimLoop> trims;          ///< then: which; empty where its boundary is not understood
+  double trims_within = 0.0;            ///< `SurfacePatch::trims_within`, in the file's lengths
   double deviation = 0.0;               ///< > 0: approximated within this, in the file's lengths
 };
 

@@ -233,6 +233,10 @@ std::optional<std::vector<TrimLoop>> trims_of(const TopoDS_Face& face,
   return TrimReader(surface, u, v, patch).loops_of(face);
 }
 
+double trims_follow_within(const NurbsSurface& patch) {
+  return kTrimApproximation * size_of(patch);
+}
+
 std::vector<TrimLoop> with_u_reversed(const std::vector<TrimLoop>& loops, const Range& u) {
   std::vector<TrimLoop> out;
   for (const TrimLoop& loop : loops) {

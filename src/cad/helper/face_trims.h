@@ -19,6 +19,9 @@ namespace obvid::cad {
                                                             const Range& u, const Range& v,
                                                             const NurbsSurface& patch);
 
+/// How far cubics may be from the edges that they stand for.
+[[nodiscard]] double trims_follow_within(const NurbsSurface& patch);
+
 /// The same loops where u runs backwards.
 [[nodiscard]] std::vector<TrimLoop> with_u_reversed(const std::vector<TrimLoop>& loops,
                                                     const Range& u);

@@ -50,8 +50,8 @@ bool add_face(const TopoDS_Face& face, std::size_t number, const std::string& gi
     out.warnings.push_back(fmt::format("{} is an offset, approximated within {} mm", name,
                                        significant_above(made.deviation, kDigitsOfBounds)));
   }
-  out.model.patches.push_back(
-      {given.empty() ? plain : given, *std::move(made.surface), std::move(made.trims)});
+  out.model.patches.push_back({given.empty() ? plain : given, *std::move(made.surface),
+                               std::move(made.trims), made.trims_within});
   return true;
 }
 

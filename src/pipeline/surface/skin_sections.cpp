@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "obvid/core/internal/figures.h"
 #include "obvid/core/internal/parallel.h"
 #include "obvid/geom/internal/box.h"
 #include "surface/align_sections.h"
@@ -138,6 +139,21 @@ Result<Fit> fit_section(const Flat& flat, const SkinJob& job, std::size_t number
 
 }  // namespace
 
+std::optional<std::string> runs_lost(const Skin& skin) {
+  constexpr double kLost = 1e-3;  // of the largest curvature: it is in no picture
+  std::size_t lost = 0;
+  double worst = 0.0;
+  for (const SkinSectionReport& s : skin.sections) {
+    lost += s.ripple > kLost ? 1 : 0;
+    worst = std::max(worst, s.ripple);
+  }
+  if (lost == 0) return std::nullopt;
+  return fmt::format(
+      "in {} of {} sections curvature goes against its run by more than 0.1 % of the largest "
+      "there; at most {} %",
+      lost, skin.sections.size(), significant(100.0 * worst, 2));
+}
+
 Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob& job,
                             const RunContext& run) {
   FittedSkin result;
@@ -216,6 +232,10 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   result.skin = std::move(*surface);
   result.warnings.insert(result.warnings.end(), result.skin.warnings.begin(),
                          result.skin.warnings.end());
+  // who asks for few control points knows that they cost runs; an exact skin is asked to keep them
+  if (const auto lost = runs_lost(result.skin); lost && !result.skin.light) {
+    result.warnings.push_back(*lost);
+  }
   return result;
 }
 

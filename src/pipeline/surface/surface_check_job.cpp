@@ -29,7 +29,7 @@ Result<Reference> reference_of(const SurfaceInput& against, std::vector<std::str
   }
   Reference out;
   if (input.text && pipeline_detail::holds_surface(*input.text, input.name)) {
-    auto surface = read_surface(input, warnings, ReadTrims::kTakenOff, run);
+    auto surface = read_surface(input, warnings, ReadTrims::kKept, run);
     OBVID_TRY(surface);
     out.units = surface->units;
     out.surface = std::move(*surface);
@@ -45,21 +45,15 @@ Result<Reference> reference_of(const SurfaceInput& against, std::vector<std::str
   return out;
 }
 
-}  // namespace
-
-Result<SurfaceDeviation> measured_against(const SurfaceModel& model, const SurfaceInput& against,
-                                          std::size_t samples, std::vector<std::string>& warnings,
-                                          const RunContext& run) {
-  auto reference = reference_of(against, warnings, run);
+Result<SurfaceDeviation> measured_against_it(const SurfaceModel& model, const SurfaceInput& against,
+                                             Result<Reference> reference, std::size_t samples,
+                                             const RunContext& run) {
   OBVID_TRY(reference);
   const std::array both{model.units, reference->units};
   OBVID_TRY(common_units(both, against.name));
   OBVID_TRY(tell(run, "deviation", 0.0));
   SurfaceDeviation out;
   out.against = against.name;
-  if (is_trimmed(model)) {
-    warnings.push_back("distances are measured from whole patches, without their trims");
-  }
   const NearestOnModel on_this(model);
   if (!reference->surface) {
     out.points = true;
@@ -86,9 +80,23 @@ Result<SurfaceDeviation> measured_against(const SurfaceModel& model, const Surfa
   return out;
 }
 
+}  // namespace
+
+Result<SurfaceDeviation> measured_against(const SurfaceModel& model, const SurfaceInput& against,
+                                          std::size_t samples, std::vector<std::string>& warnings,
+                                          const RunContext& run) {
+  return measured_against_it(model, against, reference_of(against, warnings, run), samples, run);
+}
+
 Result<CheckedSurface> check_surface(const SurfaceModel& model, const SurfaceCheckJob& job,
                                      const RunContext& run) {
   CheckedSurface out;
+  std::optional<Reference> reference;  // what cannot be read is told before anything is measured
+  if (job.against) {
+    auto found = reference_of(*job.against, out.warnings, run);
+    OBVID_TRY(found);
+    reference = std::move(*found);
+  }
   auto check = check_surface(model, job.check, run);
   OBVID_TRY(check);
   out.check = std::move(*check);
@@ -99,7 +107,8 @@ Result<CheckedSurface> check_surface(const SurfaceModel& model, const SurfaceChe
         "parameters run over whole patches, borders of trimmed ones are not compared");
   }
   if (!job.against) return out;
-  auto deviation = measured_against(model, *job.against, job.check.samples, out.warnings, run);
+  auto deviation =
+      measured_against_it(model, *job.against, std::move(*reference), job.check.samples, run);
   OBVID_TRY(deviation);
   out.deviation = std::move(*deviation);
   return out;

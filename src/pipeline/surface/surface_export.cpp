@@ -83,6 +83,16 @@ Result<std::string> of_triangles(SurfaceExport& e, std::vector<std::string>& rem
 
 }  // namespace
 
+}  // namespace pipeline_detail
+
+Result<void> can_write_surfaces(FileFormat format) {
+  const bool of_kernel =
+      format == FileFormat::kStep || format == FileFormat::kIges || format == FileFormat::kBrep;
+  return of_kernel ? check_cad() : Result<void>{};
+}
+
+namespace pipeline_detail {
+
 Result<void> SurfaceExport::find_extremes_once() {
   if (options.extremes || model.patches.empty()) return {};
   auto found = extremes_of(model, run);

@@ -241,9 +241,10 @@ Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job,
                               const RunContext& run) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kTakenOff, run);
+  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept, run);
   OBVID_TRY(model);
   made.model = std::move(*model);
+  // points of the offset have the parameters of theirs: trims stay as they are
   for (SurfacePatch& patch : made.model.patches) {
     OBVID_TRY(may_go_on(run));
     const OffsetCheck found = check_offset(patch.surface, kind.distance);

@@ -68,7 +68,17 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
     json.key("tried").begin_array();
     for (const MatchingTrial& trial : fair->tried) {
       json.begin_object().pair("matched_by", matching_name(trial.matching));
-      json.pair("isolines", trial.isolines).pair("forced", trial.forced).end_object();
+      json.pair("isolines", trial.isolines).pair("forced", trial.forced);
+      const auto looked_for = [&](const char* name, const std::optional<double>& value) {
+        if (value) {
+          json.pair(name, *value);
+        } else {
+          json.key(name).null();
+        }
+      };
+      looked_for("ripple", trial.ripple);
+      looked_for("heavier", trial.heavier);
+      json.end_object();
     }
     json.end_array();
     add_across(json, "before", fair->before);
@@ -272,7 +282,13 @@ std::string toolpath_report_json(const MadeToolpath& made, const Written& writte
   add_measured(json, "gouge", r.gouge);
   json.pair("spacing", r.spacing);
   json.pair("lifted_points", r.lifted_points).pair("surface_area", r.surface_area);
-  json.pair("hidden_area", r.hidden_area).pair("unreached_area", r.unreached_area);
+  json.pair("hidden_area", r.hidden_area).pair("hidden_places", r.hidden_places);
+  if (r.hidden_places > 0) {
+    add_coordinates(json, "hidden_place", r.hidden_place);
+  } else {
+    json.key("hidden_place").null();
+  }
+  json.pair("unreached_area", r.unreached_area).pair("unreached_places", r.unreached_places);
   json.pair("unreached_depth", r.unreached_depth);
   json.pair("leftover_area", r.leftover_area).pair("leftover_depth", r.leftover_depth);
   json.pair("flat_area", r.flat_area).pair("flat_left", r.flat_left).pair("safe_z", r.safe_z);

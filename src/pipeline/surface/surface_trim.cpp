@@ -41,6 +41,7 @@ Result<Sums> sums_of(const SurfaceModel& model, const RunContext& run) {
     OBVID_TRY(area);
     out.area.value += area->value;
     out.area.error += area->error;
+    out.area.of_trims += area->of_trims;
     out.trims += patch.trims.size();
   }
   return out;
@@ -88,8 +89,12 @@ Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
                                                counted(sums->trims, "loop", "loops"),
                                                significant(made.deviation, 3), unit));
   made.facts.emplace_back(
-      "area", fmt::format("{} {}^2, last step {}", significant(sums->area.value, 10), unit,
-                          significant(sums->area.error, 2)));
+      "area",
+      fmt::format("{} {}^2, within {}: the last step of its sum changed {}, the trims' own "
+                  "distance makes {}",
+                  significant(sums->area.value, 10), unit, significant_above(sums->area.error, 2),
+                  significant(sums->area.error - sums->area.of_trims, 2),
+                  significant(sums->area.of_trims, 2)));
   return made;
 }
 

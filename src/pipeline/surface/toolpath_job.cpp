@@ -71,13 +71,6 @@ Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan
 
 Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
                                    const RunContext& run) {
-  if (is_trimmed(model)) {
-    SurfaceModel whole = model;
-    auto told = take_off_trims(whole);
-    auto made = make_toolpath(whole, job, run);
-    if (made) made->warnings.insert(made->warnings.begin(), told.begin(), told.end());
-    return made;
-  }
   if (job.rest_corner && !job.rest_of) {
     return error(ErrorCode::kBadOption, "the earlier cutter has a corner and no diameter")
         .hint("give --rest-of")
@@ -119,6 +112,12 @@ std::vector<ScenePolyline> drawn(const Toolpath& path) {
     lines.push_back({std::move(points), "toolpath"});
   }
   for (auto& points : rapid_lines(path)) lines.push_back({std::move(points), "rapid"});
+  for (const auto& [from, to] : path.hidden_strokes) {
+    lines.push_back({{from, to}, "hidden from above"});
+  }
+  for (const auto& [from, to] : path.unreached_strokes) {
+    lines.push_back({{from, to}, "not reached"});
+  }
   return lines;
 }
 

@@ -59,10 +59,13 @@ class TrimRegion {
 /// The straight line from a to b over [0, 1].
 [[nodiscard]] NurbsCurve parameter_line(Vec2 a, Vec2 b);
 
-/// An area and what the last step of its quadrature changed: measured, not proved.
+/// An area, and how far it may be off: what the last step of its quadrature changed, which is
+/// measured and not proved, and what lies between the trims and what they stand for.
 struct PatchArea {
-  double value = 0.0;  ///< units^2
-  double error = 0.0;
+  double value = 0.0;     ///< units^2
+  double error = 0.0;     ///< of both together
+  double of_trims = 0.0;  ///< of that, the length of the trims times `SurfacePatch::trims_within`;
+                          ///< stretches along the border of the patch have none
 };
 
 /// Area of what of a patch is there: Gauss's rule with 8 points in each direction over the parts of

@@ -66,7 +66,8 @@ struct PatchReport {
   bool rational = false;
   std::size_t trims = 0;           ///< loops; 0: the whole patch is there
   double area = 0.0;               ///< units^2, by quadrature: of whole patches good to some 1e-4
-  double area_error = 0.0;         ///< of trimmed patches: what the last step of it changed
+  double area_error = 0.0;         ///< of trimmed patches: what the last step of it changed, and
+                                   ///< what lies between the trims and what they stand for
   Extent gaussian, mean, k1, k2;   ///< as of `curvature_extents`; 1/units^2 and 1/units
   std::size_t without_normal = 0;  ///< samples where the surface has no tangent plane (poles)
   LineReport along_u;              ///< lines v = const

@@ -28,7 +28,8 @@ struct SkinSection {
 /// What tells which places of neighbouring sections belong together.
 enum class SkinMatching {
   kAutomatic,  ///< by points when all sections have equally many, else by length; of skins that are
-               ///< fair across what the others force is told
+               ///< fair across the one that forces the fewest changes of bending, of those that
+               ///< keep the runs of curvature of the sections
   kByPoints,   ///< point i of each section belongs to point i of the others
   kByLength,   ///< equal shares of arc length between corners, and between ends of runs where all
                ///< sections have the same runs
@@ -41,6 +42,10 @@ struct MatchingTrial {
   SkinMatching matching = SkinMatching::kByPoints;
   std::size_t isolines = 0;
   std::size_t forced = 0;  ///< fewest changes of bending within the tolerance, all lines together
+  /// Largest change of curvature against its run in the exact skin's sections, as far as it was
+  /// looked for: where this matching forces less than the first of the list did.
+  std::optional<double> ripple{};
+  std::optional<double> heavier{};  ///< likewise: its spans along, of those of the first
 };
 
 struct SkinOptions {
