@@ -227,7 +227,7 @@ Result<ExactRuns> runs_of(const std::vector<MeasuredSection>& sections, const Ma
     const auto breaks = breaks_for(curves, stretch.at, {tolerance}, run);
     OBVID_TRY(breaks);
     std::vector<RippleMeter> meters(curves.size());
-    OBVID_TRY(in_parallel(curves.size(), 0, run, [&](std::size_t k) {
+    OBVID_TRY(in_parallel(curves.size(), run, [&](std::size_t k) {
       if (!curves[k].is_point()) add_ripple(curves[k], *breaks, meters[k]);
     }));
     for (const RippleMeter& meter : meters) out.ripple = std::max(out.ripple, meter.ripple());

@@ -30,7 +30,11 @@ json as_json(Vec3 p) { return json::array({p.x, p.y, p.z}); }
 class GlbWriter {
  public:
   GlbWriter(const SurfaceModel& model, const std::vector<Mesh>& meshes, double metres, Watch* watch)
-      : model_(model), meshes_(meshes), metres_(metres), watch_(watch), steps_(watch) {
+      : model_(model),
+        meshes_(meshes),
+        metres_(metres),
+        watch_(watch),
+        questions_(watch, exchange::kItemsOfMesh) {
     Box3 box;
     for (const Mesh& mesh : meshes) {
       for (const MeshVertex& v : mesh.vertices) box.add(v.point);
@@ -105,7 +109,7 @@ class GlbWriter {
     std::size_t from = data_.size();
     Box3 box;
     for (const MeshVertex& v : mesh.vertices) {
-      if (steps_.end()) return false;
+      if (questions_.end()) return false;
       box.add(exchange::single(v.point - middle_));
       exchange::put_single(data_, v.point - middle_);
     }
@@ -119,21 +123,21 @@ class GlbWriter {
                                        {"max", as_json(box.high)}});
     from = data_.size();
     for (const MeshVertex& v : mesh.vertices) {
-      if (steps_.end()) return false;
+      if (questions_.end()) return false;
       exchange::put_single(data_, v.normal);
     }
     attributes["NORMAL"] = floats(from, "VEC3", count);
     from = data_.size();
     const exchange::TextureMap texture(model_.patches[p].surface);
     for (const MeshVertex& v : mesh.vertices) {
-      if (steps_.end()) return false;
+      if (questions_.end()) return false;
       exchange::put(data_, static_cast<float>(texture.s(v)));
       exchange::put(data_, static_cast<float>(texture.t(v)));
     }
     attributes["TEXCOORD_0"] = floats(from, "VEC2", count);
     from = data_.size();
     for (const auto& t : mesh.triangles) {
-      if (steps_.end()) return false;
+      if (questions_.end()) return false;
       for (const std::uint32_t v : t) exchange::put(data_, v);
     }
     const std::size_t indices = accessor(from, kElementBuffer,
@@ -176,7 +180,7 @@ class GlbWriter {
   const std::vector<Mesh>& meshes_;
   double metres_;  ///< in a unit of the model
   Watch* watch_;
-  Steps steps_;
+  Questions questions_;
   Vec3 middle_;
   json document_;
   std::string data_;

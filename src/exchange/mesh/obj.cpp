@@ -23,7 +23,7 @@ struct HashOfPoint {
 
 class ObjWriter {
  public:
-  explicit ObjWriter(Watch* watch) : steps_(watch) {}
+  explicit ObjWriter(Watch* watch) : questions_(watch, exchange::kItemsOfMesh) {}
 
   std::string take() { return std::move(text_); }
 
@@ -41,15 +41,15 @@ class ObjWriter {
     const std::vector<std::size_t> points = add_points(mesh);
     const exchange::TextureMap texture(patch.surface);
     for (const MeshVertex& v : mesh.vertices) {
-      if (steps_.end()) return;
+      if (questions_.end()) return;
       add("vt {:.9g} {:.9g}\n", texture.s(v), texture.t(v));
     }
     for (const MeshVertex& v : mesh.vertices) {
-      if (steps_.end()) return;
+      if (questions_.end()) return;
       add("vn {:.7g} {:.7g} {:.7g}\n", v.normal.x, v.normal.y, v.normal.z);
     }
     for (const auto& t : mesh.triangles) {
-      if (steps_.end()) return;
+      if (questions_.end()) return;
       add("f {0}/{1}/{1} {2}/{3}/{3} {4}/{5}/{5}\n", points[t[0]], corners_ + t[0] + 1,
           points[t[1]], corners_ + t[1] + 1, points[t[2]], corners_ + t[2] + 1);
     }
@@ -67,7 +67,7 @@ class ObjWriter {
     std::vector<std::size_t> numbers;
     numbers.reserve(mesh.vertices.size());
     for (const MeshVertex& v : mesh.vertices) {
-      if (steps_.end()) break;
+      if (questions_.end()) break;
       const auto [place, is_new] = points_.try_emplace(v.point, points_.size() + 1);
       numbers.push_back(place->second);
       if (is_new) add("v {} {} {}\n", v.point.x, v.point.y, v.point.z);
@@ -75,7 +75,7 @@ class ObjWriter {
     return numbers;
   }
 
-  Steps steps_;
+  Questions questions_;
   std::string text_;
   std::unordered_map<Vec3, std::size_t, HashOfPoint> points_;
   std::size_t corners_ = 0;  ///< normals and texture coordinates so far

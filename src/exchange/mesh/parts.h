@@ -9,11 +9,15 @@
 #include <string_view>
 #include <vector>
 
+#include "obvid/core/internal/questions.h"
 #include "obvid/core/result.h"
 #include "obvid/mesh/mesh.h"
 #include "obvid/surface/surface.h"
 
 namespace obvid::exchange {
+
+/// Points or triangles written between two questions whether the work goes on.
+inline constexpr std::size_t kItemsOfMesh = 4096;
 
 /// Numbers in little endian, whatever the machine has.
 template <class T>

@@ -25,11 +25,11 @@ Result<std::string> ply_text(const SurfaceModel& model, const std::vector<Mesh>&
       "element face {}\nproperty list uchar int vertex_indices\nproperty int patch\nend_header\n",
       exchange::plain_name(model.name, "surface"),
       exchange::plain_name(model.units.text(), "units"), counts->vertices, counts->triangles);
-  Steps steps(watch);
+  Questions questions(watch, exchange::kItemsOfMesh);
   for (std::size_t p = 0; p < meshes.size(); ++p) {
     const exchange::TextureMap texture(model.patches[p].surface);
     for (const MeshVertex& v : meshes[p].vertices) {
-      if (steps.end()) return fail(cancelled_error());
+      if (questions.end()) return fail(cancelled_error());
       exchange::put(out, v.point.x);
       exchange::put(out, v.point.y);
       exchange::put(out, v.point.z);
@@ -41,7 +41,7 @@ Result<std::string> ply_text(const SurfaceModel& model, const std::vector<Mesh>&
   std::uint32_t first = 0;
   for (std::size_t p = 0; p < meshes.size(); ++p) {
     for (const auto& t : meshes[p].triangles) {
-      if (steps.end()) return fail(cancelled_error());
+      if (questions.end()) return fail(cancelled_error());
       exchange::put(out, std::uint8_t{3});
       for (const std::uint32_t v : t) exchange::put(out, first + v);
       exchange::put(out, static_cast<std::uint32_t>(p));

@@ -32,10 +32,10 @@ Result<std::string> stl_text(const SurfaceModel& model, const std::vector<Mesh>&
   out.reserve(kStlHeader + sizeof(std::uint32_t) + kBytesOfTriangle * counts->triangles);
   exchange::put(out, std::uint32_t{0});
   std::uint32_t written = 0;
-  Steps steps(watch);
+  Questions questions(watch, exchange::kItemsOfMesh);
   for (const Mesh& mesh : meshes) {
     for (const auto& t : mesh.triangles) {
-      if (steps.end()) return fail(cancelled_error());
+      if (questions.end()) return fail(cancelled_error());
       const Vec3 a = mesh.vertices[t[0]].point, b = mesh.vertices[t[1]].point,
                  c = mesh.vertices[t[2]].point;
       const Vec3 sa = exchange::single(a), sb = exchange::single(b), sc = exchange::single(c);

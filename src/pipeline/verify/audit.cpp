@@ -9,6 +9,7 @@
 
 #include "obvid/certify/certify.h"
 #include "obvid/certify/internal/loose_slopes.h"
+#include "obvid/core/internal/questions.h"
 #include "obvid/core/internal/watch.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/curve/internal/curvature_extent.h"
@@ -118,7 +119,7 @@ class Auditor {
     std::vector<Piece>& pieces = out_.contour.pieces;
     std::vector<FlatEnd> ends;  // two of each piece
     for (const Piece& piece : pieces) {
-      if (steps_.end()) return false;
+      if (questions_.end()) return false;
       const double flat = flat_curvature(piece);
       for (const double t : {0.0, 1.0}) {
         const double kappa = accurate_curvature(piece, t);
@@ -141,7 +142,7 @@ class Auditor {
       if (k % n + 1 < n || out_.contour.closed) pass_on((k + 1) % n, k % n);
     }
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (steps_.end()) return false;
+      if (questions_.end()) return false;
       straighten(pieces[i], ends[2 * i].meant, ends[2 * i + 1].meant);
     }
     return true;
@@ -250,7 +251,7 @@ class Auditor {
     const bool closed = out_.contour.closed;
     double theta = 0.0;
     for (std::size_t j = 0; j < (closed ? n : n + 1); ++j) {
-      if (steps_.end()) return fail(cancelled_error());
+      if (questions_.end()) return fail(cancelled_error());
       const bool first = j == 0 && !closed, last = j == n;
       const Element before = first ? end_of(0, 0.0) : end_of((j + n - 1) % n, 1.0);
       const Element after = last ? before : end_of(j, 0.0);
@@ -302,7 +303,7 @@ class Auditor {
       return {};
     }
     for (const std::size_t j : joints_with_loose_slopes(out_.contour)) {
-      if (steps_.end()) return fail(cancelled_error());
+      if (questions_.end()) return fail(cancelled_error());
       if (!slope_goes_on(j)) out_.continuity = std::min(out_.continuity, 2);
     }
     return {};
@@ -415,7 +416,7 @@ class Auditor {
         if (beyond > rounding_) level = {i, i};
         if (std::abs(beyond) <= rounding_ && level.last + 1 == i) level.last = i;
       };
-      if (steps_.end()) return;
+      if (questions_.end()) return;
       follow(low, sample(low.first).kappa - now);
       follow(high, now - sample(high.first).kappa);
       const bool falls = direction >= 0 && now < sample(high.first).kappa - least;
@@ -463,7 +464,7 @@ class Auditor {
     std::optional<std::size_t> last;
     std::size_t first = 0;
     for (std::size_t k = 0; k < samples_.size(); ++k) {
-      if (steps_.end()) return;
+      if (questions_.end()) return;
       if (std::abs(samples_[k].kappa) <= least) continue;
       if (!last) first = k;
       if (last && samples_[*last].kappa * samples_[k].kappa < 0.0) place_inflection(*last, k);
@@ -508,7 +509,7 @@ class Auditor {
   }
 
   Watch watch_;
-  Steps steps_{&watch_, kItemsBetweenQuestions};
+  Questions questions_{&watch_, kItemsBetweenQuestions};
   CurveAudit out_;
   double size_ = 0.0, rounding_ = 0.0;
   bool unbounded_ = false;  // some end of a piece has no curvature

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -60,18 +59,6 @@ class Watch {
 [[nodiscard]] inline bool has_ended(const Watch* watch) {
   return watch != nullptr && watch->was_cancelled();
 }
-
-/// Asks before the first of many small items and again each so many of them.
-class Steps {
- public:
-  explicit Steps(Watch* watch, std::size_t items = 4096) : watch_(watch), items_(items) {}
-  /// Of each item: whether the work is to end.
-  [[nodiscard]] bool end() { return done_++ % items_ == 0 ? is_to_end(watch_) : has_ended(watch_); }
-
- private:
-  Watch* watch_;
-  std::size_t items_, done_ = 0;
-};
 
 /// While it lives, `Watch::spend` says stop after so many more units; an outer allowance that is
 /// nearer its end holds as well.
