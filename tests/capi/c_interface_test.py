@@ -785,6 +785,15 @@ class CurvesInSpace(unittest.TestCase):
             self.assertAlmostEqual(place["curvature"], a / b**2 if x else b / a**2, places=12)
         self.assertAlmostEqual(found["largest_curvature"], a / b**2, places=9)
 
+    def test_audit_tells_the_largest_curvature_between_its_places(self):
+        """A parabola from an end to an end: d1 x d2 is constant, d1 shortest where d1 . d2 = 0, at t = 8/17."""
+        found = self.audited(2, [0, 0, 0, 1, 1, 1], [(0, 0, 0), (1, 2, 0), (2, 0, 1)])
+        t = 8 / 17
+        d1, d2 = (2.0, 4 - 8 * t, 2 * t), (0.0, -8.0, 2.0)
+        turned = (d1[1] * d2[2] - d1[2] * d2[1], d1[2] * d2[0] - d1[0] * d2[2], d1[0] * d2[1] - d1[1] * d2[0])
+        self.assertAlmostEqual(found["largest_curvature"], math.hypot(*turned) / math.hypot(*d1)**3, places=12)
+        self.assertAlmostEqual(found["places"][0]["parameter"], t, places=6)
+
     def test_audit_tells_joints_that_are_not_g2(self):
         """Two lines at a right angle; a parabola that goes on from a line with curvature 1/2."""
         corner = self.audited(1, [0, 0, 1, 2, 2], [(0, 0, 0), (3, 0, 0), (3, 0, 4)])

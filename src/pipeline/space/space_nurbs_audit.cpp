@@ -13,8 +13,8 @@ namespace obvid {
 namespace {
 
 constexpr int kStepsOfSpan = 64;
-constexpr double kSwing = 1e-9;  // of the largest curvature: less is rounding
-constexpr int kNarrowings = 60;  // by the golden ratio: 3e-13 of the steps beside it
+constexpr double kSwing = 1e-9;   // of the largest curvature: less is rounding
+constexpr int kGoldenSteps = 60;  // by the golden ratio: 3e-13 of the steps beside it
 constexpr double kGolden = 0.6180339887498949;
 
 struct CurvaturePlace {
@@ -36,8 +36,11 @@ class SpaceAuditor {
     for (const CurvaturePlace& place : places_) {
       out_.largest_curvature = std::max(out_.largest_curvature, place.curvature);
     }
-    measure_joints();
     find_vertices();
+    for (const SpaceExtremum& one : out_.vertices) {
+      out_.largest_curvature = std::max(out_.largest_curvature, one.curvature);
+    }
+    measure_joints();
     return std::move(out_);
   }
 
@@ -74,7 +77,7 @@ class SpaceAuditor {
     const double step = range.length() / kStepsOfSpan;
     double from = std::max(range.from, place.u - step), to = std::min(range.to, place.u + step);
     const auto height = [&](double u) { return sign * curvature_at(place.span, u); };
-    for (int k = 0; k < kNarrowings; ++k) {
+    for (int k = 0; k < kGoldenSteps; ++k) {
       const double low = to - kGolden * (to - from), high = from + kGolden * (to - from);
       (height(low) < height(high) ? from : to) = height(low) < height(high) ? low : high;
     }
