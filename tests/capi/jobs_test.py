@@ -509,6 +509,13 @@ class EveryJob(unittest.TestCase):
         self.assertGreater(len(functions()), 25)
         self.assertEqual(functions() - USED, set())
 
+    def test_of_the_header_is_run_under_the_thread_sanitizer_too(self):
+        """And with inputs that are large enough to be ended in the middle: tests/capi/threads."""
+        text = source("tests/capi/threads/every_job.cpp")
+        self.assertEqual({name for name in functions() if name + "(" not in text and name + "," not in text}, set())
+        words = [*kinds(), *endings("contour"), *endings("surface")]
+        self.assertEqual({word for word in words if f'"{word}"' not in text}, set())
+
     def test_makes_all_kinds_of_surfaces(self):
         self.assertEqual({job.name.split()[1] for job in self.jobs if job.name.startswith("surface ")}, set(kinds()))
 
@@ -559,6 +566,40 @@ class EveryJob(unittest.TestCase):
         told = {key for job, ours in zip(self.jobs, self.once) if job.column == "contour" for key, text in ours.items()
                 if key in wanted and not text.startswith(b"E3")}
         self.assertEqual(told, wanted)
+
+
+class Converting(unittest.TestCase):
+    """What a file holds decides how it is taken, not its name, nor the way it comes."""
+
+    def converted(self, folder, *arguments, piped=None):
+        out = os.path.join(folder, "out.json")
+        done = subprocess.run([c.PROGRAM, "convert", *arguments, "-o", out], input=piped, capture_output=True, text=True,
+                              timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(out, encoding="utf-8") as file:
+            return json.load(file)
+
+    def test_goes_by_what_is_there(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def put(name, text):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+                return os.path.join(folder, name)
+            stored = os.path.join(folder, "contour.json")
+            subprocess.run([c.PROGRAM, "fit", c.SERIES, "-o", stored], capture_output=True, check=True, timeout=120)
+            with open(stored, encoding="utf-8") as file:
+                text = file.read()
+            other = self.converted(folder, put("contour.txt", text))
+            self.assertEqual(other["carrier"], "spiral")
+            self.assertEqual(other["report"], json.loads(text)["report"])
+            doubled = self.converted(folder, "-", "--scale", "2", piped=text)
+            self.assertEqual(doubled["pieces"], self.converted(folder, stored, "--scale", "2")["pieces"])
+            self.assertEqual(doubled["carrier"], "imported")
+            line = json.dumps({"type": "Feature", "properties": {"name": "way"}, "geometry": {
+                "type": "LineString", "coordinates": [[30.0, 50.0], [30.001, 50.0], [30.002, 50.001]]}})
+            drawn = self.converted(folder, put("way.json", line), "--drawing", "exact")
+            self.assertEqual(len(drawn["pieces"]), 2)
+            self.assertEqual(drawn["pieces"], self.converted(folder, "-", "--drawing", "exact", piped=line)["pieces"])
 
 
 if __name__ == "__main__":
