@@ -110,15 +110,9 @@ std::string alignment_page(const AlignmentReport& report, const AlignmentTold& t
 /// What the formats of contours do not write for it.
 std::optional<std::string> own_text(const std::string& path, const AlignmentReport& report,
                                     const AlignmentTold& told) {
-  const auto format = format_of(path);
-  if (format == FileFormat::kSamples) {
-    return csv_text(element_rows(report.alignment.elements, report.limit));
-  }
-  if (format == FileFormat::kPicture) {
-    return alignment_picture(report);
-  }
+  const FileFormat format = format_of(path).value_or(FileFormat::kContour);
   if (format == FileFormat::kPage) return alignment_page(report, told);
-  return std::nullopt;
+  return alignment_file(format, report);
 }
 
 }  // namespace
@@ -141,26 +135,24 @@ int run(const AlignmentCommand& command) {
   if (!command.heights.empty()) {
     auto heights = read_heights(command.heights);
     if (!heights) return report(heights.error());
-    told.warnings = heights->warnings;
     job.heights = std::move(*heights);
   }
   ProgressBar bar(command.progress);
   const auto made = alignment_report(*series, job, bar.progress());
   bar.clear();
-  told.warnings.insert(told.warnings.end(), series->warnings.begin(), series->warnings.end());
-  if (made) told.warnings.insert(told.warnings.end(), made->warnings.begin(), made->warnings.end());
+  if (!made) {
+    warn(warnings_of_reading(*series, job));
+    return report(made.error());
+  }
+  const TitledContour contour = titled_contour(*made, *series, job, command.input);
+  told.warnings = contour.warnings;
   warn(told.warnings);
-  if (!made) return report(made.error());
   if (!command.profile_table.empty() && !made->profile) {
     return report({ErrorCode::kBadOption, "there is no profile to be written", "--profile-table",
                    "give heights in a column z, or a file of them by --profile"});
   }
   ExportOptions formats;
-  formats.name = made->name;
-  formats.picture = {series->name, alignment_verdict(*made)};
-  formats.first_station = made->alignment.elements.front().station;
-  formats.transitions = made->transitions;
-  if (made->profile) formats.profile = made->profile->profile;
+  set_titles(contour, {}, formats);
   std::vector<Output> drawn, own;
   for (Output& output : *outputs) {
     auto text = own_text(output.path, *made, told);
@@ -168,7 +160,7 @@ int run(const AlignmentCommand& command) {
     (text ? own : drawn).push_back(std::move(output));
   }
   FileNotes notes;
-  auto texts = exported(drawn, made->stored, formats, notes);
+  auto texts = exported(drawn, contour.stored, formats, notes);
   if (!texts) return report(texts.error());
   for (Output& output : own) texts->push_back(std::move(output));
   if (!command.deviations.empty()) {

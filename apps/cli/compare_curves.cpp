@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
@@ -116,33 +113,10 @@ std::string deviations_table(const CurveComparison& compared) {
                      compared.outward ? "outward" : "to the left", table.text());
 }
 
-/// What keeps the table from saying more.
-std::vector<std::string> curve_notes(const CurveComparison& compared) {
-  const auto is_airfoil = [](const ComparedCurve& curve) { return curve.airfoil.has_value(); };
-  std::vector<std::string> out;
-  if (!compared.airfoils &&
-      std::any_of(compared.curves.begin(), compared.curves.end(), is_airfoil)) {
-    for (const ComparedCurve& curve : compared.curves) {
-      if (!curve.airfoil) out.push_back(curve.name + ": " + curve.no_airfoil);
-    }
-  }
-  if (!compared.airfoils || !compared.on_one_chord.empty()) return out;
-  constexpr double kOneChord = 1e-3;  // chords that differ by more are told
-  const AirfoilFigures& first = *compared.curves.front().airfoil;
-  for (const ComparedCurve& curve : compared.curves) {
-    const double ratio = curve.airfoil->chord / first.chord;
-    if (std::abs(ratio - 1.0) <= kOneChord) continue;
-    out.push_back(
-        fmt::format("the chord of {} is {} times that of {}; --align chord compares the shapes",
-                    curve.name, significant(ratio, 4), compared.curves.front().name));
-  }
-  return out;
-}
-
 std::string compared_text(const CurveComparison& compared) {
   std::string out = fmt::format("lengths in {}\n", compared.units.text());
   out += curves_table(compared) + "\n" + deviations_table(compared);
-  for (const std::string& note : curve_notes(compared)) out += note + "\n";
+  for (const std::string& note : comparison_notes(compared)) out += note + "\n";
   return out;
 }
 
@@ -212,7 +186,7 @@ std::string curves_page(const CurveComparison& compared, const CompareOptions& o
   page.pictures.push_back(curves_svg(compared, options.enlarge));
   page.figures = {{"asked for", options.asked}, {"lengths in", compared.units.text()}};
   page.warnings = warnings;
-  page.notes = curve_notes(compared);
+  page.notes = comparison_notes(compared);
   add_curve_figures(compared, page);
   add_airfoil_figures(compared, page);
   add_deviation_figures(compared, compared.as_they_lie, "as it lies", 1.0, page);
@@ -242,18 +216,6 @@ Result<CurvesMaker> curves_maker(const std::string& path, const CompareOptions& 
     default:
       return CurvesMaker(
           [](const CurveComparison& c, const Told&) { return csv_text(curves_rows(c)); });
-  }
-}
-
-/// Files of one name keep their folders.
-void name_curves(const std::vector<std::string>& inputs, std::vector<ComparedCurve>& curves) {
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    curves[i].name = std::filesystem::path(inputs[i]).filename().string();
-  }
-  std::vector<std::string> names;
-  for (const ComparedCurve& curve : curves) names.push_back(curve.name);
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (std::count(names.begin(), names.end(), names[i]) > 1) curves[i].name = inputs[i];
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/fit.h"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "obvid/pipeline/internal/airfoil_file.h"
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/refusal.h"
+#include "obvid/pipeline/internal/titled_contour.h"
 #include "obvid/pipeline/space_fit.h"
 #include "outputs.h"
 #include "refusal.h"
@@ -32,16 +32,6 @@ struct Outcome {
   int code = 0;
 };
 
-/// Of the curve: that in its drawing, or that of an airfoil; not that of its file.
-void set_name(const PointSeries& series, const FitOptions& options, ExportOptions& formats) {
-  const std::string file = std::filesystem::path(options.name()).filename().string();
-  if (!series.label.empty()) {
-    formats.name = series.label;
-  } else if (!series.name.empty() && series.name != file) {
-    formats.name = series.name;
-  }
-}
-
 Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, ProgressBar& bar) {
   const auto stop = [&](const Error& error) {
     bar.clear();
@@ -54,7 +44,7 @@ Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, Progress
   if (!series) return stop(series.error());
   if (options.units) take_units(*series, *options.units);
   formats.picture.name = series->name;
-  set_name(*series, options, formats);
+  formats.name = curve_name(*series, options.name());
   Result<Fit> made = options.construction
                          ? fit_construction(*series, *options.construction, bar.progress())
                          : fit(*series, options.job, bar.progress());
@@ -125,7 +115,7 @@ Summary summary_of_fit(const FitOptions& all, const OneOf& one,
   }
   ExportOptions formats = options.formats;
   formats.picture.name = series->name;
-  set_name(*series, options, formats);
+  formats.name = curve_name(*series, options.name());
   const auto wanted = outputs_of(outputs, options.input);
   if (!wanted) return failed(wanted.error());
   const auto written = write_contour(*made, *wanted, formats, options.input, out.warnings);

@@ -27,11 +27,7 @@ Error of_file(Error error, const std::string& path) {
 
 Result<FileFormat> table_format_of(const std::string& path, const std::string& what,
                                    const std::string& tables) {
-  const auto format = format_of(path);
-  for (const FileFormat one :
-       {FileFormat::kPicture, FileFormat::kPage, FileFormat::kSamples, FileFormat::kContour}) {
-    if (format == one) return one;
-  }
+  if (const auto format = table_format_of(path)) return *format;
   return no_such_file(what, ".svg (picture), .html (page), " + tables).where(path);
 }
 
@@ -59,26 +55,32 @@ Result<std::string> path_of_part(const std::string& output, const std::string& s
   return path.string();
 }
 
+Result<std::vector<Output>> named_files(const Output& output, Result<Exported> made,
+                                        FileNotes& notes) {
+  if (!made) {
+    Error error = made.error();
+    if (error.where.empty()) error.where = output.path;
+    return fail(std::move(error));
+  }
+  std::vector<Output> out;
+  for (ExportedFile& file : made->files) {
+    const auto path = path_of_part(output.path, file.suffix);
+    OBVID_TRY(path);
+    out.push_back({*path, output.format, std::move(file.text)});
+  }
+  for (const std::string& one : made->remarks) notes.remarks.push_back(output.path + ": " + one);
+  for (const std::string& one : made->warnings) notes.warnings.push_back(output.path + ": " + one);
+  return out;
+}
+
 Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
                                      const StoredContour& stored, const ExportOptions& options,
-                                     FileNotes& notes) {
+                                     FileNotes& notes, const RunContext& run) {
   std::vector<Output> out;
   for (const Output& output : outputs) {
-    Result<Exported> made = export_contour(stored, output.format, options);
-    if (!made) {
-      Error error = made.error();
-      if (error.where.empty()) error.where = output.path;
-      return fail(std::move(error));
-    }
-    for (ExportedFile& file : made->files) {
-      const auto path = path_of_part(output.path, file.suffix);
-      OBVID_TRY(path);
-      out.push_back({*path, output.format, std::move(file.text)});
-    }
-    for (const std::string& one : made->remarks) notes.remarks.push_back(output.path + ": " + one);
-    for (const std::string& one : made->warnings) {
-      notes.warnings.push_back(output.path + ": " + one);
-    }
+    auto files = named_files(output, export_contour(stored, output.format, options, run), notes);
+    OBVID_TRY(files);
+    for (Output& file : *files) out.push_back(std::move(file));
   }
   return out;
 }

@@ -37,12 +37,18 @@ struct FileNotes {
 [[nodiscard]] Result<std::string> path_of_part(const std::string& output,
                                                const std::string& suffix);
 
+/// The files of one output, their names by suffixes. Errors are told of the output; `notes` get
+/// what is said of it.
+[[nodiscard]] Result<std::vector<Output>> named_files(const Output& output, Result<Exported> made,
+                                                      FileNotes& notes);
+
 /// Texts of all outputs, in the order of the outputs; a format that makes several files gives
 /// several outputs, their names by suffixes. `notes` get a sentence each for what the formats
 /// cannot hold, and for what may be wrong.
 [[nodiscard]] Result<std::vector<Output>> exported(const std::vector<Output>& outputs,
                                                    const StoredContour& stored,
-                                                   const ExportOptions& options, FileNotes& notes);
+                                                   const ExportOptions& options, FileNotes& notes,
+                                                   const RunContext& run = {});
 
 /// The error, told of the file that could not be made.
 [[nodiscard]] Error of_file(Error error, const std::string& path);

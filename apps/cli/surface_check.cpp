@@ -182,9 +182,7 @@ Result<std::vector<Output>> pictures_of(const SurfaceCheckOptions& options) {
   auto outputs = surface_outputs_of(options.outputs, inputs);
   if (!outputs) return outputs;
   for (const Output& output : *outputs) {
-    const bool picture =
-        output.format == FileFormat::kPicture || output.format == FileFormat::kPage;
-    if (picture) continue;
+    if (check_format_of(output.path)) continue;
     return error(ErrorCode::kUnknownFormat, "check writes pictures only")
         .where(output.path)
         .hint("give a name that ends in .svg or .html; other formats: obvid surface convert");
@@ -243,11 +241,9 @@ int run(const SurfaceCheckOptions& options) {
     bar.clear();
     return report(checked.error());
   }
-  const SurfaceCheck& check = checked->check;
   warnings.insert(warnings.end(), checked->warnings.begin(), checked->warnings.end());
   SurfaceExportOptions formats = options.formats;
-  if (checked->deviation) formats.deviation = checked->deviation->shown;
-  if (!check.patches.empty()) formats.extremes = extremes_of(check);
+  show_findings(*checked, formats);
   const auto written = write_surface(*model, *outputs, formats, bar.progress(), warnings);
   bar.clear();
   if (!written) return report(written.error());

@@ -26,14 +26,9 @@ bool is_of_branches(const std::string& path) { return has_place(path, kPlaceOfId
 Result<void> check_outputs_of(const SurfaceCutOptions& options) {
   OBVID_TRY(check_outputs(options.outputs, {&options.input, 1}));
   for (const std::string& path : options.outputs) {
-    const std::string ending = ending_of(path);
-    if (is_of_branches(path)) {
-      if (ending == ".csv" && !options.job.fair) continue;
-      if (!options.job.fair) {
-        return error(ErrorCode::kUnknownFormat, "points of branches are written as .csv")
-            .where(path)
-            .hint("--fair EPS makes contours of them, in all formats of contours");
-      }
+    if (!is_of_branches(path)) {
+      if (!sections_format_of(path)) return fail(of_file(no_such_sections(), path));
+    } else if (options.job.fair) {
       const auto of_contour = output_of(path);
       OBVID_TRY(of_contour);
       // STEP files of contours are written without the kernel
@@ -41,39 +36,22 @@ Result<void> check_outputs_of(const SurfaceCutOptions& options) {
       if (auto able = can_write_surfaces(of_contour->format); !able) {
         return fail(of_file(able.error(), path));
       }
-      continue;
+    } else {
+      OBVID_TRY(branch_format_of(path, false));
     }
-    if (ending == ".json" || ending == ".csv" || ending == ".svg" || ending == ".dxf") continue;
-    return error(ErrorCode::kUnknownFormat, "sections are not written in this format")
-        .where(path)
-        .hint(
-            "possible are .json and .csv (points), .svg and .dxf (lines drawing), and names with "
-            "{id}, a file for each branch");
   }
   return {};
 }
 
 /// Files of single branches: their points, or their contours.
-Result<void> add_branches(const SurfaceCutOptions& options, const MadeSurfaceCut& made,
-                          const std::string& path, std::vector<Output>& files, FileNotes& notes) {
-  for (std::size_t i = 0; i < made.sections.size(); ++i) {
-    const MadeSection& section = made.sections[i];
-    for (std::size_t k = 0; k < section.section.branches.size(); ++k) {
-      const std::string id = fmt::format("{}-{}", section.id, k + 1);
-      Output out{filled(path, {{kPlaceOfId, id}}), {}, {}};
-      if (!options.job.fair) {
-        out.text = branch_csv(made, i, k);
-        files.push_back(std::move(out));
-        continue;
-      }
-      const FairBranch& fair = section.fair[k];
-      if (fair.error) continue;
-      const auto named = output_of(out.path);
-      OBVID_TRY(named);
-      auto texts = exported({*named}, fair.stored, ExportOptions{}, notes);
-      OBVID_TRY(texts);
-      files.insert(files.end(), texts->begin(), texts->end());
-    }
+Result<void> add_branches(const MadeSurfaceCut& made, const std::string& path,
+                          std::vector<Output>& files, FileNotes& notes) {
+  for (const BranchPlace& place : branches_of(made)) {
+    const std::string name = filled(path, {{kPlaceOfId, place.id}});
+    const auto format = format_of(name).value_or(FileFormat::kSamples);
+    auto texts = named_files({name, format, {}}, branch_file(made, place, format), notes);
+    OBVID_TRY(texts);
+    files.insert(files.end(), texts->begin(), texts->end());
   }
   return {};
 }
@@ -84,15 +62,12 @@ Result<std::vector<Output>> files_of(const SurfaceCutOptions& options, const Mad
   const std::string title = std::filesystem::path(options.input).stem().string();
   for (const std::string& path : options.outputs) {
     if (is_of_branches(path)) {
-      OBVID_TRY(add_branches(options, made, path, files, notes));
+      OBVID_TRY(add_branches(made, path, files, notes));
       continue;
     }
-    const std::string ending = ending_of(path);
-    std::string text = ending == ".csv"   ? sections_csv(made)
-                       : ending == ".svg" ? sketch_svg(lines_drawing(made, title))
-                       : ending == ".dxf" ? sketch_dxf(lines_drawing(made, title))
-                                          : surface_cut_json(made, {}, true);
-    files.push_back({path, {}, std::move(text)});
+    auto text = sections_file(*sections_format_of(path), made, title);
+    OBVID_TRY(text);
+    files.push_back({path, {}, std::move(*text)});
   }
   return files;
 }

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <array>
-
 #include "commands.h"
-#include "fit_report.h"
+#include "interrupt.h"
 #include "obvid/core/files.h"
 #include "obvid/core/internal/data_table.h"
-#include "obvid/core/internal/file_ending.h"
-#include "obvid/pipeline/export.h"
-#include "obvid/pipeline/internal/fit_figures.h"
-#include "obvid/pipeline/internal/page_text.h"
+#include "obvid/pipeline/file_formats.h"
+#include "obvid/pipeline/internal/job_files.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/space_fit.h"
@@ -25,23 +21,6 @@
 namespace obvid {
 namespace {
 
-const char* type_of(const Piece& piece) {
-  struct Names {
-    const char* operator()(const LinePiece&) const { return "line"; }
-    const char* operator()(const ArcPiece&) const { return "arc"; }
-    const char* operator()(const RationalBezier&) const { return "bezier"; }
-    const char* operator()(const ClothoidPiece&) const { return "clothoid"; }
-  };
-  return std::visit(Names{}, piece);
-}
-
-/// What is wrong with a piece, as a figure for choosing rows: the undecided come first.
-double trouble(const PieceProof& proof) {
-  if (proof.verdict == Verdict::kUndecided) return 3.0;
-  if (proof.verdict == Verdict::kHasVertex) return 2.0;
-  return proof.exact_arithmetic ? 1.0 : 0.0;
-}
-
 std::string piece_table(const Contour& contour, const Certificate& certificate) {
   Table table;
   table.column("piece");
@@ -50,15 +29,16 @@ std::string piece_table(const Contour& contour, const Certificate& certificate) 
   table.column("arithmetic", Table::Align::kLeft);
   table.column("parameters in question", Table::Align::kLeft);
   std::vector<double> troubles;
-  for (const PieceProof& proof : certificate.pieces) troubles.push_back(trouble(proof));
+  for (const PieceProof& proof : certificate.pieces) troubles.push_back(proof_trouble(proof));
   const std::vector<std::size_t> shown = rows_worth_showing(troubles);
   std::size_t before = 0;
   for (const std::size_t i : shown) {
     if (i > before) table.gap();
     before = i + 1;
     const PieceProof& proof = certificate.pieces[i];
-    const bool open = trouble(proof) >= 2.0;
-    table.row({std::to_string(i + 1), i < contour.pieces.size() ? type_of(contour.pieces[i]) : "-",
+    const bool open = proof_trouble(proof) >= 2.0;
+    table.row({std::to_string(i + 1),
+               i < contour.pieces.size() ? piece_type(contour.pieces[i]) : "-",
                to_string(proof.verdict), proof.exact_arithmetic ? "exact" : "fast",
                open ? fmt::format("{}..{}", significant(proof.t0), significant(proof.t1)) : ""});
   }
@@ -66,109 +46,15 @@ std::string piece_table(const Contour& contour, const Certificate& certificate) 
          shown_note(shown.size(), certificate.pieces.size(), "most difficult", "pieces");
 }
 
-std::string counts_text(const Certificate& certificate) {
-  std::array<std::size_t, 5> counts{};
-  for (const PieceProof& proof : certificate.pieces)
-    ++counts[static_cast<std::size_t>(proof.verdict)];
-  std::string text;
-  for (std::size_t v = 0; v < counts.size(); ++v) {
-    if (counts[v] == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[v],
-                        to_string(static_cast<Verdict>(v)));
-  }
-  return text;
-}
-
-DataTable proof_rows(const Contour& contour, const Certificate& certificate) {
-  DataTable out{heads_of("piece,type,curvature,arithmetic,from,to")};
-  for (std::size_t i = 0; i < certificate.pieces.size(); ++i) {
-    const PieceProof& proof = certificate.pieces[i];
-    out.rows.push_back({i + 1, i < contour.pieces.size() ? type_of(contour.pieces[i]) : "",
-                        to_string(proof.verdict), proof.exact_arithmetic ? "exact" : "fast"});
-    if (trouble(proof) < 2.0) continue;
-    out.rows.back().emplace_back(proof.t0);
-    out.rows.back().emplace_back(proof.t1);
-  }
-  return out;
-}
-
-const char* yes_no(bool flag) { return flag ? "yes" : "no"; }
-
-/// The claims of the file beside what was found now.
-void add_claims(Facts& facts, const StoredContour& stored, const Certificate& found) {
-  if (stored.report) {
-    facts.add("report claims",
-              fmt::format(
-                  "{}, {}, largest width {}",
-                  counted(static_cast<std::size_t>(stored.report->vertices), "vertex", "vertices"),
-                  counted(static_cast<std::size_t>(stored.report->inflections), "inflection",
-                          "inflections"),
-                  known_length(stored.report->largest_width, stored.contour.units.text())));
-  } else {
-    facts.add("report claims", "the file holds no report");
-  }
-  if (stored.certificate) {
-    facts.add("file claims", verdict_line(stored.contour.carrier, *stored.certificate));
-  } else {
-    facts.add("file claims", "the file holds no certificate");
-  }
-  facts.add("curvature", counts_text(found));
-  add_gaps(facts, found, stored.contour.carrier);
-  facts.add("gaps within bounds", yes_no(found.gaps_within_bounds));
-  facts.add("through all points", yes_no(found.through_points));
-  facts.add("inside the region", yes_no(found.inside_region));
-  if (found.corners > 0) facts.add("corners", std::to_string(found.corners));
-  facts.add("vertices", std::to_string(found.vertices));
-  facts.add("inflections", std::to_string(found.inflections));
-  facts.add("self-intersections", std::to_string(found.self_intersections));
-}
-
-Facts verification_facts(const StoredContour& stored, const Verification& found) {
-  Facts facts;
-  add_claims(facts, stored, found.certificate);
-  facts.add("not checked", listed(found.not_checked));
-  return facts;
-}
-
-std::string verification_verdict(const StoredContour& stored, const Verification& found) {
-  return found.false_claim ? "NOT as claimed: " + found.false_claim->what
-                           : verdict_line(stored.contour.carrier, found.certificate);
-}
-
 std::string verification_text(const StoredContour& stored, const Verification& found) {
   const bool holds = !broken_promise(stored, found);
+  Facts facts;
+  for (auto& [label, value] : verification_figures(stored, found)) {
+    facts.add(std::move(label), std::move(value));
+  }
   const std::string verdict = verification_verdict(stored, found);
-  return piece_table(stored.contour, found.certificate) + "\n" +
-         verification_facts(stored, found).text() + (holds ? good(verdict) : bad(verdict)) + "\n";
-}
-
-Result<std::string> verification_page(const StoredContour& stored, const Verification& found,
-                                      const std::string& name, const std::string& asked) {
-  ReportPage page;
-  page.title = name;
-  page.verdict = verification_verdict(stored, found);
-  page.kind =
-      broken_promise(stored, found) ? ReportPage::Verdict::kBroken : ReportPage::Verdict::kKept;
-  ExportOptions titled;
-  titled.picture.name = name;
-  const auto drawn = export_contour(stored, FileFormat::kPicture, titled);
-  OBVID_TRY(drawn);
-  page.pictures.push_back(drawn->files.front().text);
-  page.figures = {{"asked for", asked}, {"lengths in", stored.contour.units.text()}};
-  const Facts facts = verification_facts(stored, found);
-  page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
-  page.tables.push_back(
-      table_of_page("pieces", "Pieces", proof_rows(stored.contour, found.certificate)));
-  return page_text(page);
-}
-
-/// The text of an answer by the ending of its file.
-Result<std::string> answer_for(const std::string& path, const StoredContour& stored,
-                               const Verification& found, const std::string& name,
-                               const std::string& asked) {
-  if (has_ending(path, ".json")) return verification_json(stored, found);
-  if (has_ending(path, ".csv")) return csv_text(proof_rows(stored.contour, found.certificate));
-  return verification_page(stored, found, name, asked);
+  return piece_table(stored.contour, found.certificate) + "\n" + facts.text() +
+         (holds ? good(verdict) : bad(verdict)) + "\n";
 }
 
 /// What the file says wrongly comes before what could not be proved.
@@ -219,9 +105,7 @@ int verify_several(const VerifyOptions& options) {
 int run(const VerifyOptions& options) {
   if (!options.inputs.empty()) return verify_several(options);
   for (const std::string& path : options.outputs) {
-    if (has_ending(path, ".json .html .csv")) continue;
-    return report({ErrorCode::kUnknownFormat, "answers are JSON, a page or a table of pieces", path,
-                   "name a .json, .html or .csv"});
+    if (!proof_format_of(path)) return report(of_file(no_such_answer(), path));
   }
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
@@ -229,17 +113,22 @@ int run(const VerifyOptions& options) {
   const Result<std::string> text = read_file(options.input);
   if (!text) return report(text.error());
   const std::string name = options.input == "-" ? "standard input" : options.input;
-  const Result<Stored> read = parse_stored(*text, name);
+  const Interrupt interrupt;
+  const RunContext context({}, [&interrupt] { return interrupt.asked(); });
+  const Result<Stored> read = parse_stored(*text, name, context);
   if (!read) return report(read.error());
   if (const auto* chain = std::get_if<StoredSpaceChain>(&*read)) {
     return verify_in_space(*chain, name, options);
   }
   const auto* stored = &std::get<StoredContour>(*read);
-  const Verification found = verify(*stored);
+  const Result<Verification> made = verify(*stored, context);
+  if (!made) return report(made.error());
+  const Verification& found = *made;
   std::string shown;
   std::vector<Output> files;
   for (const std::string& path : options.outputs) {
-    auto answer = answer_for(path, *stored, found, name, options.asked);
+    auto answer =
+        verification_file(*proof_format_of(path), *stored, found, {name, options.asked}, context);
     if (!answer) return report(answer.error());
     files.push_back({path, {}, std::move(*answer)});
   }

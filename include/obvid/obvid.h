@@ -138,9 +138,19 @@ OBVID_API int obvid_analyse_file(const obvid_input* input, const char* options, 
  * table of that construction. */
 OBVID_API int obvid_region(const obvid_input* input, const char* options, const obvid_run* run,
                            char** report, obvid_error** error);
-/* The tables and drawings of obvid_region as a file: "csv", "tex", "json", "svg" or "dxf". */
+/* The tables and drawings of obvid_region as a file: "csv", "tex", "json", "svg",
+ * "dxf" or "html". */
 OBVID_API int obvid_worksheet(const obvid_input* input, const char* options, const char* ending,
                               const obvid_run* run, obvid_files** files, obvid_error** error);
+/* Both boundaries of the region of all curves of monotone curvature between two elements (x, y,
+ * heading, curvature; the region of a segment in these reports): one or two arcs each, from `start`
+ * to `end`, 5 numbers each: x and y where it begins, heading there, curvature (0: a line), length.
+ * `arcs` has room for 20 numbers: first the boundary that begins with the circle of `start`, then
+ * the one that ends with that of `end`; `counts`, 2 numbers, how many arcs they have, 0 where there
+ * is no such curve. E303 for numbers that are not finite. */
+OBVID_API int obvid_region_arcs(const double* start, const double* end, double* arcs,
+                                size_t* counts, obvid_error** error);
+
 /* All curve families side by side. */
 OBVID_API int obvid_compare(const obvid_input* input, const char* options, const obvid_run* run,
                             char** report, obvid_error** error);
@@ -149,8 +159,9 @@ OBVID_API int obvid_compare(const obvid_input* input, const char* options, const
 OBVID_API int obvid_compare_file(const obvid_input* input, const char* options, const char* ending,
                                  const obvid_run* run, obvid_files** files, obvid_error** error);
 /* Curves laid over each other: points are formed, contour files and curves of drawings are taken as
- * they are. How far all are from the first one; `files`: a picture (suffix ".svg") and the
- * deviation at every place (".csv"); NULL: not wanted. Remarks are the warnings of the inputs. */
+ * they are. How far all are from the first one; `files`: a picture (suffix ".svg"), the deviation at
+ * every place (".csv") and the report (".json"); NULL: not wanted. Remarks are the warnings of the
+ * inputs, and what keeps the figures from saying more. */
 OBVID_API int obvid_compare_curves(const obvid_input* const* inputs, size_t count,
                                    const char* options, const obvid_run* run, obvid_files** files,
                                    char** report, obvid_error** error);
@@ -161,6 +172,11 @@ OBVID_API int obvid_stored(const obvid_input* input, const char* options, const 
  * set, when it does not keep its promise or its file makes a false claim. */
 OBVID_API int obvid_verify(const obvid_contour* contour, const obvid_run* run, char** report,
                            obvid_error** error);
+
+/* The same as a file: "json", "csv" (a row for each piece) or "html" (a page). The file is there
+ * with OBVID_NOT_PROVED, too. */
+OBVID_API int obvid_verify_file(const obvid_contour* contour, const char* ending,
+                                const obvid_run* run, obvid_files** files, obvid_error** error);
 
 /* ---- contours ---------------------------------------------------------------------------------
  */
@@ -221,6 +237,10 @@ OBVID_API int obvid_contour_nurbs(const obvid_contour* contour, obvid_nurbs** nu
                                   obvid_error** error);
 OBVID_API void obvid_nurbs_free(obvid_nurbs* nurbs);
 
+/* What makes a joint G2 here: headings that differ by less (rad), and curvatures by less of the
+ * largest, are one. */
+OBVID_API double obvid_joint_limit(void);
+
 /* ---- curves in space --------------------------------------------------------------------------
  */
 
@@ -249,6 +269,14 @@ OBVID_API void obvid_space_figures(const obvid_space* space, obvid_figures* figu
 OBVID_API int obvid_space_evaluate(const obvid_space* space, size_t part, const double* at,
                                    size_t n, double* xyz, double* tangent, double* curvature,
                                    double* torsion, obvid_error** error);
+/* The curvature of a NURBS curve in space: `count` control points (3 numbers each), weights (NULL:
+ * all 1) and count + degree + 1 knots, clamped. Vertices, joints that are not G2 and where the
+ * curvature is largest, found at 64 places of each span: they are not proved. OBVID_USAGE for numbers
+ * that do not belong together. */
+OBVID_API int obvid_space_audit(int degree, size_t count, const double* knots, const double* xyz,
+                                const double* weights, const obvid_run* run, char** report,
+                                obvid_error** error);
+
 /* "json", "step", "iges", "brep", "dxf", "csv", "sldcrv". */
 OBVID_API int obvid_space_export(const obvid_space* space, const char* ending, const char* options,
                                  const obvid_run* run, obvid_files** files, obvid_error** error);
@@ -272,17 +300,29 @@ OBVID_API int obvid_surface_make(const char* kind, const obvid_input* const* inp
 /* Curvatures, joints of patches, monotone parameter lines. */
 OBVID_API int obvid_surface_check(const obvid_surface* surface, const char* options,
                                   const obvid_run* run, char** report, obvid_error** error);
+/* What was found as a file: "svg" or "html", with the options of both, those of obvid_surface_check
+ * and obvid_surface_export. */
+OBVID_API int obvid_surface_check_file(const obvid_surface* surface, const char* options,
+                                       const char* ending, const obvid_run* run,
+                                       obvid_files** files, obvid_error** error);
 /* Sections by planes, and what is below a waterplane; `files`: all points (suffixes ".json",
  * ".csv"), and the lines drawing (".svg", ".dxf"). Where contours were asked for that are refused
  * or not proved the call fails, and files and report are there. NULL: not wanted. */
 OBVID_API int obvid_surface_cut(const obvid_surface* surface, const char* options,
                                 const obvid_run* run, obvid_files** files, char** report,
                                 obvid_error** error);
+/* The branches of these sections, a file each with its name as suffix ("waterline-1-2"): "csv",
+ * points in their planes; with the option "fair" their contours, in any format of obvid_export. Files
+ * are there with an error where contours are refused or not proved. */
+OBVID_API int obvid_surface_branches(const obvid_surface* surface, const char* options,
+                                     const char* ending, const obvid_run* run, obvid_files** files,
+                                     obvid_error** error);
 /* "json", "step", "iges", "brep", "stl", "obj", "glb", "ply", "html", "svg"; glb is no text. */
 OBVID_API int obvid_surface_export(const obvid_surface* surface, const char* ending,
                                    const char* options, const obvid_run* run, obvid_files** files,
                                    obvid_error** error);
-/* Program of a three-axis mill; `files`: its G-code. Fails with OBVID_NOT_PROVED, files and report
+/* Program of a three-axis mill; `files`: its G-code, a picture of the path (suffix ".svg") and a
+ * page (".html"). Fails with OBVID_NOT_PROVED, files and report
  * there, where something is not kept that was asked for. */
 OBVID_API int obvid_surface_toolpath(const obvid_surface* surface, const char* options,
                                      const obvid_run* run, obvid_files** files, char** report,

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "obvid/core/internal/file_ending.h"
+#include "obvid/pipeline/internal/format_table.h"
 
 namespace obvid::batch {
 namespace {
@@ -27,24 +28,19 @@ constexpr std::array<JobKind, 13> kKinds{{
     {"nurbs", Draws::kByEnding, true, true},
 }};
 
-/// Of the one table of files; ".nc .ngc ...".
-constexpr std::string_view endings_of(std::string_view wanted) {
-  std::string_view out;
-#define OBVID_FORMAT(enumerator, extensions, ...) \
-  if (wanted == #enumerator) out = extensions;
-#include "obvid/pipeline/formats.inc"
-#undef OBVID_FORMAT
-  return out;
-}
-
 }  // namespace
 
-bool is_program_file(std::string_view path) { return has_ending(path, endings_of("kGcode")); }
+bool is_program_file(std::string_view path) {
+  return pipeline_detail::format_in_table(path, &pipeline_detail::FormatRow::cut) ==
+         FileFormat::kGcode;
+}
 
 bool has_text_for(const JobKind& kind, std::string_view path) {
-  if (kind.draws != Draws::kTexts || has_ending(path, ".svg")) return true;
-  return kind.name == "cut" ? has_ending(path, ".dxf") || is_program_file(path)
-                            : has_ending(path, ".csv");
+  if (kind.draws != Draws::kTexts) return true;
+  using pipeline_detail::FormatRow;
+  const auto format = pipeline_detail::format_in_table(
+      path, kind.name == "cut" ? &FormatRow::cut : &FormatRow::tables);
+  return format && *format != FileFormat::kPage;  // pages are the command line's
 }
 
 const JobKind* kind_named(std::string_view name, bool against) {

@@ -9,14 +9,15 @@
 #include <string_view>
 #include <utility>
 
+#include "obvid/pipeline/internal/carrier_names.h"
+
 namespace obvid::batch {
 namespace {
 
+using pipeline_detail::kFormedCarriers;
 using ReportJson = nlohmann::json;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<std::string_view, 8> kCarriers{"spiral",    "arcs",    "conics", "beziers",
-                                                    "clothoids", "bspline", "cubic",  "baseline"};
 constexpr std::size_t kTolerances = 8;  // rows of a table of tolerances
 
 double number_at(const ReportJson& object, const char* name, double otherwise) {
@@ -53,13 +54,14 @@ std::vector<std::string> warnings_in(const ReportJson& report) {
 }
 
 std::vector<double> of_compare(const ReportJson& report, obvid_figures& figures) {
-  std::vector<double> out(5 * kCarriers.size(), kUnknown);
+  std::vector<double> out(5 * kFormedCarriers.size(), kUnknown);
   const auto rows = report.find("carriers");
   if (rows == report.end()) return out;
   for (const ReportJson& row : *rows) {
-    const auto name = std::find(kCarriers.begin(), kCarriers.end(), row.value("carrier", ""));
-    if (name == kCarriers.end()) continue;
-    const std::size_t first = 5 * static_cast<std::size_t>(name - kCarriers.begin());
+    const auto name =
+        std::find(kFormedCarriers.begin(), kFormedCarriers.end(), row.value("carrier", ""));
+    if (name == kFormedCarriers.end()) continue;
+    const std::size_t first = 5 * static_cast<std::size_t>(name - kFormedCarriers.begin());
     const std::string code = row.contains("refusal") && row["refusal"].is_object()
                                  ? row["refusal"].value("code", "E0")
                                  : "E0";
@@ -68,7 +70,7 @@ std::vector<double> of_compare(const ReportJson& report, obvid_figures& figures)
     out[first + 2] = count_at(row, "pieces");
     out[first + 3] = number_at(row, "error_bound", kUnknown);
     out[first + 4] = number_at(row, "deviation", kUnknown);
-    if (name != kCarriers.begin()) continue;
+    if (name != kFormedCarriers.begin()) continue;
     figures.vertices = count_at(row, "vertices");
     figures.inflections = count_at(row, "inflections");
     figures.pieces = count_at(row, "pieces");
@@ -200,7 +202,7 @@ std::vector<Column> report_columns(const JobKind& kind) {
       out.push_back({laid + "rms", kNumber, "root mean square of the deviations, units"});
     }
   } else if (kind.name == "compare") {
-    for (const std::string_view carrier : kCarriers) {
+    for (const std::string_view carrier : kFormedCarriers) {
       const std::string name(carrier);
       out.push_back({name + "_code", kNumber, "number of the error of this carrier, 0 none"});
       out.push_back({name + "_vertices", kNumber, ""});

@@ -23,13 +23,7 @@ Result<std::unique_ptr<obvid_files>> files_of(const obvid_contour& contour, cons
   const auto format = format_of_ending(ending);
   OBVID_TRY(format);
   ExportOptions& formats = request->formats;
-  formats.name = contour.name;
-  formats.picture = contour.picture;
-  formats.first_station = contour.first_station;
-  formats.profile = contour.profile;
-  formats.transitions = contour.transitions;
-  formats.told = {{}, contour.warnings};
-  if (!request->profile.empty()) formats.told.remarks.push_back(request->profile);
+  set_titles(contour, request->profile, formats);
   const StoredContour* stored = &contour.stored;
   StoredContour other;
   if (request->units) {

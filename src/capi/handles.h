@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "obvid/obvid.h"
-#include "obvid/picture/picture_svg.h"
 #include "obvid/picture/surface_svg.h"
 #include "obvid/pipeline/export.h"
+#include "obvid/pipeline/internal/titled_contour.h"
 #include "obvid/pipeline/space_fit.h"
 #include "obvid/report/stored_contour.h"
 #include "obvid/series/point_series.h"
@@ -28,14 +29,9 @@ struct obvid_input {
   bool by_path = false;
 };
 
-struct obvid_contour {
-  obvid::StoredContour stored;
-  std::string name = "contour";  ///< of the curve, where a format has a place for it
-  double first_station = 0.0;    ///< of its start, units
-  std::optional<obvid::VerticalProfile> profile{};     ///< of heights along it
-  std::vector<obvid::PlacedTransition> transitions{};  ///< that it has clothoids in place of
-  obvid::PictureTitles picture;
-  std::vector<std::string> warnings;  ///< of the fit
+struct obvid_contour : obvid::TitledContour {
+  obvid_contour() = default;
+  explicit obvid_contour(obvid::TitledContour made) : obvid::TitledContour(std::move(made)) {}
 };
 
 struct obvid_space {
@@ -45,6 +41,7 @@ struct obvid_space {
 
 struct obvid_surface {
   obvid::SurfaceModel model;
+  std::string source;  ///< its only input, as it was named
   std::vector<obvid::ScenePolyline> lines;  ///< inputs, drawn on pages and pictures
   std::vector<std::string> warnings;
 };

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "door.h"
 #include "handles.h"
-#include "obvid/io/contour_json.h"
-#include "obvid/io/internal/file_kind.h"
-#include "obvid/io/read_points.h"
 #include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/compare_curves.h"
 #include "obvid/pipeline/construction_fit.h"
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/internal/construction_values.h"
-#include "obvid/pipeline/internal/drawn_contour.h"
 #include "obvid/pipeline/internal/job_files.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/refusal.h"
 #include "obvid/pipeline/internal/region_files.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "obvid/pipeline/stored.h"
 #include "options.h"
+#include "table_files.h"
 
 namespace obvid::capi {
 namespace {
@@ -38,13 +37,6 @@ constexpr Known kImporting{.import = true};
 constexpr Known kCutting{.import = true, .cut = true};
 constexpr Known kAligning{.import = true, .alignment = true};
 
-/// Of a program that cuts: suffix of the file, and what it is.
-constexpr std::array<std::pair<const char*, FileFormat>, 4> kFilesOfCuts = {
-    {{"", FileFormat::kGcode},
-     {".svg", FileFormat::kPicture},
-     {".dxf", FileFormat::kDxf},
-     {".csv", FileFormat::kSamples}}};
-
 Result<PointSeries> series_of(const obvid_input& input, const Request& request, bool drawings,
                               const RunContext& run) {
   if (input.space) {
@@ -56,11 +48,7 @@ Result<PointSeries> series_of(const obvid_input& input, const Request& request, 
       place(request.import.placement, given);
       return given;
     }
-    if (!drawings) {
-      Result<PointSeries> list = parse_points(input.text, input.name, request.import.list);
-      if (list) place(request.import.placement, *list);
-      return list;
-    }
+    if (!drawings) return parse_point_list(input.text, input.name, request.import);
     return input.by_path ? read_series(input.name, request.import, run)
                          : parse_series(input.text, input.name, request.import, run);
   }();
@@ -181,34 +169,16 @@ int file_of_points(const obvid_input* input, const char* options, const Known& k
   });
 }
 
-Result<std::unique_ptr<obvid_contour>> stored_of(const obvid_input& input, const Request& request,
-                                                 const RunContext& run) {
-  auto out = std::make_unique<obvid_contour>();
-  // a contour that is placed anew is a drawing: its claims spoke of another place
-  const bool placed = !input.points && !request.import.placement.changes_nothing();
-  const bool foreign = placed || input.by_path ||
-                       (!input.points && is_drawing_text(input.text, input.name) &&
-                        file_kind(input.text) != FileKind::kContour);
-  if (foreign) {
-    Result<Drawing> drawing = drawing_of(input, request, run);
-    OBVID_TRY(drawing);
-    auto drawn = drawn_contour(std::move(*drawing), request.import, input.name, run);
-    OBVID_TRY(drawn);
-    out->stored = std::move(drawn->stored);
-    out->name = std::move(drawn->name);
-    out->warnings = std::move(drawn->warnings);
-    out->first_station = drawn->first_station;
-    out->transitions = std::move(drawn->transitions);
-    out->profile = std::move(drawn->profile);
-    out->picture = std::move(drawn->picture);
-  } else {
-    Watch watch(without_progress(run));
-    auto stored = contour_from_json(input.text, input.name, &watch);
-    OBVID_TRY(stored);
-    out->stored = std::move(*stored);
-    out->picture.name = std::filesystem::path(input.name).filename().string();
-  }
-  return out;
+Result<TitledContour> stored_of(const obvid_input& input, const Request& request,
+                                const RunContext& run) {
+  const ConvertJob job{request.import, request.units};
+  auto read = input.by_path ? read_convertible(input.name, job, run)
+                            : parse_convertible(input.text, input.name, job, run);
+  OBVID_TRY(read);
+  if (auto* contour = std::get_if<TitledContour>(&*read)) return std::move(*contour);
+  return error(ErrorCode::kUnsupported, "these are curves in space")
+      .where(input.name)
+      .hint("obvid_stored_space reads them");
 }
 
 Result<Fit> formed(const PointSeries& series, const Request& request, const RunContext& run) {
@@ -258,12 +228,9 @@ int obvid_fit(const obvid_input* input, const char* options, const obvid_run* ru
     // a construction promises nothing: its certificate says what it is
     const bool promises = !request->worksheet.construction;
     const std::optional<Error> broken = promises ? broken_promise(*made) : std::nullopt;
-    auto out = std::make_unique<obvid_contour>();
+    auto out =
+        std::make_unique<obvid_contour>(titled_contour(std::move(*made), *series, input->name));
     char* const text = report == nullptr ? nullptr : text_of(told);
-    out->stored = {std::move(made->contour), std::move(made->report), std::move(made->certificate)};
-    out->warnings = std::move(made->warnings);
-    out->picture.name = series->name;
-    if (!series->label.empty()) out->name = series->label;
     if (report != nullptr) *report = text;
     if (contour != nullptr) *contour = out.release();
     if (broken) return fail(*broken);
@@ -436,11 +403,11 @@ int obvid_cut(const obvid_input* const* inputs, size_t count, const char* option
     std::unique_ptr<obvid_files> out;
     if (files != nullptr) {
       out = std::make_unique<obvid_files>();
-      for (const auto& [suffix, format] : kFilesOfCuts) {
-        auto text = cut_file(format, *made, job, context);
-        OBVID_TRY(text);
-        out->files.push_back({suffix, std::move(*text)});
-      }
+      auto made_files = files_in_table(&pipeline_detail::FormatRow::cut, [&](FileFormat format) {
+        return cut_file(format, *made, job, context);
+      });
+      OBVID_TRY(made_files);
+      out->files = std::move(*made_files);
       out->remarks = made->warnings;
     }
     hand_out_text(cut_json(*made), report);
@@ -460,32 +427,21 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     Result<PointSeries> series = series_of(*input, *request, true, context);
     OBVID_TRY(series);
     AlignmentJob& job = request->alignment;
-    std::vector<std::string> warnings = series->warnings;
     if (heights != nullptr) {
       auto read = heights_of(*heights);
       OBVID_TRY(read);
-      warnings.insert(warnings.end(), read->warnings.begin(), read->warnings.end());
       job.heights = std::move(*read);
     }
     const auto made = alignment_report(*series, job, context);
     OBVID_TRY(made);
-    auto out = std::make_unique<obvid_contour>();
-    out->stored = made->stored;
-    out->name = made->name;
-    out->first_station = made->alignment.elements.front().station;
-    if (made->profile) out->profile = made->profile->profile;
-    out->transitions = made->transitions;
-    out->picture = {series->name, alignment_verdict(*made)};
-    warnings.insert(warnings.end(), made->warnings.begin(), made->warnings.end());
-    out->warnings = std::move(warnings);
+    auto out = std::make_unique<obvid_contour>(titled_contour(*made, *series, job, input->name));
     auto tables = std::make_unique<obvid_files>();
-    tables->files.push_back(
-        {".csv", csv_text(element_rows(made->alignment.elements, made->limit))});
+    tables->files.push_back({".csv", *alignment_file(FileFormat::kSamples, *made)});
     tables->files.push_back({".deviations.csv", csv_text(deviation_rows(*made))});
     if (made->profile) {
       tables->files.push_back({".profile.csv", csv_text(profile_rows(made->profile->profile))});
     }
-    tables->files.push_back({".svg", alignment_picture(*made)});
+    tables->files.push_back({".svg", *alignment_file(FileFormat::kPicture, *made)});
     tables->remarks = made->remarks;
     hand_out_text(alignment_json(*made), report);
     if (contour != nullptr) *contour = out.release();
@@ -529,27 +485,36 @@ int obvid_compare_curves(const obvid_input* const* inputs, size_t count, const c
     const Result<Request> request = request_of(options, kOverlaying);
     OBVID_TRY(request);
     std::vector<ComparedCurve> curves;
-    auto out = std::make_unique<obvid_files>();
+    std::vector<std::string> names;
+    std::vector<std::vector<std::string>> warnings;
     for (size_t i = 0; i < count; ++i) {
       if (inputs[i] == nullptr) {
         return fail({ErrorCode::kUsage, "an input is NULL", std::to_string(i), ""});
       }
       auto one = curve_of(*inputs[i], *request, context_of(run));
       OBVID_TRY(one);
-      const std::string& name = inputs[i]->name;
-      if (!name.empty()) one->curve.name = std::filesystem::path(name).filename().string();
-      for (const std::string& told : one->warnings) {
-        out->remarks.push_back(one->curve.name + ": " + told);
-      }
+      names.push_back(inputs[i]->name);
+      warnings.push_back(std::move(one->warnings));
       curves.push_back(std::move(one->curve));
     }
+    name_curves(names, curves);
     const auto made = compare_curves(std::move(curves), request->curves, context_of(run));
     OBVID_TRY(made);
-    hand_out_text(curves_json(*made), report);
-    if (files == nullptr) return {};
-    out->files.push_back({".svg", curves_svg(*made, request->enlarge)});
-    out->files.push_back({".csv", csv_text(curves_rows(*made))});
-    *files = out.release();
+    const std::string told = curves_json(*made);
+    std::unique_ptr<obvid_files> out;
+    if (files != nullptr) {
+      out = std::make_unique<obvid_files>();
+      out->files.push_back({".svg", curves_svg(*made, request->enlarge)});
+      out->files.push_back({".csv", csv_text(curves_rows(*made))});
+      out->files.push_back({".json", told});
+      for (size_t i = 0; i < count; ++i) {
+        const std::string& of = names[i].empty() ? made->curves[i].name : names[i];
+        for (const std::string& one : warnings[i]) out->remarks.push_back(of + ": " + one);
+      }
+      for (std::string& note : comparison_notes(*made)) out->remarks.push_back(std::move(note));
+    }
+    hand_out_text(told, report);
+    if (files != nullptr) *files = out.release();
     return {};
   });
 }
@@ -563,8 +528,7 @@ int obvid_stored(const obvid_input* input, const char* options, const obvid_run*
     OBVID_TRY(may_go_on(context));
     auto out = stored_of(*input, *request, context);
     OBVID_TRY(out);
-    if (request->units) (void)take_units((*out)->stored.contour.units, *request->units);
-    *contour = out->release();
+    *contour = std::make_unique<obvid_contour>(std::move(*out)).release();
     return {};
   });
 }
@@ -575,6 +539,23 @@ int obvid_verify(const obvid_contour* contour, const obvid_run* run, char** repo
     const Result<Verification> found = verify(contour->stored, context_of(run));
     OBVID_TRY(found);
     hand_out_text(verification_json(contour->stored, *found), report);
+    if (const auto broken = broken_promise(contour->stored, *found)) return fail(*broken);
+    return {};
+  });
+}
+
+int obvid_verify_file(const obvid_contour* contour, const char* ending, const obvid_run* run,
+                      obvid_files** files, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const std::string name = std::string("answer.") + (ending == nullptr ? "" : ending);
+    const auto format = proof_format_of(name);
+    if (!format) return fail(no_such_answer());
+    const RunContext context = context_of(run);
+    const Result<Verification> found = verify(contour->stored, context);
+    OBVID_TRY(found);
+    auto text = verification_file(*format, contour->stored, *found, {contour->source}, context);
+    OBVID_TRY(text);
+    hand_out_file(std::move(*text), {}, files);
     if (const auto broken = broken_promise(contour->stored, *found)) return fail(*broken);
     return {};
   });

@@ -6,6 +6,7 @@
 #include "door.h"
 #include "handles.h"
 #include "obvid/contour/bsplines/nurbs_of.h"
+#include "obvid/pipeline/internal/space_audit.h"
 
 namespace obvid::capi {
 namespace {
@@ -42,6 +43,29 @@ int obvid_contour_nurbs(const obvid_contour* contour, obvid_nurbs** nurbs, obvid
     auto made = nurbs_of(contour->stored.contour);
     OBVID_TRY(made);
     *nurbs = std::make_unique<OwnedNurbs>(std::move(made->curve)).release();
+    return {};
+  });
+}
+
+int obvid_space_audit(int degree, size_t count, const double* knots, const double* xyz,
+                      const double* weights, const obvid_run* run, char** report,
+                      obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    SpaceCurve curve;
+    curve.degree = degree;
+    if (degree < 1 || degree > kMaxNurbsDegree) {
+      return obvid::error(ErrorCode::kBadOption, "a degree that there is not")
+          .where("degree")
+          .value(degree);
+    }
+    curve.knots.assign(knots, knots + count + static_cast<size_t>(degree) + 1);
+    for (size_t i = 0; i < count; ++i) {
+      curve.points.push_back({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
+    }
+    if (weights != nullptr) curve.weights.assign(weights, weights + count);
+    const auto found = audit_in_space(curve, context_of(run));
+    OBVID_TRY(found);
+    if (report != nullptr) *report = text_of(space_audit_json(*found));
     return {};
   });
 }

@@ -79,6 +79,7 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"view", text(f.view)},
                 {"step", text(f.step)}});
   }
+  if (known.toolpath) all.insert({{"view", text(w.formats.view)}});
   if (known.check || known.formats) {
     all.insert({{"against", text(w.check.against)}, {"samples", count(w.check.samples)}});
   }

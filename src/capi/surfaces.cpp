@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
@@ -14,8 +15,8 @@
 #include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
 #include "obvid/pipeline/toolpath_job.h"
-#include "obvid/surface_builders/internal/check.h"
 #include "surface_options.h"
+#include "table_files.h"
 
 namespace obvid::capi {
 namespace {
@@ -24,6 +25,7 @@ constexpr SurfaceKnown kSurfaceFiles{.formats = true};
 constexpr SurfaceKnown kChecking{.check = true};
 constexpr SurfaceKnown kSections{.cut = true};
 constexpr SurfaceKnown kMilling{.toolpath = true};
+constexpr SurfaceKnown kCheckFiles{.formats = true, .check = true};
 
 /// What the library reads surfaces from.
 SurfaceInput surface_input(const obvid_input& input) {
@@ -37,6 +39,12 @@ SurfaceInput surface_input(const obvid_input& input) {
   }
   if (input.is_file) return {input.name};  // beside it may lie what belongs to it
   return SurfaceInput::of_text(input.name, input.text);
+}
+
+/// Of lines drawings, as on the command line: by the file that is cut.
+std::string title_of(const obvid_surface& surface) {
+  const std::string file = std::filesystem::path(surface.source).stem().string();
+  return file.empty() ? surface.model.name : file;
 }
 
 /// Patches take parameters of their own knots.
@@ -81,6 +89,7 @@ int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_
     if (surface != nullptr) {
       auto out = std::make_unique<obvid_surface>();
       out->model = std::move(made->model);
+      if (count == 1 && crossing == 0) out->source = inputs[0]->name;
       out->lines = std::move(made->lines);
       out->warnings = std::move(made->warnings);
       *surface = out.release();
@@ -98,6 +107,36 @@ int obvid_surface_check(const obvid_surface* surface, const char* options, const
     const auto check = check_surface(surface->model, request->check, context_of(run));
     OBVID_TRY(check);
     if (report != nullptr) *report = text_of(surface_check_json(surface->model, *check, {}));
+    return {};
+  });
+}
+
+int obvid_surface_check_file(const obvid_surface* surface, const char* options, const char* ending,
+                             const obvid_run* run, obvid_files** files, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    auto request = surface_request_of(options, kCheckFiles);
+    OBVID_TRY(request);
+    const std::string name = ending == nullptr ? "" : ending;
+    const auto format = check_format_of("surface." + name);
+    if (!format) {
+      return fail({ErrorCode::kUnknownFormat, "check writes pictures only", name,
+                   "possible are svg and html; obvid_surface_export has other formats"});
+    }
+    const RunContext context = context_of(run);
+    const auto checked = check_surface(surface->model, request->check, context);
+    OBVID_TRY(checked);
+    request->formats.lines = surface->lines;
+    show_findings(*checked, request->formats);
+    SurfaceExporter exporter(surface->model, request->formats, context);
+    auto out = std::make_unique<obvid_files>();
+    auto text = exporter.text(*format, out->remarks);
+    OBVID_TRY(text);
+    OBVID_TRY(may_go_on(context));
+    out->files.push_back({"", std::move(*text)});
+    for (const auto* more : {&checked->warnings, &exporter.warnings()}) {
+      out->remarks.insert(out->remarks.end(), more->begin(), more->end());
+    }
+    *files = out.release();
     return {};
   });
 }
@@ -142,16 +181,29 @@ int obvid_surface_toolpath(const obvid_surface* surface, const char* options, co
   return guarded(error, [&]() -> Result<void> {
     const auto request = surface_request_of(options, kMilling);
     OBVID_TRY(request);
-    auto made = make_toolpath(surface->model, request->toolpath, context_of(run));
+    const RunContext context = context_of(run);
+    auto made = make_toolpath(surface->model, request->toolpath, context);
     OBVID_TRY(made);
     const auto failed = not_kept(*made);
-    if (report != nullptr) *report = text_of(toolpath_report_json(*made, {}));
+    std::unique_ptr<obvid_files> out;
     if (files != nullptr) {
-      auto out = std::make_unique<obvid_files>();
-      out->remarks = made->warnings;
-      out->files.push_back({"", std::move(made->path.program.text)});
-      *files = out.release();
+      out = std::make_unique<obvid_files>();
+      SurfaceExportOptions formats = request->formats;
+      formats.lines = drawn(made->path);
+      SurfaceExporter exporter(surface->model, formats, context);
+      auto texts = files_in_table(&pipeline_detail::FormatRow::toolpath,
+                                  [&](FileFormat format) -> Result<std::string> {
+                                    if (format == FileFormat::kGcode)
+                                      return made->path.program.text;
+                                    return exporter.text(format, out->remarks);
+                                  });
+      OBVID_TRY(texts);
+      out->files = std::move(*texts);
+      out->remarks.insert(out->remarks.begin(), made->warnings.begin(), made->warnings.end());
     }
+    OBVID_TRY(may_go_on(context));
+    if (report != nullptr) *report = text_of(toolpath_report_json(*made, {}));
+    if (files != nullptr) *files = out.release();
     if (failed) return fail(*failed);
     return {};
   });
@@ -169,17 +221,47 @@ int obvid_surface_cut(const obvid_surface* surface, const char* options, const o
     std::unique_ptr<obvid_files> out;
     if (files != nullptr) {
       out = std::make_unique<obvid_files>();
-      const Sketch sketch = lines_drawing(*made, surface->model.name);
-      out->files.push_back({".json", surface_cut_json(*made, {}, true, &watch)});
-      out->files.push_back({".csv", sections_csv(*made, &watch)});
-      out->files.push_back({".svg", sketch_svg(sketch, &watch)});
-      out->files.push_back({".dxf", sketch_dxf(sketch, &watch)});
+      auto texts = files_in_table(&pipeline_detail::FormatRow::sections, [&](FileFormat format) {
+        return sections_file(format, *made, title_of(*surface), context);
+      });
+      OBVID_TRY(texts);
+      out->files = std::move(*texts);
       out->remarks = made->warnings;
     }
     const std::string text = report == nullptr ? "" : surface_cut_json(*made, {}, false, &watch);
     if (watch.cancelled()) return fail(cancelled_error());
     if (report != nullptr) *report = text_of(text);
     if (files != nullptr) *files = out.release();
+    if (const auto failed = not_proved(*made)) return fail(*failed);
+    return {};
+  });
+}
+
+int obvid_surface_branches(const obvid_surface* surface, const char* options, const char* ending,
+                           const obvid_run* run, obvid_files** files, obvid_error** error) {
+  return guarded(error, [&]() -> Result<void> {
+    const auto request = surface_request_of(options, kSections);
+    OBVID_TRY(request);
+    const std::string name = ending == nullptr ? "" : ending;
+    const auto format = branch_format_of("branch." + name, request->cut.fair.has_value());
+    OBVID_TRY(format);
+    const RunContext context = context_of(run);
+    auto made = cut_surface(surface->model, request->cut, context);
+    OBVID_TRY(made);
+    auto out = std::make_unique<obvid_files>();
+    for (const BranchPlace& place : branches_of(*made)) {
+      auto one = branch_file(*made, place, *format, context);
+      OBVID_TRY(one);
+      for (ExportedFile& file : one->files) {
+        out->files.push_back({place.id + file.suffix, std::move(file.text)});
+      }
+      for (const auto* more : {&one->remarks, &one->warnings}) {
+        for (const std::string& told : *more) out->remarks.push_back(place.id + ": " + told);
+      }
+    }
+    out->remarks.insert(out->remarks.end(), made->warnings.begin(), made->warnings.end());
+    OBVID_TRY(may_go_on(context));
+    *files = out.release();
     if (const auto failed = not_proved(*made)) return fail(*failed);
     return {};
   });

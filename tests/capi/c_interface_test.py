@@ -45,6 +45,7 @@ lib = C.CDLL(LIBRARY)
 lib.obvid_version.restype = C.c_char_p
 lib.obvid_contour_length.restype = C.c_double
 lib.obvid_contour_pieces.restype = C.c_size_t
+lib.obvid_joint_limit.restype = C.c_double
 lib.obvid_files_count.restype = C.c_size_t
 lib.obvid_files_data.restype = C.c_void_p
 lib.obvid_space_length.restype = C.c_double
@@ -652,6 +653,62 @@ class Contours(unittest.TestCase):
         lib.obvid_contour_free(contour)
 
 
+def arcs_between(start, end):
+    """Both boundaries of a region: rows of x, y, heading, curvature, length."""
+    rows, counts = (C.c_double * 20)(), (C.c_size_t * 2)()
+    call(lib.obvid_region_arcs, (C.c_double * 4)(*start), (C.c_double * 4)(*end), rows, counts)
+    each = [list(rows[5 * k:5 * k + 5]) for k in range(counts[0] + counts[1])]
+    return each[:counts[0]], each[counts[0]:]
+
+
+def along_arc(row):
+    """Point and heading at the end of an arc."""
+    x, y, heading, kappa, length = row
+    middle, half = heading + 0.5 * kappa * length, 0.5 * kappa * length
+    reach = length * (math.sin(half) / half if half else 1.0)
+    return x + reach * math.cos(middle), y + reach * math.sin(middle), heading + kappa * length
+
+
+class Regions(unittest.TestCase):
+    """A boundary is made of one of the osculating circles and of the arc that touches it and the other element."""
+
+    def test_have_boundaries_that_touch(self):
+        def spiral(t):  # logarithmic: the curvature falls
+            r = math.exp(0.2 * t)
+            return r * math.cos(t), r * math.sin(t), t + math.atan2(1, 0.2), 1 / (r * math.hypot(1, 0.2))
+        for a, b in ((0.0, 0.6), (0.3, 1.5), (2.0, 2.2)):
+            for start, end in ((spiral(a), spiral(b)),
+                               (tuple(f(*spiral(b)) for f in (lambda x, y, h, k: x, lambda x, y, h, k: y,
+                                                              lambda x, y, h, k: h + math.pi, lambda x, y, h, k: -k)),
+                                tuple(f(*spiral(a)) for f in (lambda x, y, h, k: x, lambda x, y, h, k: y,
+                                                              lambda x, y, h, k: h + math.pi, lambda x, y, h, k: -k)))):
+                first, second = arcs_between(start, end)
+                self.assertEqual((len(first), len(second)), (2, 2))
+                self.assertAlmostEqual(first[0][3], start[3], places=12)
+                self.assertAlmostEqual(second[1][3], end[3], places=12)
+                for arcs in (first, second):
+                    at = start[:3]
+                    for row in arcs:
+                        self.assertAlmostEqual(row[0], at[0], places=10)
+                        self.assertAlmostEqual(row[1], at[1], places=10)
+                        self.assertAlmostEqual(math.remainder(row[2] - at[2], 2 * math.pi), 0, places=9)
+                        self.assertGreater(row[4], 0)
+                        at = along_arc(row)
+                    for found, wanted in zip(at[:2], end[:2]):
+                        self.assertAlmostEqual(found, wanted, places=10)
+                    self.assertAlmostEqual(math.remainder(at[2] - end[2], 2 * math.pi), 0, places=9)
+
+    def test_are_none_where_no_such_curve_is(self):
+        self.assertEqual(arcs_between((0, 0, 0, 0), (10, 0, 0.5, 0.2)), ([], []))  # it leaves along the chord and turns to the left
+        with self.assertRaises(Failed) as refused:
+            arcs_between((0, 0, math.nan, 0), (1, 0, 0, 0))
+        self.assertEqual(refused.exception.code, 303)
+
+    def test_limit_of_joints(self):
+        """docs/methods/certify.md: heading and curvature 1e-6."""
+        self.assertEqual(lib.obvid_joint_limit(), 1e-6)
+
+
 class CurvesInSpace(unittest.TestCase):
     def at(self, space, part, places):
         n = len(places)
@@ -702,6 +759,55 @@ class CurvesInSpace(unittest.TestCase):
             self.assertAlmostEqual(bend, r / steep**2, places=8)
             self.assertAlmostEqual(torsion, pitch / steep**2, places=6)
         lib.obvid_space_free(space)
+
+    def audited(self, degree, knots, rows, weights=None):
+        out = C.c_void_p()
+        numbers = [(C.c_double * len(some))(*some) if some else None
+                   for some in (knots, [x for row in rows for x in row], weights)]
+        return json.loads(call(lib.obvid_space_audit, degree, C.c_size_t(len(rows)), *numbers, None, C.byref(out),
+                               report=out))
+
+    def test_audit_finds_the_vertices_of_an_inclined_ellipse(self):
+        """Half axes a and b along two directions of space, in four quarters, from its middle: vertices where the
+        axes end, curvatures a / b^2 and b / a^2."""
+        a, b, h = 5.0, 2.0, math.sqrt(0.5)
+        one, two = (0.6, 0.0, 0.8), (0.0, 1.0, 0.0)
+
+        def at(x, y):
+            return tuple(a * x * p + b * y * q for p, q in zip(one, two))
+        turned = [(h * (x - y), h * (x + y)) for x, y in
+                  ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0))]
+        found = self.audited(2, [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], [at(x, y) for x, y in turned], [1, h] * 4 + [1])
+        self.assertEqual((found["vertices"], found["joints"], found["steps"]), (4, 3, 0))
+        for place, (x, y) in zip(found["places"], ((0, 1), (-1, 0), (0, -1), (1, 0))):
+            for ours, theirs in zip(place["point"], at(x, y)):
+                self.assertAlmostEqual(ours, theirs, places=6)
+            self.assertAlmostEqual(place["curvature"], a / b**2 if x else b / a**2, places=12)
+        self.assertAlmostEqual(found["largest_curvature"], a / b**2, places=9)
+
+    def test_audit_tells_the_largest_curvature_between_its_places(self):
+        """A parabola from an end to an end: d1 x d2 is constant, d1 shortest where d1 . d2 = 0, at t = 8/17."""
+        found = self.audited(2, [0, 0, 0, 1, 1, 1], [(0, 0, 0), (1, 2, 0), (2, 0, 1)])
+        t = 8 / 17
+        d1, d2 = (2.0, 4 - 8 * t, 2 * t), (0.0, -8.0, 2.0)
+        turned = (d1[1] * d2[2] - d1[2] * d2[1], d1[2] * d2[0] - d1[0] * d2[2], d1[0] * d2[1] - d1[1] * d2[0])
+        self.assertAlmostEqual(found["largest_curvature"], math.hypot(*turned) / math.hypot(*d1)**3, places=12)
+        self.assertAlmostEqual(found["places"][0]["parameter"], t, places=6)
+
+    def test_audit_tells_joints_that_are_not_g2(self):
+        """Two lines at a right angle; a parabola that goes on from a line with curvature 1/2."""
+        corner = self.audited(1, [0, 0, 1, 2, 2], [(0, 0, 0), (3, 0, 0), (3, 0, 4)])
+        self.assertEqual((corner["joints"], corner["steps"], corner["vertices"]), (1, 1, 0))
+        self.assertAlmostEqual(corner["largest_turn"], 0.5 * math.pi, places=12)
+        bent = self.audited(2, [0, 0, 0, 1, 1, 2, 2, 2], [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0), (4, 0, 1)])
+        self.assertEqual((bent["joints"], bent["steps"], bent["vertices"]), (1, 1, 1))  # it bends most where it begins
+        self.assertAlmostEqual(bent["largest_turn"], 0, places=12)
+        self.assertAlmostEqual(bent["largest_curvature"], 0.5, places=12)  # d2 = (0, 0, 2), d1 = (2, 0, 0)
+        self.assertAlmostEqual(bent["largest_step"], 1, places=12)
+        for degree, knots in ((0, [0, 1, 1, 1]), (2, [0, 0, 1, 1, 0, 1])):
+            with self.assertRaises(Failed) as refused:
+                self.audited(degree, knots, [(0, 0, 0), (1, 0, 0), (2, 1, 0)])
+            self.assertEqual(refused.exception.category, 2)
 
     def test_what_is_refused(self):
         def refused(code, work):

@@ -204,6 +204,11 @@ class Reports(unittest.TestCase):
                 c.call(c.lib.obvid_verify_space, space, None, C.byref(out), report=out)))
             c.lib.obvid_space_free(space)
 
+    def test_of_audits_in_space(self):
+        knots, xyz, out = (C.c_double * 6)(0, 0, 0, 1, 1, 1), (C.c_double * 9)(0, 0, 0, 1, 2, 0, 2, 0, 1), C.c_void_p()
+        self.holds("space_audit", json.loads(c.call(c.lib.obvid_space_audit, 2, C.c_size_t(3), knots, xyz, None, None,
+                                                    C.byref(out), report=out)))
+
     def test_of_surfaces(self):
         for kind, paths, options, _ in c.Surfaces("kinds").kinds():
             handle, report, _ = c.surface(kind, [c.read(path) for path in paths], options)
@@ -293,6 +298,8 @@ class Options(unittest.TestCase):
                                                o, None, ref(out), ref(text))
         yield "surface_export", lambda o: c.call(lib.obvid_surface_export, surface, b"stl", o, None, ref(out))
         yield "surface_check", lambda o: c.call(lib.obvid_surface_check, surface, o, None, ref(text))
+        yield "surface_check_file", lambda o: c.call(lib.obvid_surface_check_file, surface, o, b"svg", None, ref(out))
+        yield "surface_branches", lambda o: c.call(lib.obvid_surface_branches, surface, o, b"csv", None, ref(out))
         yield "alignment", lambda o: c.call(lib.obvid_alignment, points, None, o, None, None, ref(out), ref(text))
         yield "compare_curves", lambda o: c.call(lib.obvid_compare_curves, inputs, C.c_size_t(1), o, None, ref(out), ref(text))
         yield "spline", lambda o: c.call(lib.obvid_spline, points, None, o, None, None, None, None, ref(text))

@@ -62,7 +62,8 @@ OWN_SURFACES = [("skin", ["surfaces/wigley_stations.csv"], []),
                 ("grid", ["surfaces/wavy_grid.csv"], []),
                 ("revolve", ["surfaces/vase_profile.csv"], []),
                 ("ruled", ["surfaces/vase_profile.csv"], ["--apex", "0,50,90"])]
-CARRIERS = ["spiral", "arcs", "conics", "beziers", "clothoids", "bspline", "cubic", "baseline"]
+CARRIERS = re.findall(r"^OBVID_CARRIER\(k\w+, (\w+),", (pathlib.Path(__file__).resolve().parents[2] /
+                      "include/obvid/curve/carriers.inc").read_text(encoding="utf-8"), re.MULTILINE)
 NOT_MONOTONE = ["cubic", "baseline", "imported"]  # they promise no monotone curvature
 CONTINUOUS = 1e-6  # rad, and of the curvature: gaps up to it are called none (docs/claims.md)
 SECONDS_OF_A_RUN = 120

@@ -65,9 +65,13 @@ class Carriers(unittest.TestCase):
     def test_of_other_languages_and_documents_are_those_of_the_table(self):
         formed = [name for _, name, is_formed in entries() if is_formed]
         self.assertGreater(len(formed), 7)
-        self.assertEqual(self.listed("web/studio/src/document/document.ts", r"CARRIERS: readonly Carrier\[\] =\s*\[(.*?)\]"), formed)
-        self.assertEqual(self.listed("tests/cli/figures_agree.py", r"CARRIERS = \[(.*?)\]"), formed)
-        self.assertEqual(self.listed("tools/make_papers", r"CARRIERS = \[(.*?)\]"), formed)
+        self.assertEqual(self.listed("web/studio/src/document/document.ts", r"CARRIERS =\s*\[(.*?)\] as const"), formed)
+        for reads in ("tests/cli/figures_agree.py", "tests/cli/report_page_test.py", "tools/make_papers"):
+            self.assertIn("carriers.inc", (ROOT / reads).read_text(encoding="utf-8"))
+        self.assertEqual(self.listed("docs/schema/parts.schema.json", r'"carrier": \{"enum": \[(.*?)\]'),
+                         [name for _, name, _ in entries()])
+        self.assertEqual(self.listed("bindings/python/obvid/jobs.py", r" carrier: \"spiral\"( .*?)\.\n"), ["default", *formed[1:]])
+        self.assertEqual([name for name in self.listed("docs/cli.md", r"\| `--carrier NAME` \| curve family: (.*?);") if name != "or"], formed)
         self.assertEqual(self.listed("docs/c.md", r"\| `carrier` \| text: (.*?) \|"), formed)
         rows = re.findall(r"^\| `(\w+)` \|", (ROOT / "docs/carriers.md").read_text(encoding="utf-8"), re.MULTILINE)
         self.assertEqual(rows, [name for _, name, _ in entries()])
@@ -78,6 +82,17 @@ class Carriers(unittest.TestCase):
                     re.findall(r", (\w+),(?: \.about = \"[^\"]*\",)? \.monotone = (true|false)", text)}
         self.assertEqual(set(promised), {name for _, name, _ in entries()})
         self.assertEqual(set(re.findall(r'"(\w+)"', silent)), {name for name, says in promised.items() if not says})
+
+    def test_batches_and_pages_have_units_and_carriers_of_the_tables(self):
+        table = (ROOT / "src/core/units.cpp").read_text(encoding="utf-8")
+        lengths = [name for name, metres in re.findall(r'Row\{"(\w+)", ([0-9.e]+)', table) if float(metres) > 0]
+        self.assertGreater(len(lengths), 11)
+        self.assertEqual(self.listed("web/studio/src/view/panels.tsx", r"const UNITS = \[(.*?)\]"), [*lengths, "chord"])
+        batch = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "src/batch").glob("*.cpp")))
+        self.assertIn("kFormedCarriers", batch)
+        for _, name, formed in entries():
+            if formed and name not in ("spiral", "arcs"):  # alignments have arcs, too
+                self.assertNotIn(f'"{name}"', batch)
 
 
 if __name__ == "__main__":

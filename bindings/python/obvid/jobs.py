@@ -501,6 +501,66 @@ def region(points: Points, **options: Any) -> Table:
     return Table(tuple(values["segments"]), values)
 
 
+#: An arc of a boundary: x, y, heading and curvature where it begins (0: a line), and its length.
+BoundaryArc = Tuple[float, float, float, float, float]
+
+
+def region_arcs(
+    start: Sequence[float], end: Sequence[float]
+) -> Optional[Tuple[List[BoundaryArc], List[BoundaryArc]]]:
+    """Both boundaries of the region between two elements (x, y, heading in rad, curvature), each as one or
+    two arcs from `start` to `end`; None where no curve of monotone curvature has these elements.
+
+    >>> import obvid
+    >>> first, second = obvid.region_arcs((0, 0, 0.3, 0.0), (10, 0, -0.4, -0.2))
+    >>> [len(first), len(second), first[0][3], second[-1][3]]
+    [2, 2, 0.0, -0.2]
+    """
+    given = [(C.c_double * 4)(*map(float, element)) for element in (start, end)]
+    arcs, counts, error = (C.c_double * 20)(), (C.c_size_t * 2)(), C.POINTER(ErrorStruct)()
+    if lib.obvid_region_arcs(*given, arcs, counts, C.byref(error)):
+        raise raise_error(error)
+    if not (counts[0] and counts[1]):
+        return None
+    rows: List[BoundaryArc] = [
+        (arcs[k], arcs[k + 1], arcs[k + 2], arcs[k + 3], arcs[k + 4]) for k in range(0, 5 * (counts[0] + counts[1]), 5)
+    ]
+    return rows[: counts[0]], rows[counts[0] :]
+
+
+def space_audit(
+    points: npt.ArrayLike, knots: Sequence[float], degree: int, weights: Optional[Sequence[float]] = None
+) -> Json:
+    """The curvature of a NURBS curve in space, n x 3 control points: "places" of its extrema, "steps" at joints that are
+    not G2, "largest_turn", "largest_step", "largest_curvature". Found at places of each span, not proved.
+
+    >>> import obvid
+    >>> obvid.space_audit([(0, 0, 0), (1, 2, 0), (2, 0, 1)], [0, 0, 0, 1, 1, 1], 2)["vertices"]
+    1
+    """
+    flat = np.ascontiguousarray(points, dtype=np.float64)
+    if flat.ndim != 2 or flat.shape[1] != 3:
+        raise ValueError("control points are an array of n x 3 numbers")
+    if len(knots) != len(flat) + degree + 1 or (weights is not None and len(weights) != len(flat)):
+        raise ValueError("a curve of n points has n + degree + 1 knots, and n weights")
+    at, of = np.ascontiguousarray(knots, dtype=np.float64), None
+    if weights is not None:
+        of = np.ascontiguousarray(weights, dtype=np.float64)
+    said, error = C.c_void_p(), C.POINTER(ErrorStruct)()
+    code = lib.obvid_space_audit(
+        degree, len(flat), at.ctypes.data, flat.ctypes.data, None if of is None else of.ctypes.data, None,
+        C.byref(said), C.byref(error),
+    )  # fmt: skip
+    if code:
+        raise raise_error(error)
+    values: Json = json.loads(taken_text(said) or "{}")
+    return values
+
+
+#: Headings (rad) and curvatures (of the largest) of a joint that differ by less are one.
+JOINT_LIMIT: float = lib.obvid_joint_limit()
+
+
 def worksheet(
     points: Points, path: Union[str, "os.PathLike[str]"], **options: Any
 ) -> List[str]:

@@ -12,6 +12,7 @@
 #include "obvid/core/run_context.h"
 #include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/import.h"
+#include "obvid/pipeline/internal/titled_contour.h"
 #include "obvid/report/stored_contour.h"
 #include "obvid/series/point_series.h"
 
@@ -91,6 +92,20 @@ struct AlignmentReport {
 
 /// What is read of the points of an alignment: heights too.
 [[nodiscard]] ImportOptions with_heights(ImportOptions import);
+
+/// What reading warned of: of the heights of a file, then of the points.
+[[nodiscard]] std::vector<std::string> warnings_of_reading(const PointSeries& series,
+                                                           const AlignmentJob& job);
+
+/// The alignment as formats of contours write it, with all that there is to warn of. `input`: what
+/// its points were read from.
+[[nodiscard]] TitledContour titled_contour(const AlignmentReport& made, const PointSeries& series,
+                                           const AlignmentJob& job, const std::string& input);
+
+/// What formats of contours do not write for it: .csv (elements) and .svg (over the stations).
+/// Nothing of others.
+[[nodiscard]] std::optional<std::string> alignment_file(FileFormat format,
+                                                        const AlignmentReport& made);
 
 /// Station, offset (to the left positive) and coordinates of each point; with a profile also height
 /// and its offset (upwards positive), those of a file in rows of their own.

@@ -66,6 +66,14 @@ struct CurveInput {
                                                      const CurvesJob& job = {},
                                                      const RunContext& run = {});
 
+/// Names curves by the files that they were read from, one for each; files of one name keep their
+/// folders, and what was read from none ("") keeps its name.
+void name_curves(const std::vector<std::string>& files, std::vector<ComparedCurve>& curves);
+
+/// What keeps the figures from saying more: curves that are no airfoils beside others that are, and
+/// chords that differ.
+[[nodiscard]] std::vector<std::string> comparison_notes(const CurveComparison& compared);
+
 /// One row for each place: where it is, and how far each other curve is from it.
 [[nodiscard]] DataTable curves_rows(const CurveComparison& compared);
 /// Figures of all curves and deviations; docs/formats.md.

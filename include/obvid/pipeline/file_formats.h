@@ -24,6 +24,15 @@ enum class FileFormat {
 [[nodiscard]] std::optional<FileFormat> space_format_of(std::string_view path);
 [[nodiscard]] std::optional<FileFormat> toolpath_format_of(std::string_view path);
 [[nodiscard]] std::optional<FileFormat> cut_format_of(std::string_view path);
+/// Of alignments what their contours do not have; of analyses and comparisons; of checks and
+/// sections of surfaces, of proofs, of splines, and of those of two variables.
+[[nodiscard]] std::optional<FileFormat> alignment_format_of(std::string_view path);
+[[nodiscard]] std::optional<FileFormat> table_format_of(std::string_view path);
+[[nodiscard]] std::optional<FileFormat> check_format_of(std::string_view path);
+[[nodiscard]] std::optional<FileFormat> sections_format_of(std::string_view path);
+[[nodiscard]] std::optional<FileFormat> proof_format_of(std::string_view path);
+[[nodiscard]] std::optional<FileFormat> spline_format_of(std::string_view path);
+[[nodiscard]] std::optional<FileFormat> graph_format_of(std::string_view path);
 
 /// ".json (contour), .svg (picture), ...": for help and errors.
 [[nodiscard]] std::string known_endings();

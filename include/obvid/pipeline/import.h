@@ -103,4 +103,8 @@ struct ImportOptions {
                                                const ImportOptions& options = {},
                                                const RunContext& run = {});
 
+/// The points of a text that is a list of them, never a drawing, moved as `options` say.
+[[nodiscard]] Result<PointSeries> parse_point_list(const std::string& text, const std::string& name,
+                                                   const ImportOptions& options = {});
+
 }  // namespace obvid

@@ -9,6 +9,7 @@
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/picture/surface_svg.h"
+#include "obvid/pipeline/surface_export.h"
 #include "obvid/pipeline/surface_job.h"
 #include "obvid/surface/surface.h"
 #include "obvid/surface_builders/internal/check.h"
@@ -43,6 +44,9 @@ struct CheckedSurface {
 [[nodiscard]] Result<CheckedSurface> check_surface(const SurfaceModel& model,
                                                    const SurfaceCheckJob& job,
                                                    const RunContext& run = {});
+
+/// Pictures and pages show what was found: distances, and where curvature is largest.
+void show_findings(const CheckedSurface& checked, SurfaceExportOptions& formats);
 
 /// The same without the check: for pictures alone.
 [[nodiscard]] Result<SurfaceDeviation> measured_against(const SurfaceModel& model,

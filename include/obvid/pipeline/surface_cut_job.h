@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/exchange/internal/sketch.h"
+#include "obvid/pipeline/export.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/report/stored_contour.h"
 #include "obvid/surface/surface.h"
@@ -81,6 +83,29 @@ struct MadeSurfaceCut {
 
 /// E501 where contours are formed but not proved, else the first that was refused.
 [[nodiscard]] std::optional<Error> not_proved(const MadeSurfaceCut& made);
+
+/// One branch of one section; in file names by its id, "waterline-1-2".
+struct BranchPlace {
+  std::size_t section = 0;
+  std::size_t branch = 0;
+  std::string id;
+};
+/// All branches, in their order.
+[[nodiscard]] std::vector<BranchPlace> branches_of(const MadeSurfaceCut& made);
+/// Whether a branch is written in the format: where branches became contours any of theirs, else
+/// its points (.csv). Error: E202.
+[[nodiscard]] Result<FileFormat> branch_format_of(std::string_view path, bool fair);
+/// Points or contour of one branch as a file; no files where its contour was refused. Errors: those
+/// of `export_contour`.
+[[nodiscard]] Result<Exported> branch_file(const MadeSurfaceCut& made, const BranchPlace& place,
+                                           FileFormat format, const RunContext& run = {});
+/// All sections: .json and .csv (points), .svg and .dxf (lines drawing, `title` above it). Errors:
+/// E202; E103.
+[[nodiscard]] Result<std::string> sections_file(FileFormat format, const MadeSurfaceCut& made,
+                                                const std::string& title,
+                                                const RunContext& run = {});
+/// E202: which files there are of them.
+[[nodiscard]] Error no_such_sections();
 
 // Under watch, a text that was cancelled is worth nothing.
 

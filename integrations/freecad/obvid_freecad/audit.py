@@ -9,11 +9,6 @@ import Part
 from . import feature, geometry, preferences, sources
 from .fair_curve import FairCurve, counted
 
-#: Steps of a comb in space between which an extremum is looked for, on each piece.
-SAMPLES = 64
-#: Swings of sampled curvature below this share of the largest are rounding.
-SWING = 1e-9
-
 
 class Edge:
     """What was found about one edge."""
@@ -43,24 +38,13 @@ def audit_in_plane(edges, plane):
 
 
 def audit_in_space(edge):
-    """An edge of no plane: extrema of the sampled curvature."""
+    """An edge of no plane: the library looks at places of its spans."""
     curve = geometry.bspline_of_edge(edge)
-    knots = curve.getKnots()
-    at = [a + (b - a) * k / SAMPLES for a, b in zip(knots, knots[1:]) for k in range(SAMPLES)] + [knots[-1]]
-    bends = [curve.curvature(u) for u in at]
-    least, places, direction, extreme, where = SWING * max(bends), [], 0, bends[0], at[0]
-    for u, bend in zip(at[1:], bends[1:]):
-        step = bend - extreme
-        if direction == 0:
-            direction = (step > least) - (step < -least)
-        elif direction * step < -least:
-            places.append(curve.value(where))
-            direction, extreme, where = -direction, bend, u
-            continue
-        if direction * step >= 0:
-            extreme, where = bend, u
-    _, turn, step = geometry.joint_gaps(curve)
-    return Edge(len(places), 0, int(turn > 1e-6 or step > 1e-6), places, False)
+    poles = [(p.x, p.y, p.z) for p in curve.getPoles()]
+    knots = geometry.flat_knots(curve.getKnots(), curve.getMultiplicities())
+    found = obvid.space_audit(poles, knots, curve.Degree, curve.getWeights())
+    places = [FreeCAD.Vector(*place["point"]) for place in found["places"]]
+    return Edge(found["vertices"], 0, found["steps"], places, False)
 
 
 def points_behind(item, edges):

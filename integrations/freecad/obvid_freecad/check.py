@@ -9,7 +9,7 @@ from . import audit, fair_curve, feature, geometry, sources
 from .fair_curve import FairCurve, counted
 
 #: A joint is G2 below this: direction in rad, curvature as share of the largest.
-G2 = 1e-6
+G2 = obvid.JOINT_LIMIT
 
 
 class Finding:

@@ -10,33 +10,6 @@ import Part
 from . import fair_curve, feature, sources
 from .fair_curve import CONTOUR, SOURCES, FairCurve, figure
 
-#: Two curvatures are one, and a region has no width, below this share of the larger.
-SAME = 1e-12
-
-
-def other_curvature(start, end, kappa):
-    """Curvature of the second of two arcs that touch: the first begins at `start` with `kappa`, the second
-    meets `end`. Elements are (x, y, heading). None where there is none."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    n0, n1 = (-math.sin(start[2]), math.cos(start[2])), (-math.sin(end[2]), math.cos(end[2]))
-    across0, across1 = dx * n0[0] + dy * n0[1], dx * n1[0] + dy * n1[1]
-    below = 2.0 * across0 - kappa * (dx * dx + dy * dy)
-    # |c0 - c1|^2 = (1/k0 - 1/k1)^2 with centres on the normals, freed of its denominators
-    above = 2.0 * kappa * across1 + 2.0 * (1.0 - (n0[0] * n1[0] + n0[1] * n1[1]))
-    return above / below if below != 0.0 else None
-
-
-def joint(start, end, first, second):
-    """Where both arcs touch, and the direction there."""
-    t = [math.cos(start[2]), math.sin(start[2]), math.cos(end[2]), math.sin(end[2])]
-    if abs(second - first) <= SAME * max(abs(first), abs(second)):
-        return None
-    # t(p) = t0 + kappa J (p - p0), J the left turn: at the joint both arcs say the same
-    px = (first * start[0] - second * end[0] + t[3] - t[1]) / (first - second)
-    py = (first * start[1] - second * end[1] - t[2] + t[0]) / (first - second)
-    tangent = (t[0] - first * (py - start[1]), t[1] + first * (px - start[0]))
-    return px, py, tangent
-
 
 def arc(a, tangent, b):
     """The arc from a to b that leaves along a tangent; a line where it does not bend."""
@@ -53,35 +26,24 @@ def arc(a, tangent, b):
     return Part.Arc(begin, middle, end).toShape()
 
 
-def boundary(start, end, kappa, kappa_end, from_start):
-    """Edges of a boundary: both arcs from start to end."""
-    if from_start:
-        first, second = kappa, other_curvature(start, end, kappa)
-    else:
-        back = other_curvature((-end[0], -end[1], end[2]), (-start[0], -start[1], start[2]), -kappa_end)
-        first, second = (None if back is None else -back), kappa_end
-    if first is None or second is None:
-        return None
-    tangent = (math.cos(start[2]), math.sin(start[2]))
-    met = joint(start, end, first, second)
-    if met is None:
-        return [arc(start[:2], tangent, end[:2])]
-    px, py, along = met
-    edges = [arc(start[:2], tangent, (px, py)), arc((px, py), along, end[:2])]
-    return [edge for edge in edges if edge is not None]
+def edges_between(arcs, end):
+    """Edges of a boundary, of arcs as the library tells them."""
+    begins = [row[:2] for row in arcs] + [end]
+    made = [arc(a, (math.cos(row[2]), math.sin(row[2])), b) for a, b, row in zip(begins, begins[1:], arcs)]
+    return [edge for edge in made if edge is not None]
 
 
 def face_of_segment(before, behind):
     """The face between both boundaries of a segment, or None where it is flat."""
-    start, end = ((*e["point"], e["heading"]) for e in (before, behind))
     if before["kappa"] is None or behind["kappa"] is None:
         return None
-    one = boundary(start, end, before["kappa"], behind["kappa"], True)
-    other = boundary(start, end, before["kappa"], behind["kappa"], False)
-    if not one or not other:
+    start, end = ((*e["point"], e["heading"], e["kappa"]) for e in (before, behind))
+    found = obvid.region_arcs(start, end)
+    if found is None:
         return None
+    edges = [edge for arcs in found for edge in edges_between(arcs, end[:2])]
     try:
-        return Part.Face(Part.Wire(Part.__sortEdges__(one + other)))
+        return Part.Face(Part.Wire(Part.__sortEdges__(edges)))
     except Part.OCCError:
         return None
 

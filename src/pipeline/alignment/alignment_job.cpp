@@ -344,4 +344,32 @@ std::string alignment_json(const AlignmentReport& report) {
   return json.take();
 }
 
+std::vector<std::string> warnings_of_reading(const PointSeries& series, const AlignmentJob& job) {
+  std::vector<std::string> out;
+  if (job.heights) out = job.heights->warnings;
+  out.insert(out.end(), series.warnings.begin(), series.warnings.end());
+  return out;
+}
+
+TitledContour titled_contour(const AlignmentReport& made, const PointSeries& series,
+                             const AlignmentJob& job, const std::string& input) {
+  TitledContour out;
+  out.stored = made.stored;
+  out.name = made.name;
+  out.source = input;
+  out.first_station = made.alignment.elements.front().station;
+  out.transitions = made.transitions;
+  if (made.profile) out.profile = made.profile->profile;
+  out.picture = {series.name, alignment_verdict(made)};
+  out.warnings = warnings_of_reading(series, job);
+  out.warnings.insert(out.warnings.end(), made.warnings.begin(), made.warnings.end());
+  return out;
+}
+
+std::optional<std::string> alignment_file(FileFormat format, const AlignmentReport& made) {
+  if (format == FileFormat::kPicture) return alignment_picture(made);
+  if (format != FileFormat::kSamples) return std::nullopt;
+  return csv_text(element_rows(made.alignment.elements, made.limit));
+}
+
 }  // namespace obvid

@@ -7,8 +7,8 @@
 
 namespace obvid {
 
-Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options,
-                                   const std::string& where, const RunContext& run) {
+Result<TitledContour> drawn_contour(Drawing drawing, const ImportOptions& options,
+                                    const std::string& where, const RunContext& run) {
   place(options.placement, drawing);
   const auto chosen = chosen_curve(drawing, options.curve, where);
   OBVID_TRY(chosen);
@@ -18,7 +18,8 @@ Result<DrawnContour> drawn_contour(Drawing drawing, const ImportOptions& options
         .where(where)
         .hint("use `obvid fit`, --drawing exact for its edges, or --curve N for another one");
   }
-  DrawnContour out;
+  TitledContour out;
+  out.source = where;
   out.warnings = drawing.warnings;
   (is_guessed(drawing, options.curve) ? out.warnings : out.remarks)
       .push_back(where + ": " + chosen_text(drawing, *chosen, options.curve.asked()));

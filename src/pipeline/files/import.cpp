@@ -668,4 +668,11 @@ Result<PointSeries> read_series(const std::string& path, const ImportOptions& op
   return points_of_drawing(*drawing, options, path);
 }
 
+Result<PointSeries> parse_point_list(const std::string& text, const std::string& name,
+                                     const ImportOptions& options) {
+  Result<PointSeries> list = parse_points(text, name, options.list);
+  if (list) place(options.placement, *list);
+  return list;
+}
+
 }  // namespace obvid

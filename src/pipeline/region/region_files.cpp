@@ -15,6 +15,7 @@
 #include "obvid/curve/internal/flatten.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/page_text.h"
+#include "obvid/pipeline/internal/region_boundaries.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/region/internal/boundary_distance.h"
 #include "obvid/region/internal/convex_triangle.h"
@@ -264,17 +265,8 @@ class WorksheetDrawing {
   }
 
   static void add_arcs(SketchLayer& to, const PlacedBoundaries& r, const Boundary& b) {
-    for (const Piece& piece : boundary_arcs(r.frame, b)) {
-      if (const auto* line = std::get_if<LinePiece>(&piece)) {
-        to.pieces.emplace_back(LinePiece{in_plane(r, line->start), in_plane(r, line->end)});
-        continue;
-      }
-      const auto& arc = std::get<ArcPiece>(piece);
-      // shorter than coordinates tell
-      if (in_plane(r, arc.start) == in_plane(r, arc.end)) continue;
-      to.pieces.emplace_back(ArcPiece{in_plane(r, arc.start), in_plane(r, arc.end),
-                                      heading(r.along) + arc.theta0, arc.kappa, arc.length});
-    }
+    const std::vector<Piece> arcs = boundary_in_plane(r, b);
+    to.pieces.insert(to.pieces.end(), arcs.begin(), arcs.end());
   }
 
   void add_magnified(const PlacedBoundaries& r) {

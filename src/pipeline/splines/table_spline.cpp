@@ -34,9 +34,9 @@ Result<TableSpline> of_two_variables(const NamedTable& table,
 
 Result<std::string> grid_file(const GridSplineReport& report, const std::string& path,
                               std::size_t samples) {
-  const std::string ending = ending_of(path);
-  if (ending == ".json") return grid_spline_json(report);
-  if (ending == ".csv") {
+  const auto format = graph_format_of(path);
+  if (format == FileFormat::kContour) return grid_spline_json(report);
+  if (format == FileFormat::kSamples) {
     const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(samples)));
     return grid_spline_csv(report, std::max<std::size_t>(side, 2));
   }
@@ -47,11 +47,11 @@ Result<std::string> grid_file(const GridSplineReport& report, const std::string&
 
 Result<std::string> curve_file(const SplineReport& report, const std::string& path,
                                std::size_t samples) {
-  const std::string ending = ending_of(path);
-  if (ending == ".csv") return spline_samples_csv(report, samples);
-  if (ending == ".json") return spline_report_json(report);
-  if (ending == ".svg") return spline_svg(report);
-  if (ending == ".dxf") return spline_dxf(report);
+  const auto format = spline_format_of(path);
+  if (format == FileFormat::kSamples) return spline_samples_csv(report, samples);
+  if (format == FileFormat::kContour) return spline_report_json(report);
+  if (format == FileFormat::kPicture) return spline_svg(report);
+  if (format == FileFormat::kDxf) return spline_dxf(report);
   return error(ErrorCode::kUnknownFormat, "spline writes no such file")
       .where(path)
       .hint("possible are .csv, .json, .svg and .dxf");
@@ -101,8 +101,7 @@ Result<std::string> table_spline_file(const TableSpline& spline, const std::stri
 }
 
 bool is_graph_file(const TableSpline& spline, const std::string& path) {
-  const std::string ending = ending_of(path);
-  return std::holds_alternative<GridSplineReport>(spline) && ending != ".csv" && ending != ".json";
+  return std::holds_alternative<GridSplineReport>(spline) && !graph_format_of(path);
 }
 
 Result<std::optional<SurfaceModel>> table_spline_graph(const TableSpline& spline) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/surface_check_job.h"
 
+#include "obvid/pipeline/internal/surface_report_json.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -112,6 +114,11 @@ Result<CheckedSurface> check_surface(const SurfaceModel& model, const SurfaceChe
   OBVID_TRY(deviation);
   out.deviation = std::move(*deviation);
   return out;
+}
+
+void show_findings(const CheckedSurface& checked, SurfaceExportOptions& formats) {
+  if (checked.deviation) formats.deviation = checked.deviation->shown;
+  if (!checked.check.patches.empty()) formats.extremes = extremes_of(checked.check);
 }
 
 }  // namespace obvid

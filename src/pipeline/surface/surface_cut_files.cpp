@@ -140,4 +140,66 @@ std::string branch_csv(const MadeSurfaceCut& made, std::size_t section, std::siz
   return out;
 }
 
+std::vector<BranchPlace> branches_of(const MadeSurfaceCut& made) {
+  std::vector<BranchPlace> out;
+  for (std::size_t i = 0; i < made.sections.size(); ++i) {
+    const MadeSection& section = made.sections[i];
+    for (std::size_t k = 0; k < section.section.branches.size(); ++k) {
+      out.push_back({i, k, fmt::format("{}-{}", section.id, k + 1)});
+    }
+  }
+  return out;
+}
+
+Result<FileFormat> branch_format_of(std::string_view path, bool fair) {
+  const auto format = format_of(path);
+  if (!fair) {
+    if (format == FileFormat::kSamples) return *format;
+    return error(ErrorCode::kUnknownFormat, "points of branches are written as .csv")
+        .where(std::string(path))
+        .hint("--fair EPS makes contours of them, in all formats of contours");
+  }
+  if (format) return *format;
+  return error(ErrorCode::kUnknownFormat, "no format of contours has this file extension")
+      .where(std::string(path))
+      .hint("possible are " + known_endings());
+}
+
+Result<Exported> branch_file(const MadeSurfaceCut& made, const BranchPlace& place,
+                             FileFormat format, const RunContext& run) {
+  OBVID_TRY(may_go_on(run));
+  const MadeSection& section = made.sections[place.section];
+  if (section.fair.empty()) {
+    return Exported{{{"", branch_csv(made, place.section, place.branch)}}, {}, {}};
+  }
+  const FairBranch& fair = section.fair[place.branch];
+  if (fair.error) return Exported{};
+  return export_contour(fair.stored, format, {}, run);
+}
+
+Result<std::string> sections_file(FileFormat format, const MadeSurfaceCut& made,
+                                  const std::string& title, const RunContext& run) {
+  Watch watch(run);
+  std::string text;
+  if (format == FileFormat::kContour) {
+    text = surface_cut_json(made, {}, true, &watch);
+  } else if (format == FileFormat::kSamples) {
+    text = sections_csv(made, &watch);
+  } else if (format == FileFormat::kPicture) {
+    text = sketch_svg(lines_drawing(made, title), &watch);
+  } else if (format == FileFormat::kDxf) {
+    text = sketch_dxf(lines_drawing(made, title), &watch);
+  } else {
+    return fail(no_such_sections());
+  }
+  if (watch.cancelled()) return fail(cancelled_error());
+  return text;
+}
+
+Error no_such_sections() {
+  return {ErrorCode::kUnknownFormat, "sections are not written in this format", "",
+          "possible are .json and .csv (points), .svg and .dxf (lines drawing), and names with "
+          "{id}, a file for each branch"};
+}
+
 }  // namespace obvid

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/pipeline/compare_curves.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <utility>
 #include <variant>
 
 #include "obvid/core/files.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/exchange/internal/points/airfoil.h"
 #include "obvid/io/internal/file_kind.h"
@@ -173,6 +177,40 @@ Result<CurveInput> parse_curve(const std::string& text, const std::string& name,
                          [&] { return parse_series(text, name, how.import, run); },
                          [&] { return Result<std::string>(text); }};
   return curve_from(source, how, run);
+}
+
+void name_curves(const std::vector<std::string>& files, std::vector<ComparedCurve>& curves) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    names.push_back(std::filesystem::path(files[i]).filename().string());
+    if (!names[i].empty()) curves[i].name = names[i];
+  }
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (names[i].empty()) continue;
+    if (std::count(names.begin(), names.end(), names[i]) > 1) curves[i].name = files[i];
+  }
+}
+
+std::vector<std::string> comparison_notes(const CurveComparison& compared) {
+  const auto is_airfoil = [](const ComparedCurve& curve) { return curve.airfoil.has_value(); };
+  std::vector<std::string> out;
+  if (!compared.airfoils &&
+      std::any_of(compared.curves.begin(), compared.curves.end(), is_airfoil)) {
+    for (const ComparedCurve& curve : compared.curves) {
+      if (!curve.airfoil) out.push_back(curve.name + ": " + curve.no_airfoil);
+    }
+  }
+  if (!compared.airfoils || !compared.on_one_chord.empty()) return out;
+  constexpr double kOneChord = 1e-3;  // chords that differ by more are told
+  const AirfoilFigures& first = *compared.curves.front().airfoil;
+  for (const ComparedCurve& curve : compared.curves) {
+    const double ratio = curve.airfoil->chord / first.chord;
+    if (std::abs(ratio - 1.0) <= kOneChord) continue;
+    out.push_back(
+        fmt::format("the chord of {} is {} times that of {}; --align chord compares the shapes",
+                    curve.name, significant(ratio, 4), compared.curves.front().name));
+  }
+  return out;
 }
 
 Result<CurveComparison> compare_curves(std::vector<ComparedCurve> curves, const CurvesJob& job,

@@ -11,6 +11,7 @@
 #include "obvid/pipeline/compare.h"
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/export.h"
+#include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/internal/refusal.h"
 #include "obvid/pipeline/trade_off.h"
 
@@ -48,6 +49,32 @@ namespace obvid {
 /// known.
 [[nodiscard]] Result<std::string> refusal_file(FileFormat format, const Refusal& refusal,
                                                const std::string& name, const RunContext& run = {});
+
+/// What pages are called, and what they say was asked for; empty: nothing.
+struct ReportTitles {
+  std::string title;
+  std::string asked{};
+};
+
+/// "line", "arc", "bezier", "clothoid".
+[[nodiscard]] const char* piece_type(const Piece& piece);
+/// What is wrong with a piece, as a figure for choosing rows: the undecided come first. From 2 on
+/// the parameters in question are told.
+[[nodiscard]] double proof_trouble(const PieceProof& proof);
+/// A row for each piece.
+[[nodiscard]] DataTable proof_rows(const Contour& contour, const Certificate& certificate);
+/// The claims of a file beside what was found now.
+[[nodiscard]] FigureRows verification_figures(const StoredContour& stored,
+                                              const Verification& found);
+[[nodiscard]] std::string verification_verdict(const StoredContour& stored,
+                                               const Verification& found);
+/// .json, .csv (table of pieces) and .html (page). Error: E202.
+[[nodiscard]] Result<std::string> verification_file(FileFormat format, const StoredContour& stored,
+                                                    const Verification& found,
+                                                    const ReportTitles& titles,
+                                                    const RunContext& run = {});
+/// E202: which files there are of it.
+[[nodiscard]] Error no_such_answer();
 
 /// .nc (the program), .svg and .dxf (drawings of the paths), .csv (table of outlines).
 [[nodiscard]] Result<std::string> cut_file(FileFormat format, const MadeCut& made,

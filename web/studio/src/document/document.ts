@@ -17,10 +17,9 @@ export interface Given {
   readonly corner?: boolean;
 }
 
-export type Carrier =
-  | "spiral" | "arcs" | "conics" | "beziers" | "clothoids" | "bspline" | "cubic" | "baseline";
-export const CARRIERS: readonly Carrier[] =
-  ["spiral", "arcs", "conics", "beziers", "clothoids", "bspline", "cubic", "baseline"];
+export const CARRIERS =
+  ["spiral", "arcs", "conics", "beziers", "clothoids", "bspline", "cubic", "baseline"] as const;
+export type Carrier = (typeof CARRIERS)[number];
 
 export type Prefer = "fair" | "centre" | "least-change" | "least-curvature";
 export const PREFER: readonly Prefer[] = ["fair", "centre", "least-change", "least-curvature"];

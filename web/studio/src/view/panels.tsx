@@ -13,7 +13,7 @@ import { headingAt } from "./paint";
 import { DEGREES, figure, inFirstTurn } from "../words/figures";
 import { words } from "../words/words";
 
-const UNITS = ["um", "mm", "cm", "m", "km", "in", "ft", "usft", "yd", "mi", "chord"];
+const UNITS = ["nm", "um", "mm", "cm", "dm", "m", "km", "mil", "in", "ft", "usft", "yd", "mi", "chord"];
 
 function Row(props: { label: string; hint?: string; children: ComponentChildren }) {
   return <label title={props.hint ?? ""}><span>{props.label}</span>{props.children}</label>;
