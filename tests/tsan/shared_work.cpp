@@ -21,7 +21,7 @@ int main() {
     int asked = 0;  // by the calling thread alone: a race if others asked, too
     const RunContext run{obvid::Progress{}, [&] { return ++asked > round; }};
     std::vector<int> begun(64, 0);
-    const auto ended = in_parallel(begun.size(), 4, run, [&](std::size_t i, const RunContext& own) {
+    const auto ended = in_parallel(begun.size(), with_threads(run, 4), [&](std::size_t i, const RunContext& own) {
       ++begun[i];
       while (round < 8 && may_go_on(own)) {
       }
