@@ -9,7 +9,6 @@
 
 #include "obvid/core/internal/data_table.h"
 #include "obvid/core/units.h"
-#include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/end_curvatures.h"
 #include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/internal/lines_and_arcs.h"
@@ -93,8 +92,8 @@ std::string lines_and_arcs_text(const Contour& contour) {
     const bool line = one.kappa == 0.0;
     table.row({fmt::format("{}-{}", one.from + 1, one.to + 1), radius_text(one.kappa),
                line ? "-" : significant(one.centre.x), line ? "-" : significant(one.centre.y),
-               significant(principal_angle(one.theta) / kOneDegree), significant(one.length),
-               significant(one.off, 4)});
+               significant(std::remainder(one.theta, kFullTurn) / kOneDegree),
+               significant(one.length), significant(one.off, 4)});
   }
   return table.text() + shown_note(shown.size(), all.size(), "farthest", "lines and arcs") + "\n";
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/core/units.h"
-#include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/region_table.h"
 
 #include <fmt/format.h>
@@ -57,13 +56,15 @@ std::string measured(const std::optional<double>& length, int digits = kWidthDig
   return length ? significant(*length, digits) : "-";
 }
 
-std::string heading_text(double theta) { return degrees_text(principal_angle(theta) / kOneDegree); }
+std::string heading_text(double theta) {
+  return degrees_text(std::remainder(theta, kFullTurn) / kOneDegree);
+}
 
 /// Both ends near the heading that was taken, so that they can be compared; an end that the points
 /// leave open is marked.
 std::array<std::string, 2> heading_range(const RegionPoint& p) {
   if (!p.headings) return {"-", "-"};
-  const double turns = principal_angle(p.theta) - p.theta;
+  const double turns = std::remainder(p.theta, kFullTurn) - p.theta;
   const auto text = [&](double theta, bool open) {
     return degrees_text((theta + turns) / kOneDegree) + (open ? "*" : "");
   };
