@@ -6,6 +6,7 @@
 
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/geom/element.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid::alignment {
 
@@ -50,7 +51,7 @@ struct Sought {
 
 /// From one heading to another.
 [[nodiscard]] inline double turn_between(Plane plane, double from, double to) {
-  return plane == Plane::kMap ? std::remainder(to - from, 2.0 * std::numbers::pi) : to - from;
+  return plane == Plane::kMap ? obvid::turn_between(from, to) : to - from;
 }
 
 /// From the start of an element to its place at `s`, where its curvature is `kappa1`.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "obvid/alignment/internal/transition_law.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid::alignment {
 namespace {
@@ -95,7 +96,7 @@ bool allows(const Passage& passage, HeadingRange headings, double rounded) {
   if (half > 0.5 * kHalfTurn + rounded) return false;
   if (passage.any) return true;
   const double middle = 0.5 * (headings.low + headings.high);
-  const double off = std::remainder(middle - passage.heading, 2.0 * std::numbers::pi);
+  const double off = obvid::turn_between(passage.heading, middle);
   return std::abs(off) + half <= passage.most + rounded;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "link_model.h"
+#include "obvid/geom/internal/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,6 @@ constexpr double kExistenceReserve = 1.05;
 /// Up to this angle the Taylor polynomials below are exact to rounding (0.2^13/13! < 2^-60); most
 /// headings differ less from the adjacent circle's, and the library's sine costs three times more.
 constexpr double kTaylorReach = 0.2;
-double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
-
 }  // namespace
 
 LinkModel::LinkModel(const ChainProblem& problem)
@@ -112,7 +111,7 @@ void LinkModel::set_fixed(const ChainProblem& problem) {
     const NodeData& data = problem.nodes[i];
     if (data.theta) {
       n.fix_phi = true;
-      n.phi = wrapped(*data.theta - tangent(i));
+      n.phi = turn_between(tangent(i), *data.theta);
     }
     if (data.kappa) {
       n.fix_p = true;
@@ -157,7 +156,7 @@ std::vector<double> LinkModel::from_elements(const std::vector<Element>& element
   std::vector<double> x(2 * nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
-    x[2 * i] = node.fix_phi ? node.phi : wrapped(elements[i].theta - tangent(i));
+    x[2 * i] = node.fix_phi ? node.phi : turn_between(tangent(i), elements[i].theta);
     x[2 * i + 1] = node.fix_p ? node.p : (elements[i].kappa - node.kappa) * node.length;
   }
   return x;

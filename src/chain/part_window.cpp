@@ -19,7 +19,6 @@ constexpr std::size_t kLookedAt = 2;
 }  // namespace
 
 void turn_to(const std::vector<Element>& chain, const PartWindow& slice, ChainSolution& solved) {
-  constexpr double kFullTurn = 2.0 * std::numbers::pi;
   const std::size_t k = slice.from_start ? slice.last : slice.first;  // a held one
   const double by =
       std::round((chain[k].theta - solved.elements[k - slice.first].theta) / kFullTurn) * kFullTurn;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "obvid/chain/internal/chain_part.h"
+#include "obvid/geom/internal/angle.h"
 #include "part_window.h"
 #include "slope_solver.h"
 
@@ -260,7 +261,6 @@ class Slopes {
 
   void take(const SlopeSolver& solver, const SlopeProblem& problem,
             const SlopeSolver::Outcome& found, SmoothedSlopes& out) {
-    constexpr double kFullTurn = 2.0 * std::numbers::pi;
     std::vector<Element> elements = solver.elements(points_);
     const double turns =
         std::round((work_.elements.front().theta - elements.front().theta) / kFullTurn) * kFullTurn;
@@ -421,7 +421,7 @@ std::optional<std::size_t> across_from_seam(const SeriesChain& loop) {
 /// How much an element turned and bent, of the turning of its link.
 double change_of(const Element& a, const Element& b, const LinkState& link) {
   const double turn = std::max(std::abs(link.sigma), std::abs(link.beta - link.alpha));
-  const double heading = std::remainder(a.theta - b.theta, 2.0 * std::numbers::pi);
+  const double heading = turn_between(b.theta, a.theta);
   return (std::abs(heading) + std::abs(a.kappa - b.kappa) * link.h) / turn;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/curve/contour.h"
+#include "obvid/geom/internal/angle.h"
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +10,7 @@ namespace obvid {
 bool is_corner(const Joint& joint) {
   if (!joint.leaving) return false;
   const double turn = joint.leaving->theta - joint.element.theta;
-  return !(std::abs(std::remainder(turn, 2.0 * std::numbers::pi)) <= kTangentTurn);
+  return !(std::abs(principal_angle(turn)) <= kTangentTurn);
 }
 
 std::optional<Carrier> carrier_of(std::string_view name) {
@@ -77,7 +78,7 @@ bool goes_on(const Contour& contour, std::size_t i) {
   if (a == nullptr || b == nullptr) return false;
   const double turn =
       joint != nullptr && joint->leaving ? joint->leaving->theta - joint->element.theta : 0.0;
-  return std::abs(std::remainder(turn, 2.0 * std::numbers::pi)) <= kSameCircle &&
+  return std::abs(principal_angle(turn)) <= kSameCircle &&
          std::abs(a->kappa - b->kappa) <= kSameCircle * std::abs(b->kappa);
 }
 

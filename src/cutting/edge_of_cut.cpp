@@ -8,6 +8,7 @@
 
 #include "edges.h"
 #include "obvid/curve/internal/flatten.h"
+#include "obvid/geom/internal/angle.h"
 #include "offset_path.h"
 
 namespace obvid {
@@ -77,7 +78,7 @@ class EdgeOfCut {
   /// On the side that a corner turns away from.
   void around_corner(const Piece& before, const Piece& behind) {
     const double from = heading_at_end(before), to = heading_at_start(behind);
-    const double turn = std::remainder(to - from, 2.0 * std::numbers::pi);
+    const double turn = turn_between(from, to);
     if (std::abs(turn) * radius_ <= within_ * kInside) return;
     around(end_point(before), from + (turn > 0.0 ? -kQuarterTurn : kQuarterTurn), turn);
   }

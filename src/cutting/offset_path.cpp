@@ -12,6 +12,7 @@
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/cutting/cutting.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/geom/internal/circle.h"
 
 namespace obvid::cutting {
@@ -51,7 +52,7 @@ std::optional<double> place_on(const Piece& piece, Vec2 point) {
     const ArcPiece& a = arc_of(piece);
     const Vec2 centre = centre_of(a);
     double turn = turning(a.start - centre, point - centre);
-    const double whole = a.kappa * a.length, full = 2.0 * std::numbers::pi;
+    const double whole = a.kappa * a.length, full = kFullTurn;
     if (whole > 0.0 && turn < -kBeyond * whole) turn += full;
     if (whole < 0.0 && turn > -kBeyond * whole) turn -= full;
     place = turn / whole;
@@ -98,8 +99,8 @@ std::vector<Vec2> crossings(const Piece& a, const Piece& b) {
                        std::abs(1.0 / arc_of(b).kappa));
 }
 
-double turn_between(const Piece& before, const Piece& behind) {
-  return std::remainder(heading_at_start(behind) - heading_at_end(before), 2.0 * std::numbers::pi);
+double turn_at_joint(const Piece& before, const Piece& behind) {
+  return turn_between(heading_at_end(before), heading_at_start(behind));
 }
 
 /// Parallels of the pieces, with the places where neighbours do not meet.
@@ -148,7 +149,7 @@ class ParallelOf {
 
   void turn_at(const Piece& before, const Piece& behind) {
     const double theta = heading_at_end(before);
-    const double turn = turn_between(before, behind);
+    const double turn = turn_at_joint(before, behind);
     if (std::abs(turn) <= kSmooth) return;
     if (turn * by_ > 0.0) {  // towards the tool
       links_.back().gap_behind = true;
@@ -274,7 +275,7 @@ class ParallelOf {
 }  // namespace
 
 bool is_smooth(const Piece& before, const Piece& behind) {
-  return std::abs(turn_between(before, behind)) <= kSmooth;
+  return std::abs(turn_at_joint(before, behind)) <= kSmooth;
 }
 
 double heading_at_start(const Piece& piece) {

@@ -203,8 +203,7 @@ class Builder {
           std::abs(found.front().kappa) * (found.front().before + found.front().after);
       if (turn < std::numbers::pi) return;  // a line, or a circle that would swing out to close
       // from the first of its points all round
-      found.front().after =
-          2.0 * std::numbers::pi / std::abs(found.front().kappa) - found.front().before;
+      found.front().after = kFullTurn / std::abs(found.front().kappa) - found.front().before;
       knots_ = {{order.front(), order.back(), found.front()}};
       lay_nodes();
       return;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "build_tube.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/series/analysis.h"
 
 namespace obvid::fairing_detail {
@@ -23,10 +24,10 @@ State on_adjacent_circles(const Tube& tube, const ExactSeries& series) {
   State out(kPerNode * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     const TubeNode& node = tube.nodes[i];
-    const double theta = i + 1 == n ? chords[i - 1].omega + circles[i].eta_in
-                                    : chords[i].omega - circles[i].eta_out;
+    const double theta =
+        i + 1 == n ? chords[i - 1].omega + circles[i].eta_in : chords[i].omega - circles[i].eta_out;
     if (!node.fix_theta) {
-      out[kPerNode * i + 1] = std::remainder(theta - node.theta, 2.0 * std::numbers::pi);
+      out[kPerNode * i + 1] = turn_between(node.theta, theta);
     }
     if (!node.fix_kappa) out[kPerNode * i + 2] = (circles[i].kappa - node.kappa) * node.length;
   }
@@ -109,8 +110,8 @@ std::vector<Draft> changed(const Draft& draft, Change change, std::size_t link) 
     Draft early = draft;
     insert(early, link, one, one);
     Draft late = early;
-    insert(early, link, one, other);      // one, other | one
-    insert(late, link + 1, other, one);   // one | other, one
+    insert(early, link, one, other);     // one, other | one
+    insert(late, link + 1, other, one);  // one | other, one
     return {std::move(early), std::move(late)};
   }
   Draft rises = draft;

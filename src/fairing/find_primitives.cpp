@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "node_ends.h"
+#include "obvid/core/units.h"
 #include "primitive_joints.h"
 
 namespace obvid::fairing_detail {
@@ -249,7 +250,7 @@ class Finder {
   [[nodiscard]] double foot_near(const Primitive& p, std::size_t i, double along) const {
     const double foot = foot_on(p, s_.points[i]);
     if (p.kappa == 0.0) return foot;
-    const double turn = 2.0 * std::numbers::pi / std::abs(p.kappa);
+    const double turn = kFullTurn / std::abs(p.kappa);
     return foot + turn * std::round((along - foot) / turn);
   }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "number_rows.h"
+#include "obvid/core/units.h"
 #include "text_digits.h"
 #include "text_lines.h"
 #include "text_number.h"
@@ -48,11 +49,11 @@ std::optional<BladeStation> station_in(const text::Fields& fields,
     if (!number) return std::nullopt;
     value[k] = *number;
   }
-  constexpr double kDegree = std::numbers::pi / 180.0;
   constexpr double kMostAirfoils = 1e6;
   const bool counted = value[5] >= 1.0 && value[5] <= kMostAirfoils;
-  return BladeStation{value[0],           value[1], value[2],
-                      value[3] * kDegree, value[4], counted ? static_cast<int>(value[5]) : 0};
+  return BladeStation{value[0], value[1],
+                      value[2], value[3] * kOneDegree,
+                      value[4], counted ? static_cast<int>(value[5]) : 0};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "obvid/core/files.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/io/internal/repeated_heights.h"
 #include "read_points_raw.h"
 #include "text_kind.h"
@@ -76,8 +77,7 @@ void mark_corners(RawPoints& raw) {
     fixed.emplace_back();
   }
   const double turn = raw.fixed.front().theta.value_or(0.0) - raw.fixed.back().theta.value_or(0.0);
-  if (points.front() == points.back() &&
-      std::abs(std::remainder(turn, 2.0 * std::numbers::pi)) > kCorner) {
+  if (points.front() == points.back() && std::abs(principal_angle(turn)) > kCorner) {
     fixed.front().corner = fixed.back().corner = true;
   }
   raw.points = std::move(points);

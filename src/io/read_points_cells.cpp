@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/core/units.h"
 #include "read_points_reader.h"
 
 namespace obvid {
@@ -112,8 +113,7 @@ Result<std::optional<ValueRange>> RowReader::read_heading_range(string_view line
                       "apart",
                       {line, fields_.cell[*column].data()}));
   }
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  return std::optional(ValueRange{range.low * kDegree, range.high * kDegree});
+  return std::optional(ValueRange{range.low * kOneDegree, range.high * kOneDegree});
 }
 
 Result<std::optional<ValueRange>> RowReader::read_curvature_range(string_view line) {

@@ -143,9 +143,8 @@ std::vector<Piece> boundary_arcs(const ChordFrame& f, const Boundary& b) {
   const TwoArcs arcs(f, b);
   for (const Arc* arc : {&arcs.first, &arcs.second}) {
     const double turn = turning(arc->start_tangent, arc->end_tangent);
-    const double whole = arc->over_half && turn * arc->kappa < 0.0
-                             ? std::copysign(2.0 * std::numbers::pi, arc->kappa)
-                             : 0.0;
+    const double whole =
+        arc->over_half && turn * arc->kappa < 0.0 ? std::copysign(kFullTurn, arc->kappa) : 0.0;
     add(arc->start, arc->end, arc->start_tangent, turn + whole, arc->kappa);
   }
   return out;

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "obvid/core/internal/watch.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/region/internal/feasible_data.h"
 #include "range_middle.h"
 
 namespace obvid {
 namespace {
 
-constexpr double kOneTurn = 2.0 * std::numbers::pi;
 /// Headings that are tried when that in the middle of the range does not close.
 constexpr int kHeadingTrials = 32;
 constexpr int kEndHalvings = 30;
@@ -33,9 +33,9 @@ class LoopTurn {
       : n_(links.size()), all_links_(links), all_nodes_(nodes), all_wanted_(wanted), watch_(watch) {
     double turn = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
-      turn += std::remainder(links[(i + 1) % n_].omega - links[i].omega, kOneTurn);
+      turn += turn_between(links[i].omega, links[(i + 1) % n_].omega);
     }
-    turn_ = kOneTurn * std::round(turn / kOneTurn);
+    turn_ = kFullTurn * std::round(turn / kFullTurn);
   }
 
   Nodes run() {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/core/units.h"
 #include "obvid/region/internal/segment_region.h"
 
 namespace obvid::region_detail {
@@ -38,7 +39,7 @@ enum class Turning {
     return std::max(off(one, kappa_first), off(other, kappa_second));
   };
   double least = against(first, second);
-  for (const double whole : {-2.0 * std::numbers::pi, 2.0 * std::numbers::pi}) {
+  for (const double whole : {-kFullTurn, kFullTurn}) {
     const double one = theta + whole - alpha, other = beta - theta - whole;
     if (against(one, other) >= least || (inflection && least < kNoRounding)) continue;
     least = against(one, other);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "obvid/core/units.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/series/internal/forced_vertices.h"
 
@@ -381,8 +382,8 @@ std::vector<Chord> measure_chords(const std::vector<Vec2>& points) {
     double omega = principal;
     if (i > 0) {
       const double expected = chords[i - 1].omega + turning(before, e);
-      const double turns = std::round((expected - principal) / (2.0 * std::numbers::pi));
-      omega = principal + turns * 2.0 * std::numbers::pi;
+      const double turns = std::round((expected - principal) / (kFullTurn));
+      omega = principal + turns * kFullTurn;
     }
     chords[i] = {norm(e), omega};
     before = e;

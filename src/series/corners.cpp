@@ -6,13 +6,12 @@
 #include <limits>
 #include <optional>
 
+#include "obvid/core/units.h"
 #include "obvid/series/analysis.h"
 #include "obvid/series/internal/sections.h"
 
 namespace obvid {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A turn counts as explained when three times what the neighbourhood foretells reach it: sampled
 /// tips of ellipses and leading edges of the public airfoils stay below two and a half.
@@ -25,12 +24,12 @@ constexpr double kGradedSpacing = 0.75;
 /// Above this turn a point is a corner however its neighbours are spaced: no leading edge of the
 /// public airfoils turns by more than 156 degrees at one point, no closed sharp trailing edge by
 /// less than 162.
-constexpr double kSharpTurn = 150.0 * kDegree;
+constexpr double kSharpTurn = 150.0 * kOneDegree;
 /// A neighbour that turns by this much, or half the wanted angle, is no calm flank.
-constexpr double kRoughTurn = 15.0 * kDegree;
+constexpr double kRoughTurn = 15.0 * kOneDegree;
 /// Two corners joined by one chord, as at a blunt trailing edge, lie between calm sides; the chord
 /// is this part of those beside it at most, ...
-constexpr double kCalmTurn = 3.0 * kDegree;
+constexpr double kCalmTurn = 3.0 * kOneDegree;
 constexpr double kShortBase = 1.0 / 3.0;
 /// ... or this part of the whole, and both together turn by `kSharpTurn`.
 constexpr double kSmallBase = 0.02;
@@ -50,7 +49,7 @@ constexpr std::size_t kEvenChords = 4;
 /// so close together would have put some there, too, ...
 constexpr double kEdgeChord = 8.0;
 /// ... when it turns by so much there.
-constexpr double kEdgeTurn = 45.0 * kDegree;
+constexpr double kEdgeTurn = 45.0 * kOneDegree;
 /// Points that are looked at one by one before the step doubles.
 constexpr std::size_t kFineSteps = 32;
 constexpr std::size_t kArmChords = 4;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "right_angles.h"
+#include "obvid/core/units.h"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +48,7 @@ std::vector<std::size_t> right_angle_stretches(const std::vector<Disc>& discs) {
   const Vec2 whole = discs.back().centre - discs.front().centre;
   const double zero = heading(whole);
   const auto direction = [&](std::size_t k) {
-    return unit_at(zero + 2.0 * std::numbers::pi * static_cast<double>(k) / kDirections);
+    return unit_at(zero + kFullTurn * static_cast<double>(k) / kDirections);
   };
   for (std::size_t k = 0; k < kQuarter; ++k) {
     const std::array<BackwardSteps, 4> steps = {BackwardSteps(discs, direction(k)),

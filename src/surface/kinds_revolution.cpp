@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "kinds.h"
+#include "obvid/core/units.h"
 
 namespace obvid {
 namespace {
@@ -53,7 +54,7 @@ Result<NurbsForm> nurbs_of(const RevolutionSurface& s, double) {
   if (s.axis_direction == Vec3{}) {
     return error(ErrorCode::kBadOption, "the axis has no direction");
   }
-  constexpr double kFull = 2.0 * std::numbers::pi * (1.0 + 1e-12);  // a full turn, rounded
+  constexpr double kFull = kFullTurn * (1.0 + 1e-12);  // a full turn, rounded
   if (!(std::abs(s.angle) > 0.0 && std::abs(s.angle) <= kFull)) {
     return error(ErrorCode::kBadOption, "the angle must be more than 0 and at most a full turn")
         .value(s.angle);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/core/units.h"
 #include "passes.h"
 
 namespace obvid::toolpath {
@@ -133,7 +134,7 @@ std::vector<Vec2> circle_from(Vec2 start, Vec2 along, double side, double radius
   const Vec2 centre = start - radius * out;
   std::vector<Vec2> ring{start};
   for (double k = 1.0; k < corners; ++k) {
-    const double turn = 2.0 * std::numbers::pi * k / corners;
+    const double turn = kFullTurn * k / corners;
     ring.push_back(centre + radius * (std::cos(turn) * out + std::sin(turn) * along));
   }
   ring.push_back(start);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "obvid/core/internal/parallel.h"
+#include "obvid/core/units.h"
 #include "reach.h"
 
 namespace obvid::toolpath {
@@ -130,7 +131,7 @@ Vec2 Walker::out_of_part(const Place& place) const {
   for (const double part : {0.05, 0.25, 0.5, 1.0}) {
     Vec2 sum;
     for (int k = 0; k < kWaysOut; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / kWaysOut;
+      const double angle = kFullTurn * k / kWaysOut;
       const Vec2 out{std::cos(angle), std::sin(angle)};
       if (part_.surface_over(axis - part * overrun_ * out)) sum = sum + out;
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "obvid/core/units.h"
 #include "sweep.h"
 
 namespace obvid::toolpath {
@@ -71,7 +72,7 @@ class Search {
 
   bool around(Vec2 middle, double radius) {
     for (int k = 0; k < kDirections; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / kDirections;
+      const double angle = kFullTurn * k / kDirections;
       if (look(middle + radius * Vec2{std::cos(angle), std::sin(angle)})) return true;
     }
     return false;

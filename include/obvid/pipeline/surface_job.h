@@ -11,6 +11,7 @@
 
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
+#include "obvid/core/units.h"
 #include "obvid/picture/surface_svg.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/skin_sections.h"
@@ -62,7 +63,7 @@ struct RuledKind {
 struct RevolveKind {
   Vec3 axis_point;
   Vec3 axis_direction{1.0, 0.0, 0.0};
-  double angle = 2.0 * std::numbers::pi;  ///< rad
+  double angle = kFullTurn;  ///< rad
 };
 /// Of four border curves.
 struct CoonsKind {};

@@ -41,7 +41,7 @@ Error hardly_bends(Error error, const Contour& spirals, std::size_t i) {
   error.what = fmt::format(
       "the contour is nearly an arc there (it turns by {:.2g} degrees while its radius changes by "
       "{:.2g} %), which no chain of monotone parabolas follows",
-      std::abs(std::remainder(b.theta - a.theta, kFullTurn)) / kOneDegree,
+      std::abs(turn_between(a.theta, b.theta)) / kOneDegree,
       100.0 * std::abs(b.kappa - a.kappa) / larger);
   return error;
 }

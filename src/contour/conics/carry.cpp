@@ -9,6 +9,7 @@
 #include "obvid/contour/conics.h"
 #include "obvid/curve/internal/end_curvatures.h"
 #include "obvid/curve/internal/runs.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid::contour_detail {
 namespace {
@@ -42,7 +43,7 @@ bool smooth_loop(const Contour& spirals) {
   const Element &first = spirals.joints.front().element, &last = spirals.joints.back().element;
   constexpr double kSameHeading = 1e-9;  // rad: the bound of gaps in certificates
   return first.point == last.point &&
-         std::abs(std::remainder(last.theta - first.theta, 2.0 * std::numbers::pi)) < kSameHeading;
+         std::abs(turn_between(first.theta, last.theta)) < kSameHeading;
 }
 
 /// Which elements keep their headings, and one curvature that the first weight can meet.

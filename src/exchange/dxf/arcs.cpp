@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dxf/arcs.h"
+#include "obvid/core/units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ struct Stations {
 
   [[nodiscard]] double angle(int k) const { return from + sweep * k / count; }
   [[nodiscard]] Vec2 point(int k) const {
-    const bool whole = std::abs(sweep) >= 2.0 * std::numbers::pi;
+    const bool whole = std::abs(sweep) >= kFullTurn;
     return on(frame, k == count && whole ? from : angle(k));
   }
 };

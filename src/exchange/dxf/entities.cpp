@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "dxf/text.h"
+#include "obvid/core/units.h"
 
 namespace obvid::dxf {
 namespace {
@@ -204,7 +205,7 @@ Entity entity_of(std::span<const Tag> tags) {
   entity.type = tags.front().text;
   entity.kind = kind_of(entity.type);
   entity.line = tags.front().line;
-  if (entity.kind == Kind::kEllipse) entity.to = 2.0 * std::numbers::pi;
+  if (entity.kind == Kind::kEllipse) entity.to = kFullTurn;
   EntityReader reader(entity);
   for (const Tag& tag : tags.subspan(1)) reader.read(tag);
   reader.finish();

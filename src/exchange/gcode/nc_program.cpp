@@ -12,6 +12,7 @@
 #include <string>
 
 #include "obvid/core/internal/inch.h"
+#include "obvid/core/units.h"
 
 namespace obvid::exchange {
 namespace {
@@ -178,7 +179,7 @@ class Reader {
     if (std::abs(r0 - r1) > std::max(same, kSameNcRadiusPart * r0)) {
       return bad("its ends are not equally far from the centre");
     }
-    const double whole = 2.0 * std::numbers::pi;
+    const double whole = kFullTurn;
     const double from = std::atan2(at_[b] - cb, at_[a] - ca);
     double turn = std::atan2(end[b] - cb, end[a] - ca) - from;
     if (motion_ == 3 && turn <= 0.0) turn += whole;

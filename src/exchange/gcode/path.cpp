@@ -86,8 +86,7 @@ bool is_one_arc(const ArcPiece& first, const ArcPiece& second) {
   const double length = second.length;
   const double turn = std::abs(first.kappa) * (first.length + length);
   const double step = first.theta0 + first.kappa * first.length - second.theta0;
-  const double off = norm(first.end - second.start) +
-                     std::abs(std::remainder(step, kFullTurn)) * length +
+  const double off = norm(first.end - second.start) + std::abs(principal_angle(step)) * length +
                      0.5 * std::abs(first.kappa - second.kappa) * length * length;
   const double room = kSameCircle * length + kRoundings * (norm(second.start) + norm(second.end));
   return off <= room && turn <= kFullTurn + std::abs(first.kappa) * room;

@@ -44,7 +44,7 @@ bool goes_on_smoothly(const Curved& a, double turn, const Curved& b) {
   constexpr double kApart = 1e-9;   // of both lengths
   constexpr double kGoesOn = 1e-6;  // rad
   return norm(a.end - b.start) <= kApart * (a.length + b.length) &&
-         std::abs(std::remainder(a.theta0 + turn - b.theta0, kFullTurn)) <= kGoesOn;
+         std::abs(turn_between(b.theta0, a.theta0 + turn)) <= kGoesOn;
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ std::optional<PlacedPiece> placed(const StatedSpiral& spiral, std::string& why) 
   const double along = by_chord ? heading(complex_product(chord, {own.x, -own.y})) : 0.0;
   const double to_meeting = spiral.meeting ? heading(*spiral.meeting - c.start) : along;
   c.theta0 = by_chord ? along : to_meeting;
-  if (std::abs(std::remainder(c.theta0 - to_meeting, kFullTurn)) > kAlongTangent) {
+  if (std::abs(turn_between(to_meeting, c.theta0)) > kAlongTangent) {
     out.doubt = "the PI of a Spiral contradicts its start, end, length and radii; it is not used";
   }
   const Vec2 end = c.start + step(c.theta0);

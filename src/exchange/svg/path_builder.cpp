@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "svg/path_builder.h"
+#include "obvid/core/units.h"
 
 #include <fmt/format.h>
 
@@ -122,8 +123,8 @@ void SvgPathBuilder::arc_to(const SvgArc& arc) {
   const double from = heading(chord - centre);
   double sweep = turning(chord - centre, -chord - centre);
   // Half a turn has either sign there; the flag decides.
-  if (arc.sweep && sweep < 0.0) sweep += 2.0 * std::numbers::pi;
-  if (!arc.sweep && sweep > 0.0) sweep -= 2.0 * std::numbers::pi;
+  if (arc.sweep && sweep < 0.0) sweep += kFullTurn;
+  if (!arc.sweep && sweep > 0.0) sweep -= kFullTurn;
   const Affine from_circle = {rx * axis.x, rx * axis.y, -ry * axis.y, ry * axis.x, 0.0, 0.0};
   const Vec2 middle = 0.5 * (here_ + arc.end) + from_circle.point(centre);
   ellipse_arc(middle, from_circle, from, sweep, arc.end);

@@ -54,10 +54,7 @@ double some_value(const ValueRange& range) {
   return std::isinf(range.high) ? range.low : 0.5 * (range.low + range.high);
 }
 
-double in_first_turn(double angle) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  return angle - kTurn * std::floor(angle / kTurn);
-}
+double in_first_turn(double angle) { return angle - kFullTurn * std::floor(angle / kFullTurn); }
 
 /// To a power of ten that is at most `place`.
 double rounded_to_place(double value, double place) {

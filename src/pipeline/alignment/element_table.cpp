@@ -147,7 +147,7 @@ double clothoid_parameter(const AlignmentElement& element) {
 }
 
 double azimuth_deg(double theta) {
-  const double angle = std::remainder(0.5 * std::numbers::pi - theta, kFullTurn) / kOneDegree;
+  const double angle = turn_between(theta, 0.5 * std::numbers::pi) / kOneDegree;
   const double turned = angle < 0.0 ? angle + 360.0 : angle;
   return turned < 360.0 ? turned : 0.0;  // a rounding below north
 }

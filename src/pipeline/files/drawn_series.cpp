@@ -10,6 +10,7 @@
 
 #include "files/drawn_pieces.h"
 #include "obvid/curve/internal/flatten.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/region/internal/refine.h"
 #include "obvid/series/analysis.h"
 #include "obvid/series/internal/sections.h"
@@ -39,10 +40,6 @@ std::vector<Vec2> places_on(const DrawnCurve& curve) {
     for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) out.push_back(evaluate(piece, t).point);
   }
   return out;
-}
-
-double turn_between(double from, double to) {
-  return std::abs(std::remainder(to - from, 2.0 * std::numbers::pi));
 }
 
 class SeriesOfDrawing {
@@ -89,7 +86,7 @@ class SeriesOfDrawing {
     const std::size_t n = pieces_.size();
     const DrawnPiece &before = pieces_[(j + n - 1) % n], &after = pieces_[j];
     const Element in = element_at(before.piece, 1.0), out = element_at(after.piece, 0.0);
-    const double turn = turn_between(in.theta, out.theta);
+    const double turn = std::abs(turn_between(in.theta, out.theta));
     FixedData& fixed = out_.fixed[joint_[j]];
     if (before.kept == after.kept) {
       // between points a search decides about what turns less
@@ -121,7 +118,8 @@ class SeriesOfDrawing {
     const DrawnPiece& first = pieces_[forwards ? j : (j + n - 1) % n];
     const DrawnPiece& second = pieces_[forwards ? (j + 1) % n : (j + n - 2) % n];
     if (!is_chord(first) || !is_chord(second)) return 0.0;
-    return turn_between(element_at(first.piece, 0.0).theta, element_at(second.piece, 0.0).theta);
+    return std::abs(
+        turn_between(element_at(first.piece, 0.0).theta, element_at(second.piece, 0.0).theta));
   }
 
   std::vector<DrawnPiece> pieces_;

@@ -13,6 +13,7 @@
 #include "files/format_writers.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/core/units.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/pipeline/internal/page_text.h"
@@ -92,7 +93,7 @@ std::string lines_and_arcs_table(const Contour& contour) {
         "</tr>\n",
         one.from + 1, one.to + 1, line ? "straight" : significant(1.0 / one.kappa),
         line ? "-" : significant(one.centre.x), line ? "-" : significant(one.centre.y),
-        significant(std::remainder(one.theta, kFullTurn) / kOneDegree), significant(one.length),
+        significant(principal_angle(one.theta) / kOneDegree), significant(one.length),
         significant(one.off, 4));
   }
   return out + "</tbody></table>\n";

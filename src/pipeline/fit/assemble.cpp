@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/assemble.h"
+#include "obvid/geom/internal/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace {
 constexpr double kSameElement = 5e-7;
 
 bool continues(const Element& before, const Element& after) {
-  const double turn = std::remainder(after.theta - before.theta, 2.0 * std::numbers::pi);
+  const double turn = turn_between(before.theta, after.theta);
   const double larger = std::max(std::abs(before.kappa), std::abs(after.kappa));
   return std::abs(turn) <= kSameElement &&
          std::abs(after.kappa - before.kappa) <= kSameElement * larger;

@@ -320,7 +320,7 @@ bool keeps_what_is_given(const SeriesChain& chain, const ChainConstraints& const
     if (!chain.source[e]) continue;
     const FixedData& given = constraints.fixed[*chain.source[e]];
     const Element& at = chain.elements[e];
-    if (given.theta && std::abs(std::remainder(at.theta - *given.theta, kFullTurn)) > kSame) {
+    if (given.theta && std::abs(turn_between(*given.theta, at.theta)) > kSame) {
       return false;
     }
     if (given.kappa && std::abs(at.kappa - *given.kappa) >

@@ -20,7 +20,7 @@ constexpr double kFixedRounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 bool same_heading(double a, double b) {
   const double size = std::max({1.0, std::abs(a), std::abs(b)});  // rad
-  return std::abs(std::remainder(a - b, 2.0 * std::numbers::pi)) <= kFixedRounding * size;
+  return std::abs(turn_between(b, a)) <= kFixedRounding * size;
 }
 
 bool same_curvature(double a, double b) {
@@ -53,7 +53,7 @@ std::string curvature_text(double kappa, FixedBy by) {
 /// Headings count modulo a full turn.
 bool holds(const ValueRange& thetas, double theta) {
   const double middle = 0.5 * (thetas.low + thetas.high), half = 0.5 * (thetas.high - thetas.low);
-  return std::abs(std::remainder(theta - middle, 2.0 * std::numbers::pi)) <=
+  return std::abs(turn_between(middle, theta)) <=
          half + kFixedRounding * std::max(1.0, std::abs(theta));
 }
 

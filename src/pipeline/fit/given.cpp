@@ -10,6 +10,7 @@
 
 #include "obvid/curve/internal/end_curvatures.h"
 #include "obvid/curve/internal/nearest.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/geom/internal/value_range.h"
 #include "obvid/series/point_series.h"
 
@@ -180,7 +181,7 @@ class GivenCheck {
     double miss = 0.0;
     for (const Side& side : sides) {
       const double here = heading(evaluate(*side.piece, side.t).d1);
-      miss = std::max(miss, std::abs(std::remainder(here - theta, 2.0 * std::numbers::pi)));
+      miss = std::max(miss, std::abs(turn_between(theta, here)));
     }
     return miss;
   }

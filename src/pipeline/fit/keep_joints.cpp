@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "obvid/curve/internal/end_curvatures.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -44,9 +45,8 @@ double between(double value, double a, double b, double unit) {
 
 void take(Element& element, const HeadingAndCurvature& left, const HeadingAndCurvature& right) {
   if (!std::isfinite(left.kappa + right.kappa + left.theta + right.theta)) return;
-  const double turn = 2.0 * std::numbers::pi;
-  const double to_left = std::remainder(left.theta - element.theta, turn);
-  const double to_right = std::remainder(right.theta - element.theta, turn);
+  const double to_left = turn_between(element.theta, left.theta);
+  const double to_right = turn_between(element.theta, right.theta);
   element.theta += between(0.0, to_left, to_right, 1.0);
   element.kappa = between(element.kappa, left.kappa, right.kappa,
                           std::max(std::abs(left.kappa), std::abs(right.kappa)));

@@ -7,6 +7,7 @@
 
 #include "fit/form.h"
 #include "fit/parts.h"
+#include "obvid/core/units.h"
 #include "obvid/curve/internal/runs.h"
 #include "obvid/region/internal/boundary_distance.h"
 #include "obvid/region/internal/segment_region.h"
@@ -29,7 +30,7 @@ double distance_from(const ArcPiece& arc, Vec2 p) {
   const double side = std::copysign(1.0, arc.kappa);
   const Vec2 radius = arc.kappa * v - left_normal(ahead);
   double angle = side * turning(-left_normal(ahead), radius);
-  if (angle < 0.0) angle += 2.0 * std::numbers::pi;
+  if (angle < 0.0) angle += kFullTurn;
   if (angle > std::abs(arc.kappa * arc.length)) return std::min(norm(v), norm(p - arc.end));
   // | |p - centre| - R | without the cancellation of a large circle
   return std::abs(dot(v, v) * arc.kappa - 2.0 * dot(v, left_normal(ahead))) / (norm(radius) + 1.0);

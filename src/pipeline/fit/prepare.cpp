@@ -11,6 +11,7 @@
 
 #include "fit/fixed_once.h"
 #include "obvid/core/internal/figures.h"
+#include "obvid/core/units.h"
 #include "obvid/numeric/internal/median.h"
 #include "obvid/series/internal/coarse_polygon.h"
 #include "obvid/series/internal/scatter.h"
@@ -405,14 +406,13 @@ class Preparation {
       return;
     }
     if (all.size() == corners.size()) return;
-    constexpr double kDegree = std::numbers::pi / 180.0;
     out_.polygon = fmt::format(
         "the points turn by {:.0f} degrees, and {} of {} that turn so were not taken for corners: "
         "they may be a coarse curve; --corner-angle {:.0f} makes corners of all of them, "
         "--corner-at "
         "of single ones, --no-corners says that there are none",
-        polygon.turn / kDegree, all.size() - corners.size(), polygon.corners.size(),
-        std::floor(angle / kDegree));
+        polygon.turn / kOneDegree, all.size() - corners.size(), polygon.corners.size(),
+        std::floor(angle / kOneDegree));
     out_.warnings.push_back(out_.polygon);
   }
 

@@ -207,7 +207,7 @@ class SectionChooser {
       if (data.thetas && !data.theta) {
         Passed& one = headings.back();
         one.end = passed_heading(*data.thetas, here.theta);
-        if (one.end) one.by = std::abs(std::remainder(here.theta - *one.end, kFullTurn));
+        if (one.end) one.by = std::abs(turn_between(*one.end, here.theta));
       }
       if (data.kappas && !data.kappa) {
         Passed& one = kappas.back();

@@ -140,7 +140,7 @@ class ConstructionContour {
     const Joint last = out_.joints.back();
     out_.joints.pop_back();
     Joint& first = out_.joints.front();
-    const double turn = std::remainder(last.element.theta - first.element.theta, kFullTurn);
+    const double turn = turn_between(first.element.theta, last.element.theta);
     const std::size_t piece = made_.pieces.size() - 1;
     if (std::abs(turn) <= kSameAtJoint &&
         !steps(piece, last.element.kappa, 0, first.element.kappa)) {

@@ -25,7 +25,7 @@ namespace {
 
 /// Headings of a point by the turn in which its own lies between -180 and 180 degrees.
 struct Degrees {
-  explicit Degrees(double heading) : shift(std::remainder(heading, kFullTurn) - heading) {}
+  explicit Degrees(double heading) : shift(principal_angle(heading) - heading) {}
   double operator()(double angle) const { return (angle + shift) / kOneDegree; }
   double shift;
 };

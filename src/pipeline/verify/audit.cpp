@@ -317,8 +317,7 @@ class Auditor {
   /// not defined on a side.
   bool compare(std::size_t j, const Element& before, const Element& after) {
     const double gap = norm(after.point - before.point);
-    const double turn =
-        std::abs(std::remainder(after.theta - before.theta, 2.0 * std::numbers::pi));
+    const double turn = std::abs(turn_between(before.theta, after.theta));
     const double jump = std::abs(after.kappa - before.kappa);
     const double larger = std::max(std::abs(after.kappa), std::abs(before.kappa));
     AuditPlace place{AuditPlace::Kind::kGap, path_->joint(j), before.point,

@@ -285,7 +285,7 @@ void compare_transitions(const StoredContour& stored, ClaimCheck& c) {
                                       one.length, one.length);
     const double turned = last.theta0 + 0.5 * (last.kappa0 + last.kappa1) * last.length;
     const double off = std::max(norm(end.point - last.end) / one.length,
-                                std::abs(std::remainder(end.theta - turned, kFullTurn)));
+                                std::abs(turn_between(turned, end.theta)));
     if (!(off <= kSameEnd)) {
       c.refuse("distance of the end of transition " + std::to_string(number) +
                    " from its clothoids, of its length or rad",

@@ -9,10 +9,20 @@
 
 namespace obvid {
 
+/// The angle that means the same direction, rad, in [-pi, pi].
+[[nodiscard]] inline double principal_angle(double theta) {
+  return std::remainder(theta, kFullTurn);
+}
+
+/// The turn from one direction to another one, rad, in [-pi, pi]: to the left positive.
+[[nodiscard]] inline double turn_between(double from, double to) {
+  return principal_angle(to - from);
+}
+
 /// The angle that means the same direction as `theta` and lies nearest to another one, rad: at most
 /// half a turn from it.
 [[nodiscard]] inline double nearest_angle(double theta, double to) {
-  return to + std::remainder(theta - to, kFullTurn);
+  return to + turn_between(to, theta);
 }
 
 /// Least and largest of some angles against one direction, rad.
