@@ -69,8 +69,8 @@ OBVID_API void obvid_free(char* text);
 /* ---- progress and cancellation ----------------------------------------------------------------
  */
 
-/* Both functions may be NULL, threads 0, and so may the pointer to a run be NULL. They are called by the thread that
- * called, and must not throw or jump. */
+/* Both functions may be NULL, threads 0, and so may the pointer to a run be NULL. They are called by
+ * the thread that called, and must not throw or jump. */
 typedef struct obvid_run {
   void* user; /* handed back */
   void (*progress)(void* user, const char* stage, double fraction);
