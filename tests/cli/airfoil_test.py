@@ -357,6 +357,14 @@ class Airfoils(unittest.TestCase):
         code, text = self.run_it("convert", "a.json", "-o", "b.dat", "--camber", "0")
         self.assertEqual(code, 0, text)
 
+    def test_a_camber_that_became_0_is_not_undone(self):
+        self.write("a.dat", 1)
+        for more, told in (([], "camber cannot be undone"),
+                           (["--thickness", "10%"], "the thickness is undone by --thickness 0.1")):
+            _, text = self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "b.dat", "--camber", "0", *more)
+            self.assertIn(told, text)
+            self.assertIn("camber cannot be undone", text)
+
     def test_unit_chord_is_undone_by_what_is_printed(self):
         self.write("a.dat")
         place = ["--scale", "250", "--rotate", "20", "--move", "3,4"]

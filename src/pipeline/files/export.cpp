@@ -306,11 +306,15 @@ std::string points_text(const AirfoilPointFigures& f) {
 /// What scaling made of thickness and camber; empty where none was asked for.
 std::string scaled_text(const AirfoilText& made, const AirfoilOptions& asked) {
   const AirfoilFigures& f = made.figures;
-  std::string what, undo;
+  std::string what, undo, lost;
   const auto add = [&](const char* name, const char* option, double from, double scale) {
     what += fmt::format("{}{} {:.3f} % -> {:.3f} %", what.empty() ? "" : ", ", name, 100.0 * from,
                         100.0 * scale * from);
-    if (scale != 0.0) undo += fmt::format(" {} {}", option, from);
+    if (scale != 0.0) {
+      undo += fmt::format(" {} {}", option, from);
+    } else if (from != 0.0) {
+      lost += fmt::format("{}{}", lost.empty() ? "" : " and ", name);
+    }
   };
   if (asked.thickness) add("thickness", "--thickness", f.thickness, made.thickness_scale);
   if (asked.camber) add("camber", "--camber", f.camber, made.camber_scale);
@@ -323,7 +327,8 @@ std::string scaled_text(const AirfoilText& made, const AirfoilOptions& asked) {
     out += fmt::format("; leading edge radius {:.3f} % -> {:.3f} %", 100.0 * f.nose_radius,
                        100.0 * made.thickness_scale * made.thickness_scale * f.nose_radius);
   }
-  out += undo.empty() ? "; not undone by any option" : "; undone by" + undo;
+  if (!undo.empty()) out += (lost.empty() ? "; undone by" : "; the thickness is undone by") + undo;
+  if (!lost.empty()) out += "; " + lost + " cannot be undone: of 0 no factor brings it back";
   return out;
 }
 
