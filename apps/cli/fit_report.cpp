@@ -69,6 +69,22 @@ Table fit_segments(const Fit& fit) {
   return table;
 }
 
+/// Points of a line or arc, in order along the contour; around a whole circle they are all.
+std::string points_on_text(const LineOrArc& one) {
+  constexpr double kOnce = 1.0 - 1e-9;  // of a full turn: rounding
+  if (std::abs(one.kappa) * one.length < kOnce * kFullTurn) {
+    return fmt::format("{}-{}", one.from + 1, one.to + 1);
+  }
+  return fmt::format("all, from {}", one.from + 1);
+}
+
+/// A coordinate of a centre; below the rounding of what it was computed from it is 0.
+std::string centre_text(double value, const LineOrArc& one) {
+  constexpr double kRounding = 1e-14;
+  const double size = 1.0 / std::abs(one.kappa) + norm(one.centre);
+  return significant(std::abs(value) <= kRounding * size ? 0.0 : value);
+}
+
 /// Lines and arcs that several points lie on; empty without any.
 std::string lines_and_arcs_text(const Contour& contour) {
   const std::vector<LineOrArc> all = lines_and_arcs(contour);
@@ -90,8 +106,9 @@ std::string lines_and_arcs_text(const Contour& contour) {
     before = i;
     const LineOrArc& one = all[i];
     const bool line = one.kappa == 0.0;
-    table.row({fmt::format("{}-{}", one.from + 1, one.to + 1), radius_text(one.kappa),
-               line ? "-" : significant(one.centre.x), line ? "-" : significant(one.centre.y),
+    table.row({points_on_text(one), radius_text(one.kappa),
+               line ? "-" : centre_text(one.centre.x, one),
+               line ? "-" : centre_text(one.centre.y, one),
                significant(std::remainder(one.theta, kFullTurn) / kOneDegree),
                significant(one.length), significant(one.off, 4)});
   }

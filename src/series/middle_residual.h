@@ -63,6 +63,45 @@ inline std::optional<MiddleResidual> middle_residual(const std::array<Vec2, 5>& 
   return out;
 }
 
+/// The same from the cubic through the four over the lengths of their chords, which goes around a
+/// nose where one over a straight line does not: distance of the middle point from it between its
+/// neighbours. Nothing where neighbours are one point.
+inline std::optional<MiddleResidual> residual_along_way(const std::array<Vec2, 5>& p) {
+  constexpr std::size_t kOthers = 4;
+  constexpr int kLooks = 16, kHalvings = 40;
+  const std::array<Vec2, kOthers> q = {p[0] - p[2], p[1] - p[2], p[3] - p[2], p[4] - p[2]};
+  std::array<double, kOthers> t{};
+  for (std::size_t k = 1; k < kOthers; ++k) {
+    t[k] = t[k - 1] + norm(q[k] - q[k - 1]);
+    if (!(t[k] > t[k - 1])) return std::nullopt;
+  }
+  const auto at = [&](double u) {
+    MiddleResidual out;
+    Vec2 here{};
+    for (std::size_t k = 0; k < kOthers; ++k) {
+      double weight = 1.0;
+      for (std::size_t j = 0; j < kOthers; ++j) {
+        if (j != k) weight *= (u - t[j]) / (t[k] - t[j]);
+      }
+      here = here + weight * q[k];
+      out.variance += weight * weight;
+    }
+    out.off = norm(here);
+    return out;
+  };
+  double step = (t[2] - t[1]) / kLooks, nearest = t[1];
+  for (int k = 1; k <= kLooks; ++k) {
+    if (at(t[1] + k * step).off < at(nearest).off) nearest = t[1] + k * step;
+  }
+  for (int k = 0; k < kHalvings; ++k, step *= 0.5) {
+    const double here = nearest;
+    for (const double u : {here - 0.5 * step, here + 0.5 * step}) {
+      if (u >= t[1] && u <= t[2] && at(u).off < at(nearest).off) nearest = u;
+    }
+  }
+  return at(nearest);
+}
+
 /// Standard deviation of normal errors from their sizes, by the median; `sizes` is not empty.
 inline double deviation_of(std::vector<double> sizes) {
   constexpr double kNormalPerMedian = 1.4826022185056018;  // 1 / inverse normal of 3/4

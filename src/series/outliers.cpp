@@ -55,6 +55,15 @@ class Search {
     std::sort(out_.points.begin(), out_.points.end(),
               [](const Outlier& a, const Outlier& b) { return a.index < b.index; });
     out_.limit = limit_;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (gone_[i]) continue;
+      const auto r = residual(i);
+      if (!r) {
+        out_.untold.push_back(i);
+      } else if (r->off > limit_ * out_.deviation) {
+        out_.staying.push_back({i, r->off});
+      }
+    }
     return std::move(out_);
   }
 
@@ -89,6 +98,10 @@ class Search {
 
   /// Of a point among those that are left.
   [[nodiscard]] std::optional<MiddleResidual> residual(std::size_t i) const {
+    const auto five = five_around(i);
+    return five ? middle_residual(*five) : std::nullopt;
+  }
+  [[nodiscard]] std::optional<std::array<Vec2, 2 * kSide + 1>> five_around(std::size_t i) const {
     std::array<Vec2, 2 * kSide + 1> five{};
     five[kSide] = points_[i];
     std::size_t left = i, right = i;
@@ -99,7 +112,7 @@ class Search {
       five[kSide - k] = points_[left];
       five[kSide + k] = points_[right];
     }
-    return middle_residual(five);
+    return five;
   }
   [[nodiscard]] bool is_beyond(const MiddleResidual& r, double deviations, std::size_t i) const {
     return r.in_deviations() > deviations * scale_[i];
@@ -140,7 +153,8 @@ class Search {
     }
     const auto follows = [&](std::size_t i) {
       const auto r = residual(i);
-      return !r || (!is_beyond(*r, limit_ / kClearly, i) && r->in_deviations() <= kRest * least);
+      return !r || (!is_beyond(*r, limit_ / kClearly, i) && r->in_deviations() <= kRest * least) ||
+             (good && length == 1 && follows_around_nose(i, first, end));
     };
     std::size_t i = left;
     for (std::size_t k = 0; k < kSide && i < points_.size(); ++k, i = before_[i]) {
@@ -155,6 +169,31 @@ class Search {
       before_[end] = last_of(first, length);
     }
     return good;
+  }
+  /// Whether a point that is left follows along the way of its neighbours, and a single one that
+  /// would go does not.
+  [[nodiscard]] bool follows_around_nose(std::size_t i, std::size_t gone, std::size_t end) {
+    const double scale = scale_along_way(gone);
+    const auto five = five_around(i);
+    const auto r = five ? residual_along_way(*five) : std::nullopt;
+    const auto off = residual_along_way(five_with(before_[end], gone, end));
+    return r && off && off->in_deviations() > limit_ * scale &&
+           r->in_deviations() <= kRestAroundNose * off->in_deviations();
+  }
+  /// Deviation along the way, of the points around.
+  [[nodiscard]] double scale_along_way(std::size_t i) {
+    if (along_.empty()) along_.resize(points_.size());
+    const std::size_t last = std::min(points_.size() - kSide, i + kAround + 1);
+    std::vector<double> sizes;
+    for (std::size_t k = std::max(i, kAround + kSide) - kAround; k < last; ++k) {
+      if (!along_[k]) {
+        const auto r = residual_along_way(
+            {points_[k - 2], points_[k - 1], points_[k], points_[k + 1], points_[k + 2]});
+        along_[k] = r ? r->in_deviations() : 0.0;
+      }
+      sizes.push_back(*along_[k]);
+    }
+    return std::max(scale_[i], deviation_of(std::move(sizes)));
   }
   /// Whether the curve hardly turns over a gap: at a nose or a corner it does.
   [[nodiscard]] bool goes_straight_on(std::size_t left, std::size_t right) const {
@@ -186,10 +225,13 @@ class Search {
   /// Of a point that was left out between two that are neighbours now.
   [[nodiscard]] std::optional<MiddleResidual> between(std::size_t left, std::size_t i,
                                                       std::size_t right) const {
-    const std::size_t more_left = before_[left], more_right = behind_[right];
-    if (more_left >= points_.size() || more_right >= points_.size()) return std::nullopt;
-    return middle_residual(
-        {points_[more_left], points_[left], points_[i], points_[right], points_[more_right]});
+    const bool inside = before_[left] < points_.size() && behind_[right] < points_.size();
+    return inside ? middle_residual(five_with(left, i, right)) : std::nullopt;
+  }
+  [[nodiscard]] std::array<Vec2, 2 * kSide + 1> five_with(std::size_t left, std::size_t i,
+                                                          std::size_t right) const {
+    return {points_[before_[left]], points_[left], points_[i], points_[right],
+            points_[behind_[right]]};
   }
   [[nodiscard]] double distance_between(std::size_t left, std::size_t i, std::size_t right) const {
     if (const auto r = between(left, i, right)) return r->off;
@@ -202,6 +244,7 @@ class Search {
   std::vector<std::size_t> before_, behind_;  ///< of those that are left
   std::vector<bool> gone_;
   std::vector<double> size_, scale_;
+  std::vector<std::optional<double>> along_;  ///< sizes along the way, where they were asked for
   double limit_ = 0.0;
   Outliers out_;
 };

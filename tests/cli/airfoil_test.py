@@ -220,6 +220,42 @@ class Airfoils(unittest.TestCase):
                 radius = (half(x) + 0.5 * more * x * x) / (x - 1 + r)
                 self.assertAlmostEqual(math.atan(along) - math.atan(-1 / radius), 0, delta=2e-3)
 
+    def test_a_round_edge_ends_at_the_end_of_the_chord_and_is_read_back(self):
+        self.write("a.dat", 1)
+        thick = 0.01
+        _, text = self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "b.dat", "--trailing-edge", str(thick),
+                              "--trailing-edge-form", "round", "--unit-chord", "--move", "3,4")
+        line = next(t for t in text.splitlines() if "the file, straight lines" in t)
+        self.assertIn("trailing edge round, 1.000 % in diameter", line)
+        read = numbers(self.folder / "b.dat")
+        # the point farthest from the leading edge lies at 1, 0
+        for x, y in (read[0], read[-1], max(read, key=lambda p: math.hypot(*p))):
+            self.assertAlmostEqual(x, 1, delta=2e-8)
+            self.assertAlmostEqual(y, 0, delta=2e-8)
+        # what is printed brings that back to where the arc of the placed section is
+        scale, turn, x, y = map(float, re.search(
+            r"--scale (\S+) --rotate (\S+) --move ([^,]+),(\S+)", text).groups())
+        self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "c.dat", "--trailing-edge", str(thick),
+                    "--trailing-edge-form", "round", "--move", "3,4")
+        c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+        for p, q in zip(read, numbers(self.folder / "c.dat"), strict=True):
+            self.assertAlmostEqual(scale * (c * p[0] - s * p[1]) + x, q[0], delta=1e-7)
+            self.assertAlmostEqual(scale * (s * p[0] + c * p[1]) + y, q[1], delta=1e-7)
+        for more in ([], ["--open"]):
+            code, text = self.run_it("fit", "b.dat", "--noise", "rounding", "-o", "d.dat", *more)
+            self.assertEqual(code, 0, text)
+            shown = float(re.search(r"contour: leading edge radius [\d.]+ %, trailing edge round, ([\d.]+) % in",
+                                    text).group(1))
+            self.assertAlmostEqual(shown, 100 * thick, delta=0.1)  # rounded points
+            for p, q in zip(read, numbers(self.folder / "d.dat"), strict=True):
+                self.assertLess(math.hypot(p[0] - q[0], p[1] - q[1]), 2e-4)  # places along it
+        code, text = self.run_it("fit", "b.dat", "--noise", "rounding", "-o", "d.dat", "--trailing-edge", "0.02")
+        self.assertEqual(code, 2, text)
+        self.assertIn("round already", text)
+        code, text = self.run_it("compare", "b.dat", "a.dat", "--noise", "rounding", "--align", "chord")
+        self.assertEqual(code, 0, text)
+        self.assertNotIn("no trailing edge", text)
+
     def test_a_round_edge_needs_a_thickness_and_room(self):
         self.write("a.dat")
         self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "a.json", "-q")
@@ -320,6 +356,14 @@ class Airfoils(unittest.TestCase):
             self.assertIn(told, text)
         code, text = self.run_it("convert", "a.json", "-o", "b.dat", "--camber", "0")
         self.assertEqual(code, 0, text)
+
+    def test_a_camber_that_became_0_is_not_undone(self):
+        self.write("a.dat", 1)
+        for more, told in (([], "camber cannot be undone"),
+                           (["--thickness", "10%"], "the thickness is undone by --thickness 0.1")):
+            _, text = self.run_it("fit", "a.dat", "--noise", "rounding", "-o", "b.dat", "--camber", "0", *more)
+            self.assertIn(told, text)
+            self.assertIn("camber cannot be undone", text)
 
     def test_unit_chord_is_undone_by_what_is_printed(self):
         self.write("a.dat")

@@ -17,9 +17,11 @@ struct AirfoilFigures {
   double thickness = 0.0, thickness_at = 0.0;
   double camber = 0.0, camber_at = 0.0;  ///< of the largest amount, with its sign
   double nose_radius = 0.0;              ///< of the contour at its leading edge
-  double trailing_thickness = 0.0;       ///< distance of both ends across the chord
-  double trailing_gap = 0.0;             ///< distance of both ends along the chord
-  double trailing_angle = 0.0;           ///< rad, between the tangents of both sides at the ends
+  double trailing_thickness = 0.0;  ///< distance of both ends across the chord; of a round edge its
+                                    ///< diameter there
+  bool trailing_round = false;      ///< both sides end at one point, turned against each other
+  double trailing_gap = 0.0;        ///< distance of both ends along the chord
+  double trailing_angle = 0.0;      ///< rad, between the tangents of both sides at the ends
   /// Within 1 % of the chord of the leading edge: the largest corner, rad, and how often the
   /// curvature turns back, as samples tell; a fair nose has no corner and turns back once at most.
   double nose_corner = 0.0;
@@ -33,7 +35,9 @@ struct AirfoilPointFigures {
   double camber = 0.0, camber_at = 0.0;  ///< of the largest amount, with its sign
   double nose_radius = 0.0;         ///< of the circle through the foremost point and its neighbours
   double nose_gap = 0.0;            ///< the longer one of the chords to these neighbours
-  double trailing_thickness = 0.0;  ///< distance of the last points of both sides across the chord
+  double trailing_thickness = 0.0;  ///< distance of the last points of both sides across the chord;
+                                    ///< where they go around a circle its diameter
+  bool trailing_round = false;
 };
 
 }  // namespace obvid

@@ -52,13 +52,16 @@ class WrittenSides {
   /// x at which the arc begins, and where along the side.
   [[nodiscard]] double arc_from(bool upper) const { return foil_.x_on(upper, side(upper).ends); }
   [[nodiscard]] double arc_place(bool upper) const { return side(upper).ends; }
+  /// From the chord to the direction of the hindmost point of the arc, rad.
+  [[nodiscard]] double chord_turn() const { return turn_; }
 
   [[nodiscard]] double length(bool upper) const {
     return side(upper).ends + radius_ * std::abs(side(upper).turn);
   }
   [[nodiscard]] Vec2 point(bool upper, double s) const;
   [[nodiscard]] double x_on(bool upper, double s) const {
-    return is_on_arc(upper, s) ? point(upper, s).x : foil_.x_on(upper, s);
+    return is_round() ? dot(point(upper, s), Vec2{std::cos(turn_), std::sin(turn_)})
+                      : foil_.x_on(upper, s);
   }
   [[nodiscard]] double kappa(bool upper, double s) const {
     return is_on_arc(upper, s) ? 1.0 / radius_ : std::abs(foil_.on_side(upper, s).kappa);
@@ -69,7 +72,7 @@ class WrittenSides {
  private:
   struct Side {
     double ends = 0.0;  ///< where the arc begins, else the end of the side
-    double turn = 0.0;  ///< of the arc, rad: direction from its centre to where it begins
+    double turn = 0.0;  ///< of the arc, rad: from its hindmost point to where it begins
   };
   [[nodiscard]] Side& side(bool upper) { return sides_[upper ? 0 : 1]; }
   [[nodiscard]] const Side& side(bool upper) const { return sides_[upper ? 0 : 1]; }
@@ -81,7 +84,7 @@ class WrittenSides {
   const Airfoil& foil_;
   SideScale scale_;
   double more_ = 0.0;  ///< of the trailing edge, units
-  double radius_ = 0.0;
+  double radius_ = 0.0, turn_ = 0.0;
   Vec2 centre_{};
   std::array<Side, 2> sides_{};
 };
@@ -90,7 +93,7 @@ Vec2 WrittenSides::point(bool upper, double s) const {
   const Side& on = side(upper);
   if (is_on_arc(upper, s)) {
     const double left = 1.0 - (s - on.ends) / (radius_ * std::abs(on.turn));
-    const double a = on.turn * std::max(left, 0.0);
+    const double a = turn_ + on.turn * std::max(left, 0.0);
     return centre_ + radius_ * Vec2{std::cos(a), std::sin(a)};
   }
   Vec2 q = foil_.local(foil_.on_side(upper, s).point);
@@ -147,13 +150,18 @@ Result<WrittenSides> WrittenSides::rounded(const Airfoil& foil, const SideScale&
     out.more_ = 2.0 * (radius * (up[0] + up[1]) - (y[0] - y[1])) / squares;
     const double top = y[0] + 0.5 * out.more_ * x[0] * x[0] / (c * c);
     out.centre_.y = top - radius * up[0];
+    // the hindmost point is the one farthest from the leading edge: a chord away
+    const double along = (c - radius) * (c - radius) - out.centre_.y * out.centre_.y;
+    if (!(along > 0.0)) return no_room();
+    out.centre_.x = std::sqrt(along);
     x = {out.centre_.x - radius * slope[0] * up[0], out.centre_.x + radius * slope[1] * up[1]};
     if (k == 0 || std::abs(out.more_ - before) > kSettled * c) continue;
+    out.turn_ = std::atan2(out.centre_.y, out.centre_.x);
     for (const bool upper : {true, false}) {
       const std::size_t i = upper ? 0 : 1;
       out.side(upper).ends = foil.place_of(upper, x[i]);
       const Vec2 to = out.point(upper, out.side(upper).ends) - out.centre_;
-      out.side(upper).turn = std::atan2(to.y, to.x);
+      out.side(upper).turn = std::atan2(to.y, to.x) - out.turn_;
     }
     return out;
   }
@@ -249,7 +257,13 @@ Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options
   const Vec2 a = scaled_end(true), b = scaled_end(false);
   const double thick =
       options.trailing_thickness.value_or(scale->thickness * figures.trailing_thickness);
-  const bool round = options.trailing_form == TrailingEdgeForm::kRound;
+  const bool round = options.trailing_form == TrailingEdgeForm::kRound && !figures.trailing_round;
+  if (figures.trailing_round && options.trailing_thickness) {
+    return error(ErrorCode::kBadOption, "the trailing edge is round already")
+        .where("--trailing-edge")
+        .hint("leave it out, or give another one to the contour that it was made from")
+        .value(figures.trailing_thickness);
+  }
   if (round && !(thick > 0.0)) {
     return error(ErrorCode::kBadOption, "a round trailing edge has a thickness")
         .where("--trailing-edge-form")
@@ -280,7 +294,8 @@ Result<WrittenSides> sides_of(const Airfoil& foil, const AirfoilOptions& options
 
 /// The airfoil with ends that can become one point, where a closed edge is asked for and they can.
 Airfoil to_be_closed(Airfoil foil, const AirfoilOptions& options, AirfoilText& out) {
-  if (options.trailing_thickness != 0.0 || options.trailing_form != TrailingEdgeForm::kBlunt) {
+  if (options.trailing_thickness != 0.0 || options.trailing_form != TrailingEdgeForm::kBlunt ||
+      foil.edge_radius() > 0.0) {
     return foil;
   }
   const double c = foil.chord();
@@ -327,12 +342,16 @@ Result<AirfoilText> airfoil_text(const Contour& contour, const AirfoilOptions& o
   if (written->is_round()) {
     const double thick =
         options.trailing_thickness.value_or(scale->thickness * out.figures.trailing_thickness);
-    out.rounded = {thick, written->arc_from(true) / c, written->arc_from(false) / c, 0};
+    out.rounded = {thick, written->arc_from(true) / c, written->arc_from(false) / c, 0,
+                   written->chord_turn()};
   }
   const std::size_t below = (options.count - 1) / 2, above = options.count - 1 - below;
   std::vector<Vec2> sides[2];
   const auto as_written = [&](Vec2 q) {
-    return options.unit_chord ? Vec2{q.x / c, q.y / c} : foil.back(q);
+    if (!options.unit_chord) return foil.back(q);
+    if (!out.rounded) return Vec2{q.x / c, q.y / c};
+    const Vec2 along{std::cos(out.rounded->turn), std::sin(out.rounded->turn)};
+    return Vec2{dot(along, q) / c, cross(along, q) / c};
   };
   for (const bool upper : {true, false}) {
     for (const double s : places(*written, upper, upper ? above : below, options.spacing)) {

@@ -23,6 +23,9 @@ constexpr double kNoseWindow = 4.0;  // of it in arc length: a nose that is bent
 constexpr double kBeside = 1e-6;     // of a look
 constexpr double kSameBend = 1e-3;   // of the largest curvature: what counts as turning back
 constexpr double kWidestEdge = 0.5;  // chords: beyond it is no airfoil
+/// A round edge: its largest radius, how near its ends are, how far from it the contour may begin,
+/// all in chords; and the cosine between the directions of both sides at its ends, at most.
+constexpr double kLargestEdge = 0.05, kSameEnd = 1e-4, kBeginsNear = 0.02, kTurnedBack = -0.98;
 /// Chords: a side that ends farther before the other one lacks more than its last point.
 constexpr double kMostGoneOn = 0.1;
 
@@ -34,9 +37,11 @@ Result<Airfoil> Airfoil::of(const Contour& contour) {
   OBVID_TRY(path);
   Airfoil out(std::move(*path));
   out.to_ = out.path_.length();
-  if (contour.closed && !out.open_at_corner()) {
-    return error(ErrorCode::kNothingThere,
-                 "the closed contour has no trailing edge: one corner, or two with a base between")
+  if (contour.closed && !out.open_at_corner() && !out.open_at_round_edge()) {
+    return error(
+               ErrorCode::kNothingThere,
+               "the closed contour has no trailing edge: one corner, two with a base between, or a "
+               "round edge at which it begins")
         .hint("fit the airfoil with --open, or name its corner by --corner-at");
   }
   OBVID_TRY(out.measure_chord());
@@ -155,6 +160,59 @@ bool Airfoil::open_at_corner() {
   return true;
 }
 
+/// Place of the whole path that is farthest from a point.
+double Airfoil::farthest_from(Vec2 p) const {
+  const std::size_t n = looks();
+  const double step = path_.length() / static_cast<double>(n);
+  std::size_t where = 0;
+  double farthest = -1.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double far = norm(path_.at(static_cast<double>(k) * step, false).point - p);
+    if (far > farthest) farthest = far, where = k;
+  }
+  // beyond the seam the places are those from the other end on
+  const auto around = [&](double s) {
+    return s < 0.0 ? s + path_.length() : s > path_.length() ? s - path_.length() : s;
+  };
+  const double middle = static_cast<double>(where) * step;
+  return around(sign_change(middle - step, middle + step, [&](double s) {
+    const auto place = path_.at(around(s), false);
+    return dot(place.point - p, place.tangent);
+  }));
+}
+
+/// A closed contour without corners that begins at one of the two places farthest apart, bent
+/// there as a round trailing edge is.
+bool Airfoil::open_at_round_edge() {
+  constexpr int kRounds = 20;  // each gains digits: both ends are bent more than the chord is long
+  const Vec2 start = path_.at(0.0, false).point;
+  double edge = 0.0, chord = 0.0;
+  for (int k = 0; k < kRounds; ++k) {
+    const Vec2 nose = path_.at(farthest_from(path_.at(edge, false).point), false).point;
+    edge = farthest_from(nose);
+    chord = norm(path_.at(edge, false).point - nose);
+  }
+  const auto place = path_.at(edge, false);
+  if (norm(place.point - start) > kBeginsNear * chord ||
+      !(std::abs(place.kappa) * kLargestEdge * chord >= 1.0)) {
+    return false;
+  }
+  wraps_ = true;
+  from_ = edge;
+  to_ = edge + path_.length();
+  return true;
+}
+
+double Airfoil::edge_radius() const {
+  const auto first = at(0.0), last = at(length());
+  if (norm(first.point - last.point) > kSameEnd * chord_ || goes_on(true) + goes_on(false) > 0.0 ||
+      -dot(first.tangent, last.tangent) > kTurnedBack) {
+    return 0.0;
+  }
+  const double bent = 0.5 * (std::abs(first.kappa) + std::abs(last.kappa));
+  return bent * kLargestEdge * chord_ >= 1.0 ? 1.0 / bent : 0.0;
+}
+
 Result<void> Airfoil::measure_chord() {
   const Vec2 a = end(true), b = end(false);
   const Vec2 edge = 0.5 * (a + b);
@@ -225,7 +283,8 @@ AirfoilFigures Airfoil::figures() const {
   out.nose_radius = 1.0 / std::abs(at(nose_).kappa) / c;
   const auto first = at(0.0), last = at(length());
   const Vec2 apart = local(end(true)) - local(end(false));
-  out.trailing_thickness = std::abs(apart.y) / c;
+  out.trailing_round = edge_radius() > 0.0;
+  out.trailing_thickness = out.trailing_round ? 2.0 * edge_radius() / c : std::abs(apart.y) / c;
   out.trailing_gap = std::abs(apart.x) / c;
   const Vec2 upper = -1.0 * first.tangent, lower = last.tangent;  // both towards the edge
   out.trailing_angle = std::atan2(cross(upper, lower), dot(upper, lower));

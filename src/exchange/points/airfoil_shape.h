@@ -59,6 +59,8 @@ class Airfoil {
   /// How far that side goes on, units.
   [[nodiscard]] double goes_on(bool upper) const { return goes_on_[upper ? 0 : 1]; }
   [[nodiscard]] Vec2 end(bool upper) const;
+  /// Of an edge at which both sides end at one point, turned against each other; 0 of others.
+  [[nodiscard]] double edge_radius() const;
 
   /// Arc length on a side from the leading edge, to its end.
   [[nodiscard]] double side_length(bool upper) const { return of_contour(upper) + goes_on(upper); }
@@ -84,6 +86,8 @@ class Airfoil {
     return upper ? -1.0 * at(0.0).tangent : at(length()).tangent;
   }
   bool open_at_corner();
+  bool open_at_round_edge();
+  [[nodiscard]] double farthest_from(Vec2 p) const;
   Result<void> measure_chord();
   void look_at_nose(AirfoilFigures& figures) const;
 

@@ -41,7 +41,9 @@ std::vector<SummaryCell> airfoil_cells(const std::vector<std::string>& files) {
   return {{"thickness", fmt::format("thickness {:.3f} %", 100.0 * f->thickness),
            csv_cell(f->thickness)},
           {"camber", fmt::format("camber {:.3f} %", 100.0 * f->camber), csv_cell(f->camber)},
-          {"trailing_edge", fmt::format("trailing edge {:.3f} %", 100.0 * f->trailing_thickness),
+          {"trailing_edge",
+           fmt::format("trailing edge {}{:.3f} %", f->trailing_round ? "round " : "",
+                       100.0 * f->trailing_thickness),
            csv_cell(f->trailing_thickness)}};
 }
 

@@ -208,8 +208,8 @@ Result<Exported> sldcrv_file(const ContourExport& e) {
 }
 
 /// What was done to the points, and how it is undone.
-std::string unit_chord_remark(const AirfoilFigures& f) {
-  const double turn = f.turn * 180.0 / std::numbers::pi;
+std::string unit_chord_remark(const AirfoilFigures& f, const std::optional<RoundedEdge>& edge) {
+  const double turn = (f.turn + (edge ? edge->turn : 0.0)) * 180.0 / std::numbers::pi;
   return fmt::format(
       "scaled to unit chord, turned by {:.6f} degrees; undone by --scale {} --rotate {} --move "
       "{},{}",
@@ -222,6 +222,13 @@ template <class Figures>
 std::string camber_text(const Figures& f) {
   if (std::abs(f.camber) < kPrintedChords) return "camber 0.000 %";
   return fmt::format("camber {:.3f} % at {:.2f} %", 100.0 * f.camber, 100.0 * f.camber_at);
+}
+
+template <class Figures>
+std::string edge_text(const Figures& f) {
+  const double percent = 100.0 * f.trailing_thickness;
+  return f.trailing_round ? fmt::format("trailing edge round, {:.3f} % in diameter", percent)
+                          : fmt::format("trailing edge {:.3f} % thick", percent);
 }
 
 std::string rounded_text(const RoundedEdge& edge) {
@@ -291,20 +298,23 @@ std::vector<Vec2> points_around(const Contour& contour, const AirfoilFigures& f)
 std::string points_text(const AirfoilPointFigures& f) {
   return fmt::format(
       "input, straight lines between its points, same chord: thickness {:.3f} % at {:.2f} %, {}, "
-      "trailing edge {:.3f} % thick; circle through the three points at the nose, up to {:.3f} % "
-      "apart: radius {:.3f} %",
-      100.0 * f.thickness, 100.0 * f.thickness_at, camber_text(f), 100.0 * f.trailing_thickness,
-      100.0 * f.nose_gap, 100.0 * f.nose_radius);
+      "{}; circle through the three points at the nose, up to {:.3f} % apart: radius {:.3f} %",
+      100.0 * f.thickness, 100.0 * f.thickness_at, camber_text(f), edge_text(f), 100.0 * f.nose_gap,
+      100.0 * f.nose_radius);
 }
 
 /// What scaling made of thickness and camber; empty where none was asked for.
 std::string scaled_text(const AirfoilText& made, const AirfoilOptions& asked) {
   const AirfoilFigures& f = made.figures;
-  std::string what, undo;
+  std::string what, undo, lost;
   const auto add = [&](const char* name, const char* option, double from, double scale) {
     what += fmt::format("{}{} {:.3f} % -> {:.3f} %", what.empty() ? "" : ", ", name, 100.0 * from,
                         100.0 * scale * from);
-    if (scale != 0.0) undo += fmt::format(" {} {}", option, from);
+    if (scale != 0.0) {
+      undo += fmt::format(" {} {}", option, from);
+    } else if (from != 0.0) {
+      lost += fmt::format("{}{}", lost.empty() ? "" : " and ", name);
+    }
   };
   if (asked.thickness) add("thickness", "--thickness", f.thickness, made.thickness_scale);
   if (asked.camber) add("camber", "--camber", f.camber, made.camber_scale);
@@ -317,7 +327,8 @@ std::string scaled_text(const AirfoilText& made, const AirfoilOptions& asked) {
     out += fmt::format("; leading edge radius {:.3f} % -> {:.3f} %", 100.0 * f.nose_radius,
                        100.0 * made.thickness_scale * made.thickness_scale * f.nose_radius);
   }
-  out += undo.empty() ? "; not undone by any option" : "; undone by" + undo;
+  if (!undo.empty()) out += (lost.empty() ? "; undone by" : "; the thickness is undone by") + undo;
+  if (!lost.empty()) out += "; " + lost + " cannot be undone: of 0 no factor brings it back";
   return out;
 }
 
@@ -332,7 +343,7 @@ Result<Exported> airfoil_file(const ContourExport& e) {
   const AirfoilFigures& f = made->figures;
   out.remarks.push_back(fmt::format("{} points, {} on the upper and {} on the lower side",
                                     write.count, made->upper, made->lower));
-  if (write.unit_chord) out.remarks.push_back(unit_chord_remark(f));
+  if (write.unit_chord) out.remarks.push_back(unit_chord_remark(f, made->rounded));
   if (auto told = scaled_text(*made, write); !told.empty()) out.remarks.push_back(std::move(told));
   if (made->rounded) {
     out.remarks.push_back(rounded_text(*made->rounded));
@@ -344,23 +355,27 @@ Result<Exported> airfoil_file(const ContourExport& e) {
                     "difference times (x/chord)^2",
                     *write.trailing_thickness));
   }
-  if (const auto file = figures_of_airfoil_file(out.files.front().text)) {
+  if (auto file = figures_of_airfoil_file(out.files.front().text)) {
+    if (made->rounded) {  // as few as its points may be
+      file->trailing_round = true;
+      file->trailing_thickness = made->rounded->diameter;
+    }
     out.remarks.push_back(fmt::format(
-        "the file, straight lines between its points: thickness {:.3f} % at {:.2f} %, {}, trailing "
-        "edge {:.3f} % thick",
-        100.0 * file->thickness, 100.0 * file->thickness_at, camber_text(*file),
-        100.0 * file->trailing_thickness));
+        "the file, straight lines between its points: thickness {:.3f} % at {:.2f} %, {}, {}",
+        100.0 * file->thickness, 100.0 * file->thickness_at, camber_text(*file), edge_text(*file)));
   }
   const bool longer = made->closed && made->closed->gone_on > kPrintedChords;
   const char* measured = longer ? "contour with the side that goes on" : "contour";
   out.remarks.push_back(fmt::format("{}, normal to its chord: thickness {:.3f} % at {:.2f} %, {}",
                                     measured, 100.0 * f.thickness, 100.0 * f.thickness_at,
                                     camber_text(f)));
-  out.remarks.push_back(
-      fmt::format("{}: leading edge radius {:.3f} %, trailing edge {:.3f} % thick, {:.2f} "
-                  "degrees; % of the chord {:.6g} {}",
-                  measured, 100.0 * f.nose_radius, 100.0 * f.trailing_thickness,
-                  f.trailing_angle * 180.0 / std::numbers::pi, f.chord, e.contour.units.text()));
+  out.remarks.push_back(fmt::format(
+      "{}: leading edge radius {:.3f} %, {}{}; % of the chord {:.6g} {}", measured,
+      100.0 * f.nose_radius, edge_text(f),
+      f.trailing_round
+          ? ""
+          : fmt::format(", {:.2f} degrees", f.trailing_angle * 180.0 / std::numbers::pi),
+      f.chord, e.contour.units.text()));
   if (const std::string told = nose_text(f); !told.empty()) out.warnings.push_back(told);
   if (auto told = trailing_text(*made, write.trailing_thickness); !told.empty()) {
     out.warnings.push_back(std::move(told));

@@ -377,15 +377,41 @@ Result<InOrder> in_order(Result<PointSeries> series, const ImportOptions& option
   return whole;
 }
 
+/// Why none goes.
+template <class Number>
+std::string staying_text(const Outliers& found, const std::string& unit, const Number& number) {
+  const std::string limit = deviations_text(found, unit);
+  if (!found.staying.empty()) {
+    const auto farthest =
+        std::max_element(found.staying.begin(), found.staying.end(),
+                         [](const Outlier& a, const Outlier& b) { return a.off < b.off; });
+    const bool one = found.staying.size() == 1;
+    return fmt::format(
+        "{} {} {} or more off the curve of {} neighbours ({}point {}, {} {}), but without {} the "
+        "others do not follow each other, as at a corner, or {} data",
+        found.staying.size(), one ? "lies" : "lie", limit, one ? "its" : "their",
+        one ? "" : "farthest: ", number(farthest->index), significant(farthest->off, 4), unit,
+        one ? "it" : "them", one ? "it has" : "they have");
+  }
+  std::string text = fmt::format("none lies {} or more off the curve of its neighbours", limit);
+  if (!found.untold.empty()) {
+    text += fmt::format(" ({} cannot be told, at ends or where the curve turns back)",
+                        counted(found.untold.size(), "point", "points"));
+  }
+  return text;
+}
+
 /// `numbers`: of the points in the list where they were put in order, from 0.
 std::string outliers_text(const PointSeries& series, const Outliers& found,
                           const std::vector<std::size_t>& numbers) {
   const std::string unit = series.units.text();
   const std::size_t count = found.points.size();
+  const auto number = [&](std::size_t index) {
+    return fmt::format("{}{}", (numbers.empty() ? index : numbers[index]) + 1,
+                       numbers.empty() ? "" : " of the list");
+  };
   if (count == 0) {
-    return fmt::format(
-        "--drop-outliers: all points stay: none lies {} or more off the curve of its neighbours",
-        deviations_text(found, unit));
+    return "--drop-outliers: all points stay: " + staying_text(found, unit, number);
   }
   std::string text =
       fmt::format("--drop-outliers: left out {}",
@@ -395,10 +421,9 @@ std::string outliers_text(const PointSeries& series, const Outliers& found,
                                            count));
   for (std::size_t k = 0; k < std::min(count, kMostPointsNamed); ++k) {
     const std::size_t index = found.points[k].index;
-    text += fmt::format("{} {}{} ({} {}{})", k > 0 ? "," : "",
-                        (numbers.empty() ? index : numbers[index]) + 1,
-                        numbers.empty() ? "" : " of the list", significant(found.points[k].off, 4),
-                        unit, count == 1 ? " off the curve of its neighbours" : "");
+    text += fmt::format("{} {} ({} {}{})", k > 0 ? "," : "", number(index),
+                        significant(found.points[k].off, 4), unit,
+                        count == 1 ? " off the curve of its neighbours" : "");
   }
   return text + and_more(count, kMostPointsNamed) +
          fmt::format("; the others deviate by {} {}", significant(found.deviation, 3), unit);
@@ -440,8 +465,15 @@ Result<Outliers> outliers_around(const std::vector<Vec2>& points, const std::vec
   auto found = outliers_of(unrolled, kept);
   OBVID_TRY(found);
   Outliers out{{}, found->deviation, found->limit};
+  const auto is_own = [&](std::size_t i) { return i >= kBeyond && i < n + kBeyond; };
+  for (const Outlier& one : found->staying) {
+    if (is_own(one.index)) out.staying.push_back({one.index - kBeyond, one.off});
+  }
+  for (const std::size_t i : found->untold) {
+    if (is_own(i)) out.untold.push_back(i - kBeyond);
+  }
   for (Outlier one : found->points) {
-    if (one.index < kBeyond || one.index >= n + kBeyond) continue;
+    if (!is_own(one.index)) continue;
     one.index -= kBeyond;
     out.points.push_back(one);
     if (one.index == 0 && n < points.size()) out.points.push_back({n, one.off});

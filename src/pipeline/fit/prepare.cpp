@@ -274,31 +274,38 @@ class Preparation {
   }
 
   /// Ends as near as neighbours, or as a fortieth of the length, with the curve going on over the
-  /// gap: an outline that was left open (docs/methods/series.md). At a trailing edge it turns back
-  /// instead.
+  /// gap: an outline that was left open (docs/methods/series.md). It may begin at a tip, and turn
+  /// on one side of the gap. At a trailing edge it turns back instead.
   void hint_at_closing() {
     constexpr double kMayClose = 2.0;      // middle chords
     constexpr double kOfLength = 0.025;    // of the whole
     constexpr double kLeastLength = 10.0;  // of the whole, gaps
     constexpr double kPercent = 100.0;
     constexpr double kGoesOn = std::numbers::pi / 3;  // at either end, rad
+    // a tip: a step like the others, and a turn at one end that is none of a trailing edge, rad
+    constexpr double kLeastOfStep = 0.5, kSharpest = 25.0 / 36.0 * std::numbers::pi;
     if (job_.closing != Closing::kAutomatic || !out_.kept.empty() || out_.points.size() < 4) return;
     const Vec2 gap = out_.points.front() - out_.points.back();
     const Vec2 first = out_.points[1] - out_.points.front();
     const Vec2 last = out_.points.back() - out_.points[out_.points.size() - 2];
     const std::vector<double> lengths = chords();
     const double apart = norm(gap), length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
-    const bool near = apart <= kMayClose * median_of(lengths);
-    if ((!near && apart > kOfLength * length) || length < kLeastLength * apart ||
-        std::abs(turning(last, gap)) > kGoesOn || std::abs(turning(gap, first)) > kGoesOn) {
-      return;
-    }
+    const double step = median_of(lengths);
+    const bool near = apart <= kMayClose * step, in_length = apart <= kOfLength * length;
+    if ((!near && !in_length) || length < kLeastLength * apart) return;
+    const double before = std::abs(turning(last, gap)), behind = std::abs(turning(gap, first));
+    const bool goes_on = std::max(before, behind) <= kGoesOn;
+    const bool at_tip = std::min(before, behind) <= kGoesOn &&
+                        std::max(before, behind) <= kSharpest && near && in_length &&
+                        apart >= kLeastOfStep * step;
+    if (!goes_on && !at_tip) return;
     out_.warnings.push_back(fmt::format(
-        "the ends are {:.4g} {} apart, {}, and the curve would go on there: --closed closes it, "
+        "the ends are {:.4g} {} apart, {}, and the curve would go on there{}: --closed closes it, "
         "--open says that it ends",
         apart, series_.units.text(),
         near ? "hardly farther than neighbours"
-             : fmt::format("{} % of its length", significant(kPercent * apart / length, 2))));
+             : fmt::format("{} % of its length", significant(kPercent * apart / length, 2)),
+        goes_on ? "" : ", around a tip"));
   }
 
   Result<void> close() {

@@ -617,6 +617,7 @@ class SectionChooser {
     }
     for (const std::size_t i : whole) measured.reach.push_back(series_.reach[i]);
     give_nodes(measured, whole, series_.convex);
+    if (auto circle = whole_circle(measured)) return std::move(*circle);
     FairedSeries faired;
     if (auto chain = follow_runs(measured, faired)) {
       if (bends_without_need(*chain)) {
@@ -649,6 +650,44 @@ class SectionChooser {
         "the points were moved within their tolerances onto a smooth curve, but runs of monotone "
         "curvature along it were not found; the contour runs through the moved points");
     return through_moved(faired);
+  }
+
+  /// Of a loop whose points lie within their tolerances of one circle, which has no vertex.
+  std::optional<SeriesChain> whole_circle(MeasuredSeries measured) {
+    if (!loop_ || measured.primitives || has_data() || !lies_near_one_circle(measured)) {
+      return std::nullopt;
+    }
+    measured.primitives = true;
+    FairedSeries faired;
+    auto chain = follow_runs(measured, faired);
+    const bool whole =
+        chain && faired.primitives == 1 &&
+        std::all_of(chain->direction.begin(), chain->direction.end(), [](int d) { return d == 0; });
+    return whole ? std::move(chain) : std::nullopt;
+  }
+
+  /// The circle of least squares of the squares of distances: around it, it is nearly the one of
+  /// the distances.
+  static bool lies_near_one_circle(const MeasuredSeries& measured) {
+    const auto n = static_cast<double>(measured.points.size());
+    Vec2 middle{};
+    for (const Vec2 p : measured.points) middle = middle + p / n;
+    double xx = 0.0, xy = 0.0, yy = 0.0, x_square = 0.0, y_square = 0.0, square = 0.0;
+    for (const Vec2 p : measured.points) {
+      const Vec2 d = p - middle;
+      const double s = dot(d, d);
+      xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
+      x_square += d.x * s, y_square += d.y * s, square += s;
+    }
+    const double det = 2.0 * (xx * yy - xy * xy);
+    if (!(det > 0.0)) return false;
+    const Vec2 off = Vec2{yy * x_square - xy * y_square, xx * y_square - xy * x_square} / det;
+    const double radius = std::sqrt(square / n + dot(off, off));
+    for (std::size_t i = 0; i < measured.points.size(); ++i) {
+      const double away = norm(measured.points[i] - middle - off) - radius;
+      if (!(std::abs(away) <= measured.reach[i])) return false;
+    }
+    return true;
   }
 
   void tell_primitives(const FairedSeries& faired) {

@@ -48,6 +48,7 @@ struct RoundedEdge {
   double diameter = 0.0;
   double upper_from = 0.0, lower_from = 0.0;  ///< x at which it touches the sides
   std::size_t points = 0;                     ///< of the file between these, both ends counted once
+  double turn = 0.0;  ///< rad: from the contour's chord to the direction of its hindmost point
 };
 
 /// A trailing edge of thickness 0: both sides end at one point. All in chords.
@@ -74,13 +75,14 @@ struct AirfoilText {
 /// edge is formed; places along the chord stay. With `trailing_thickness` on the contour whose
 /// sides are moved apart by an amount times (x / chord)^2, which leaves the nose as it is: that the
 /// ends are so far apart across the chord, or that an arc of this diameter touches both sides (G1)
-/// and reaches to the end of the chord, which stays as long as it was. With a thickness of 0 both
-/// sides end at one point: a side that ends before the other one along the chord, by up to a tenth
-/// of it, goes on straight to there first, and the chord is that to this point. A round edge
-/// without a thickness has that of the contour. The points of the arc follow the spacing of the
-/// sides. Closed contours need a trailing edge: one corner, or two with the base between them.
-/// Errors: E203 options out of range, a camber asked of a section that has none, sides that would
-/// cross, or no room for the arc; E311 no trailing edge, or a side that folds back along the chord.
+/// and its hindmost point, the one farthest from the leading edge, is a chord away from that. With
+/// a thickness of 0 both sides end at one point: a side that ends before the other one along the
+/// chord, by up to a tenth of it, goes on straight to there first, and the chord is that to this
+/// point. A round edge without a thickness has that of the contour. The points of the arc follow
+/// the spacing of the sides. Closed contours need a trailing edge: one corner, two with the base
+/// between them, or a round one at which they begin. Errors: E203 options out of range, a camber
+/// asked of a section that has none, sides that would cross, or no room for the arc; E311 no
+/// trailing edge, or a side that folds back along the chord.
 [[nodiscard]] Result<AirfoilText> airfoil_text(const Contour& contour,
                                                const AirfoilOptions& options);
 
