@@ -211,7 +211,9 @@ void LinesAndArcsTable::row(const std::vector<std::string>& words) {
   const std::size_t n = course_.file.points.size();
   for (const Stretch& one : stretches(course_.file)) {
     const std::size_t to = (one.from + one.points - 1) % n;
-    if (words[0] == fmt::format("{}-{}", one.from + 1, to + 1)) {
+    const bool around = one.points == n + 1;
+    if (words[0] == (around ? fmt::format("all, from {}", one.from + 1)
+                            : fmt::format("{}-{}", one.from + 1, to + 1))) {
       return Row(course_, words, sheet_).check(one);
     }
   }

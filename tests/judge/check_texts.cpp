@@ -43,7 +43,7 @@ class TextCheck {
         if (!header_.empty()) at = At::kSentences;
         continue;
       }
-      const std::vector<std::string> words = words_of(line);
+      const std::vector<std::string> words = row_words(line);
       const bool row = is_row_name(words[0]) || words[0] == "...";
       if (line.starts_with("line or arc ")) at = At::kLinesAndArcs;
       if (at == At::kLinesAndArcs && line.starts_with("shown: ")) {
@@ -77,7 +77,18 @@ class TextCheck {
   }
 
  private:
+  /// "all, from 5" of a whole circle is one word.
+  static std::vector<std::string> row_words(const std::string& line) {
+    std::vector<std::string> words = words_of(line);
+    if (words.size() > 2 && words[0] == "all," && words[1] == "from") {
+      words[2] = "all, from " + words[2];
+      words.erase(words.begin(), words.begin() + 2);
+    }
+    return words;
+  }
+
   static bool is_row_name(const std::string& word) {
+    if (word.starts_with("all, from ")) return true;
     const std::size_t dash = word.find('-');
     return dash != std::string::npos && dash > 0 && dash + 1 < word.size() &&
            word.find_first_not_of("0123456789-") == std::string::npos;
