@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/closing_hint.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "obvid/core/internal/figures.h"
+#include "obvid/numeric/internal/median.h"
+
+namespace obvid::pipeline_detail {
+
+std::optional<std::string> hint_at_closing(const std::vector<Vec2>& points, const Units& units) {
+  constexpr double kMayClose = 2.0;      // middle chords
+  constexpr double kOfLength = 0.025;    // of the whole
+  constexpr double kLeastLength = 10.0;  // of the whole, gaps
+  constexpr double kPercent = 100.0;
+  constexpr double kGoesOn = std::numbers::pi / 3;  // at either end, rad
+  if (points.size() < 4) return std::nullopt;
+  const Vec2 gap = points.front() - points.back();
+  const Vec2 first = points[1] - points.front();
+  const Vec2 last = points.back() - points[points.size() - 2];
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    lengths.push_back(norm(points[i] - points[i - 1]));
+  const double apart = norm(gap), length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  const bool near = apart <= kMayClose * median_of(lengths);
+  if ((!near && apart > kOfLength * length) || length < kLeastLength * apart ||
+      std::abs(turning(last, gap)) > kGoesOn || std::abs(turning(gap, first)) > kGoesOn) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "the ends are {:.4g} {} apart, {}, and the curve would go on there: --closed closes it, "
+      "--open says that it ends",
+      apart, units.text(),
+      near ? "hardly farther than neighbours"
+           : fmt::format("{} % of its length", significant(kPercent * apart / length, 2)));
+}
+
+}  // namespace obvid::pipeline_detail
