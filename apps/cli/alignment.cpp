@@ -33,6 +33,7 @@ void add_profile_facts(const ProfileReport& report, const Units& units, Facts& f
             fmt::format("{}: {}, {}, {}", counted(profile.elements.size(), "element", "elements"),
                         counted(count[0], "grade", "grades"), counted(count[1], "crest", "crests"),
                         counted(count[2], "sag", "sags")));
+  if (report.of_file) return;
   double largest = 0.0;
   for (const double offset : profile.offsets) largest = std::max(largest, std::abs(offset));
   facts.add("heights", fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
@@ -127,10 +128,12 @@ int run(const AlignmentCommand& command) {
   if (auto free = check_outputs(names, inputs); !free) return report(free.error());
   Result<std::vector<Output>> outputs = outputs_of(command.outputs, command.input);
   if (!outputs) return report(outputs.error());
-  Result<PointSeries> series = read_series(command.input, with_heights(command.import));
-  if (!series) return report(series.error());
-  if (command.units) take_units(*series, *command.units);
+  Result<RoadSeries> read = read_road(command.input, with_heights(command.import));
+  if (!read) return report(read.error());
+  PointSeries& series = read->points;
+  if (command.units) take_units(series, *command.units);
   AlignmentJob job = command.job;
+  job.road = std::move(read->road);
   AlignmentTold told{command.asked, {}};
   if (!command.heights.empty()) {
     auto heights = read_heights(command.heights);
@@ -138,13 +141,13 @@ int run(const AlignmentCommand& command) {
     job.heights = std::move(*heights);
   }
   ProgressBar bar(command.progress);
-  const auto made = alignment_report(*series, job, bar.progress());
+  const auto made = alignment_report(series, job, bar.progress());
   bar.clear();
   if (!made) {
-    warn(warnings_of_reading(*series, job));
+    warn(warnings_of_reading(series, job));
     return report(made.error());
   }
-  const TitledContour contour = titled_contour(*made, *series, job, command.input);
+  const TitledContour contour = titled_contour(*made, series, job, command.input);
   told.warnings = contour.warnings;
   warn(told.warnings);
   if (!command.profile_table.empty() && !made->profile) {

@@ -50,7 +50,7 @@ constexpr std::array kNumberOptions = {
     NumberOption{"--station", "S", &RawAlignment::first_station, false, "a station is a number",
                  kInUnits,
                  "Station of the first point, input units; around a loop the element that it lies "
-                 "on is the first [0]"},
+                 "on is the first [that of the file, or 0]"},
     NumberOption{"--lateral-acceleration", "A", &RawAlignment::acceleration, true, kPositive,
                  "in m/s^2, without the unit",
                  "Acceleration to the side, m/s^2: the table tells the speed at which the sharpest "
@@ -75,9 +75,11 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
          "a unit of the last printed digit in x and in y together, or auto: estimated from "
          "their scatter [rounding]")
       ->type_name("EPS");
-  app.add_flag("--closed", command.job.closed,
+  app.add_flag("--closed", raw.typed.closed,
                "Around a loop: behind the last point comes the first one, and the alignment has no "
-               "joint of its own there");
+               "joint of its own there [where the last point is the first one, within their "
+               "tolerances]");
+  app.add_flag("--open", raw.typed.open, "It ends at the last point, wherever that lies");
   for (const NumberOption& option : kNumberOptions) {
     app.add_option(option.name, raw.*option.text, option.help)->type_name(option.value);
   }
@@ -162,7 +164,7 @@ Result<void> check_alignment(RawAlignment& raw) {
   }
   command.job.least_length = numbers[0].value_or(0.0);
   command.job.least_radius = numbers[1].value_or(0.0);
-  command.job.first_station = numbers[2].value_or(0.0);
+  command.job.first_station = numbers[2];
   command.job.acceleration = numbers[3];
   command.job.profile.least_length = numbers[4].value_or(0.0);
   if (!command.deviations.empty() && !has_ending(command.deviations, ".csv")) {

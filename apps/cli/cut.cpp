@@ -57,6 +57,10 @@ Result<MadeCut> cut_from(const CutCommand& command, ProgressBar& bar) {
   return make_cut(std::move(drawings), command.import, command.job, bar.progress());
 }
 
+std::string lengths_in(const MadeCut& made) {
+  return unit_of_program(made) + (made.units.known() ? "" : ", as assumed");
+}
+
 std::string steps_table(const MadeCut& made) {
   Table table;
   table.column("order");
@@ -79,7 +83,7 @@ std::string steps_table(const MadeCut& made) {
 
 Facts cut_facts(const MadeCut& made) {
   const CutReport& r = made.program.report;
-  const std::string unit = made.units.text();
+  const std::string unit = unit_of_program(made);
   Facts facts;
   facts.add("program",
             fmt::format("{} blocks at feed, {} of them arcs, {}in {}", r.blocks, r.arc_blocks,
@@ -124,7 +128,7 @@ std::string cut_page(const MadeCut& made, const CutCommand& command) {
   page.title = command.job.plan.name;
   page.verdict = sketch.remarks.front();
   page.pictures.push_back(sketch_svg(sketch));
-  page.figures = {{"asked for", command.asked}, {"lengths in", made.units.text()}};
+  page.figures = {{"asked for", command.asked}, {"lengths in", lengths_in(made)}};
   const Facts facts = cut_facts(made);
   page.figures.insert(page.figures.end(), facts.lines().begin(), facts.lines().end());
   page.warnings = made.warnings;
@@ -154,7 +158,7 @@ int run(const CutCommand& command) {
   if (command.json) {
     text = cut_json(*made);
   } else if (!command.quiet) {
-    text = "lengths in " + made->units.text() + "\n\n" + steps_table(*made) + "\n" +
+    text = "lengths in " + lengths_in(*made) + "\n\n" + steps_table(*made) + "\n" +
            cut_text(*made, *written);
   }
   if (auto done = put(text); !done) return report(done.error());

@@ -73,8 +73,9 @@ void add_ways(CLI::App& app, RawCut& raw) {
   Numbers(app, "Ways")
       .add("--lead-in", plan.lead_in, "R",
            "Radius of the quarter circles that lead to an outline and away, units [none]")
-      .add("--start", raw.values.start, "X,Y",
-           "Outlines begin near this place [by the shortest way]")
+      .add(
+          "--start", raw.values.start, "X,Y",
+          "Closed outlines begin at their place nearest to this one [to where the tool comes from]")
       .add("--tolerance", raw.command.job.tolerance, "T",
            "Farthest that the printed program may be from the outlines, units [0.01 mm]");
 }

@@ -750,6 +750,12 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
   if (argc < 2)
     return command_of(ShowText{wrapped_help(kShortHelp, kShortHelpColumn, help_width())});
   if (std::string_view(argv[1]) == "help") return help_of(argc, argv);
+  const bool quiet = argv[1] == std::string_view("-q") || argv[1] == std::string_view("--quiet");
+  if (quiet && argc > 2 && *argv[2] != '-') {  // before the command it means the same
+    std::vector<const char*> turned(argv, argv + argc);
+    std::swap(turned[1], turned[2]);
+    return parse_command_line(argc, turned.data());
+  }
   try {
     if (std::string_view(argv[1]) == "surface") return parse_surface(argc - 1, argv + 1);
     if (std::string_view(argv[1]) == "spline") return parse_spline(argc - 1, argv + 1);

@@ -56,6 +56,20 @@ Result<PointSeries> series_of(const obvid_input& input, const Request& request, 
   return series;
 }
 
+/// The same with what a drawing says of an alignment.
+Result<RoadSeries> road_of(const obvid_input& input, const Request& request,
+                           const RunContext& run) {
+  if (input.space || input.points) {
+    auto series = series_of(input, request, true, run);
+    OBVID_TRY(series);
+    return RoadSeries{std::move(*series), {}};
+  }
+  auto out = input.by_path ? read_road(input.name, request.import, run)
+                           : parse_road(input.text, input.name, request.import, run);
+  if (out && request.units) take_units(out->points, *request.units);
+  return out;
+}
+
 /// Stations and heights: of points x and y.
 Result<StationHeights> heights_of(const obvid_input& input) {
   if (!input.points) return parse_heights(input.text, input.name);
@@ -424,17 +438,19 @@ int obvid_alignment(const obvid_input* input, const obvid_input* heights, const 
     OBVID_TRY(request);
     request->import = with_heights(request->import);
     const RunContext context = context_of(run);
-    Result<PointSeries> series = series_of(*input, *request, true, context);
-    OBVID_TRY(series);
+    auto read_points = road_of(*input, *request, context);
+    OBVID_TRY(read_points);
+    const PointSeries& series = read_points->points;
     AlignmentJob& job = request->alignment;
+    job.road = std::move(read_points->road);
     if (heights != nullptr) {
       auto read = heights_of(*heights);
       OBVID_TRY(read);
       job.heights = std::move(*read);
     }
-    const auto made = alignment_report(*series, job, context);
+    const auto made = alignment_report(series, job, context);
     OBVID_TRY(made);
-    auto out = std::make_unique<obvid_contour>(titled_contour(*made, *series, job, input->name));
+    auto out = std::make_unique<obvid_contour>(titled_contour(*made, series, job, input->name));
     auto tables = std::make_unique<obvid_files>();
     tables->files.push_back({".csv", *alignment_file(FileFormat::kSamples, *made)});
     tables->files.push_back({".deviations.csv", csv_text(deviation_rows(*made))});

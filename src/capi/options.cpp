@@ -110,7 +110,8 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
   if (known.alignment) {
     AlignmentJob& job = out.alignment;
     all.insert({{"noise", text(w.alignment.noise)},
-                {"closed", flag(job.closed)},
+                {"closed", flag(w.alignment.closed)},
+                {"open", flag(w.alignment.open)},
                 {"min-length", number(job.least_length)},
                 {"min-radius", number(job.least_radius)},
                 {"station", number(job.first_station)},

@@ -38,8 +38,9 @@ constexpr Defaults kMillimetres{300.0, 3000.0, 5.0, 1.0}, kInches{12.0, 120.0, 0
 /// tried where that was too much.
 constexpr double kOfTolerance = 0.8, kSafeOfTolerance = 0.5;
 constexpr double kMostBlocks = 3e5;
-constexpr double kTooLittleToTell = 1e-9;            // of the tolerance: rounding
-constexpr double kLeftIsRounding = 1e-6;             // of the tolerance: corners of no angle
+constexpr int kMoreDecimals = 3;           // of lengths that are told: beyond those of places
+constexpr double kTooLittleToTell = 1e-9;  // of the tolerance: rounding
+constexpr double kLeftIsRounding = 1e-6;   // of the tolerance: corners of no angle
 constexpr double kOrderAt = 0.4, kReadBackAt = 0.7;  // of the work
 
 class Cutting {
@@ -265,6 +266,12 @@ class Cutting {
                                            significant(worst, 3), units_.text())));
   }
 
+  /// To the decimals of the program, never -0: what is finer is rounding of ours.
+  [[nodiscard]] static double as_printed(double value, int decimals) {
+    const double unit = std::pow(10.0, decimals);
+    return std::round(value * unit) / unit + 0.0;
+  }
+
   [[nodiscard]] CutStep step_of(const Visit& visit) const {
     const Track& track = tracks_.all[visit.track];
     CutStep out;
@@ -273,8 +280,9 @@ class Cutting {
     out.closed = track.edge.closed;
     out.around = track.around;
     out.side = track.side;
-    out.start = (1.0 / scale_) * begin_of(visit);
-    out.length = length_of(visit.path) / scale_;
+    const Vec2 begin = begin_of(visit);
+    out.start = Vec2{as_printed(begin.x, decimals_), as_printed(begin.y, decimals_)} / scale_;
+    out.length = as_printed(length_of(visit.path), decimals_ + kMoreDecimals) / scale_;
     for (const auto& corner : track.corners) {
       out.left_in_corners = std::max(out.left_in_corners, corner.left / scale_);
     }

@@ -383,6 +383,19 @@ double distance_from(const Piece& piece, Vec2 point) {
   return distance_from_circle(a.start, a.theta0, a.kappa, point);
 }
 
+double nearest_place(const Piece& piece, Vec2 point) {
+  const double to_start = norm(point - start_point(piece)), to_end = norm(point - end_point(piece));
+  const double end = to_end < to_start ? 1.0 : 0.0;
+  if (is_line(piece) && start_point(piece) == end_point(piece)) return 0.0;
+  if (is_line(piece)) return place_on(piece, point).value_or(end);
+  const ArcPiece& a = arc_of(piece);
+  const auto place = place_on(piece, point);
+  if (!place) return end;
+  // as far from its circle as from the nearer end: on the other side of the centre
+  const double beside = distance_from_circle(a.start, a.theta0, a.kappa, point);
+  return beside < std::min(to_start, to_end) ? *place : end;
+}
+
 std::optional<Meeting> meeting_of(const Piece& first, const Piece& second) {
   std::optional<Meeting> best;
   for (const Vec2 p : crossings(first, second)) {

@@ -41,6 +41,9 @@ struct ArcPath {
 /// Nearest distance of a point from a line or arc.
 [[nodiscard]] double distance_from(const Piece& piece, Vec2 point);
 
+/// The place of a line or arc, 0 to 1, that is nearest to a point; of several the first.
+[[nodiscard]] double nearest_place(const Piece& piece, Vec2 point);
+
 /// Where two pieces meet, as places of both; nothing: they do not. Of two meetings the one that is
 /// later on the first and earlier on the second.
 struct Meeting {

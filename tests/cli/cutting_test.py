@@ -295,6 +295,65 @@ class Cutting(unittest.TestCase):
         v, a = 1000 / 60, 500
         self.assertAlmostEqual(self.report["report"]["minutes"] * 60, 100 / v + v / a, places=6)
 
+    def test_outlines_begin_at_the_nearest_place(self):
+        one = drawing([Round(0, 0, 100, 60, 0)])
+        for options, start in ((["--laser", 100, "--start", "2,0"], (2, 0)),
+                               (["--laser", 100, "--start", "104,63"], (100, 60)),
+                               (["--diameter", 3, "--depth", 1, "--start", "105,20"], (101.5, 20)),
+                               (["--diameter", 3, "--depth", 1, "--start", "20,-5"], (20, -1.5)),
+                               # a quarter of a circle of 2 mm, on the side of the waste
+                               (["--diameter", 3, "--depth", 1, "--lead-in", 2, "--start", "20,-5"], (20, -3.5)),
+                               (["--diameter", 3, "--depth", 1, "--lead-in", 2, "--start", "50,62.5"], (50, 63.5))):
+            with self.subTest(options=options):
+                program = Controller(self.run_cut(one, *options), burns="--laser" in options)
+                told = self.report["outlines"][0]["start"]
+                first = next(m for m in program.moves if m.code != 0 and m.a[:2] != m.b[:2]).a
+                for place in (told, first):
+                    self.assertAlmostEqual(place[0], start[0], delta=2e-3)
+                    self.assertAlmostEqual(place[1], start[1], delta=2e-3)
+        self.run_cut(drawing([Circle(20, 30, 10)]), "--laser", 100, "--start", "20,5")
+        self.assertEqual(self.report["outlines"][0]["start"], [20, 20])
+
+    def test_the_way_from_home_is_the_shortest(self):
+        self.run_cut(drawing([Round(0, 0, 100, 60, 0)]), "--laser", 100)
+        self.assertEqual(self.report["report"]["rapid_length"], 0)
+        self.run_cut(drawing([Circle(30, 40, 10)]), "--laser", 100)
+        self.assertAlmostEqual(self.report["report"]["rapid_length"], 40, places=2)
+
+    def test_figures_have_no_rounding_of_ours(self):
+        self.run_cut(drawing([Round(0.1, 0.7, 3, 3, 0)]), "--laser", 100, "--start", "0.3,0.7", "--units", "mm")
+        for one in self.report["outlines"]:
+            self.assertEqual(one["start"], [0.3, 0.7])
+            self.assertEqual(one["length"], 10.4)
+
+    def test_text_is_no_curve_in_dxf_and_svg_alike(self):
+        plan = ezdxf.new()
+        plan.header["$INSUNITS"] = 4
+        plan.modelspace().add_circle((20, 20), 5)
+        plan.modelspace().add_text("hello")
+        with io.StringIO() as out:
+            plan.write(out)
+            text = out.getvalue()
+        svg = ('<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="50mm" viewBox="0 0 50 50">'
+               '<circle cx="20" cy="20" r="5"/><text x="1" y="2">hello</text></svg>')
+        for name, data in (("d.dxf", text), ("d.svg", svg)):
+            self.run_cut(data, "--laser", 100, name=name)
+            self.assertEqual(self.report["left_out"], 0)
+            self.assertIn("converted to paths", " ".join(self.report["warnings"]))
+
+    def test_a_unit_that_is_assumed_is_told_once(self):
+        plan = ezdxf.new()
+        plan.header["$INSUNITS"] = 0
+        plan.modelspace().add_circle((20, 20), 5)
+        with io.StringIO() as out:
+            plan.write(out)
+            (self.at / "u.dxf").write_text(out.getvalue())
+        done = subprocess.run([PROGRAM, "cut", "u.dxf", "--laser", "100"], cwd=self.at, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("--units"), 1, done.stderr)
+        self.assertIn("mm is assumed", done.stderr)
+        self.assertIn("lengths in mm, as assumed", done.stdout)
+
     def test_what_does_not_fit_is_refused(self):
         slot = drawing([Round(0, 0, 80, 10, 5)])
         self.assertIn("E409", self.run_cut(slot, "--diameter", 10.5, "--depth", 1, "--side", "inside", code=4))

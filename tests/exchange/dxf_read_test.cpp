@@ -464,7 +464,7 @@ TEST(DxfLeavesOut, WhatCannotBeDrawnAndSaysSo) {
          "3 points stated, 2 found");
   warned({{0, "INSERT"}, {2, "NONE"}, {10, "0"}, {20, "0"}}, "there is no such block (NONE)");
   warned({{0, "TEXT"}, {10, "0"}, {20, "0"}, {1, "hello"}},
-         "not drawn, being neither curves nor points: 1 TEXT");
+         "not drawn, being neither curves nor points: 1 TEXT: text is a curve where it is converted to paths");
   warned({{0, "LINE"}, {67, "1"}, {10, "0"}, {20, "0"}, {11, "9"}, {21, "9"}},
          "1 entity was of the paper space");
   warned({{0, "POLYLINE"}, {70, "64"}, {0, "VERTEX"}, {10, "0"}, {20, "0"}, {0, "SEQEND"}},

@@ -51,7 +51,7 @@ struct CutOptions {
   std::optional<double> ramp_deg{};    ///< goes down along the outline [straight down]
   CutTabs tabs{};
   double lead_in = 0.0;            ///< radius of the arcs that lead to an outline and away; 0: none
-  std::optional<Vec2> start{};     ///< outlines begin near this place [by the shortest way]
+  std::optional<Vec2> start{};     ///< closed outlines begin nearest to it [to where the tool is]
   std::optional<double> safe_z{};  ///< of rapid moves of mills [5 mm; 0.2 in]
   std::optional<double> feed{}, plunge_feed{}, rapid_feed{};  ///< [1000, 300, 3000; 40, 12, 120]
   std::optional<double> spindle{};      ///< revolutions a minute, or power of a laser: the word S

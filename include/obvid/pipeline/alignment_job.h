@@ -11,6 +11,7 @@
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/pipeline/element_table.h"
+#include "obvid/pipeline/fit.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/titled_contour.h"
 #include "obvid/report/stored_contour.h"
@@ -38,10 +39,11 @@ struct AlignmentJob {
                                   ///< as rounding x and y may have moved it. Points with a
                                   ///< tolerance of their own keep that
   bool noise_from_scatter = false;  ///< estimated from the points, in place of `noise`
-  double least_length = 0.0;   ///< of each element, units; 0: a quarter of the points' distance
-  double least_radius = 0.0;   ///< of each place, units; 0: any
-  bool closed = false;         ///< around a loop
-  double first_station = 0.0;  ///< of the first point, units
+  double least_length = 0.0;  ///< of each element, units; 0: a quarter of the points' distance
+  double least_radius = 0.0;  ///< of each place, units; 0: any
+  Closing closing = Closing::kAutomatic;  ///< whether it goes around a loop
+  std::optional<double> first_station{};  ///< of the first point, units; nothing: as `road` says
+  DrawnRoad road{};  ///< what the file of the points says: station, and a profile that stays
   Transition transitions = Transition::kClothoid;  ///< wanted between lines and arcs
   bool without_steps = false;                      ///< of the curvature: G2 joints
   std::optional<double> acceleration{};            ///< to the side, m/s^2: what limits the speed
@@ -59,6 +61,7 @@ struct ProfileReport {
   std::vector<Vec2> heights;  ///< station, height: what it passes
   double tolerance = 0.0;     ///< units
   bool of_points = false;     ///< heights are those of the points, one each, in their order
+  bool of_file = false;       ///< the profile of the file as it is: no heights, no tolerance
 };
 
 /// Lines, arcs and clothoids through points, with what is to be said of them.
@@ -81,7 +84,8 @@ struct AlignmentReport {
 /// The fewest lines, arcs and clothoids found (`fit_alignment`) within the tolerances of a series.
 /// With heights, of the points or of a file, also their profile (`fit_profile`). Lines, arcs and
 /// clothoids of a drawing (`PointSeries::kept`) are passed at points along them, not at joints
-/// alone.
+/// alone. What the file says of its own alignment (`AlignmentJob::road`) is kept: the first station
+/// where none is given, and the profile where there are no heights and it is no loop; remarks tell.
 /// Reentrant. Errors: those of `fit_alignment` and `fit_profile`; E302, E304 where a tolerance
 /// cannot be estimated; E203 a tolerance that is not a positive length, or
 /// none where the points have no printed digits, an acceleration that is not positive, or one

@@ -42,6 +42,9 @@ struct MadeCut {
 [[nodiscard]] Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& options,
                                        const CutJob& job, const RunContext& run = {});
 
+/// Of its lengths: that of the drawings, or the one that is assumed for them.
+[[nodiscard]] std::string unit_of_program(const MadeCut& made);
+
 /// E504 where a curve of the drawings is not in the program.
 [[nodiscard]] std::optional<Error> not_cut(const MadeCut& made);
 

@@ -103,6 +103,25 @@ struct ImportOptions {
                                                const ImportOptions& options = {},
                                                const RunContext& run = {});
 
+/// What a drawing or a contour file says of an alignment beside its curve, placed as its points.
+struct DrawnRoad {
+  std::optional<double> station{};           ///< of the start, units
+  double length = 0.0;                       ///< of what is drawn, units
+  std::optional<VerticalProfile> profile{};  ///< heights over its stations
+};
+struct RoadSeries {
+  PointSeries points;
+  DrawnRoad road;  ///< nothing of lists of points, nor where points were put in order or left out
+};
+
+/// As `read_series` and `parse_series`, with what is said of an alignment there; contour files are
+/// curves as those of drawings are.
+[[nodiscard]] Result<RoadSeries> read_road(const std::string& path, const ImportOptions& options,
+                                           const RunContext& run = {});
+[[nodiscard]] Result<RoadSeries> parse_road(const std::string& text, const std::string& name,
+                                            const ImportOptions& options,
+                                            const RunContext& run = {});
+
 /// The points of a text that is a list of them, never a drawing, moved as `options` say.
 [[nodiscard]] Result<PointSeries> parse_point_list(const std::string& text, const std::string& name,
                                                    const ImportOptions& options = {});

@@ -247,7 +247,9 @@ void DrawingBuilder::tell() {
   }
   if (kinds.size() > kMostKinds)
     list += fmt::format(" and {} other kinds", kinds.size() - kMostKinds);
-  drawing_.warnings.push_back("not drawn, being neither curves nor points: " + list);
+  const bool text = others_.contains("TEXT") || others_.contains("MTEXT");
+  drawing_.warnings.push_back("not drawn, being neither curves nor points: " + list +
+                              (text ? ": text is a curve where it is converted to paths" : ""));
 }
 
 std::string DrawingBuilder::place_of(const Entity& entity) const {

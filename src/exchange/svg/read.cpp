@@ -214,7 +214,10 @@ class SvgReader {
     if (name == "g" || name == "a" || name == "switch") return children(node, state);
     if (name == "svg") return nested(node, state, {}, node);
     if (name == "use") return use(node, state);
-    warnings_.add(fmt::format("elements '{}' are not drawn", shortened(name)), node);
+    warnings_.add(
+        fmt::format("elements '{}' are not drawn{}", shortened(name),
+                    name == "text" ? ": text is a curve where it is converted to paths" : ""),
+        node);
   }
 
   void shape(pugi::xml_node node, string_view name, const State& state) {

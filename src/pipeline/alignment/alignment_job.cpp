@@ -11,6 +11,7 @@
 #include "alignment/drawn_points.h"
 #include "alignment/heights.h"
 #include "alignment/profile_table.h"
+#include "fit/closing_hint.h"
 #include "obvid/alignment/internal/transition_law.h"
 #include "obvid/certify/internal/crossings.h"
 #include "obvid/core/internal/figures.h"
@@ -19,6 +20,7 @@
 #include "obvid/picture/internal/alignment_svg.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/element_table.h"
+#include "obvid/series/internal/sections.h"
 
 namespace obvid {
 namespace {
@@ -198,16 +200,59 @@ Result<std::optional<SpeedLimit>> speed_limit(const Units& units,
   return std::optional(SpeedLimit{*acceleration, *metres});
 }
 
+/// Whether it goes around a loop. A last point within its tolerance of the first one is one with
+/// it, as in fits; one that is the first one exactly stays, for its deviation is told.
+bool closes(PointSeries& series, std::vector<double>& tolerance, Closing closing,
+            AlignmentReport& report) {
+  std::vector<Vec2>& points = series.points;
+  if (closing != Closing::kAutomatic) return closing == Closing::kClosed;
+  if (!returns_to_start(points, tolerance.front(), tolerance.back())) return false;
+  if (points.front() == points.back()) {
+    report.remarks.emplace_back("the last point is the first one: closed (--open leaves it open)");
+    return true;
+  }
+  const JoinedPoint joined =
+      join_points(points.front(), tolerance.front(), points.back(), tolerance.back());
+  const double away =
+      std::max(norm(joined.point - points.front()), norm(joined.point - points.back()));
+  report.warnings.push_back(fmt::format(
+      "the last point lies within its tolerance of the first one: the alignment is closed, and "
+      "both became one at {}, {}, up to {} from them; --open keeps both",
+      significant(joined.point.x, 9), significant(joined.point.y, 9), significant(away, 4)));
+  points.front() = joined.point;
+  tolerance.front() = joined.tolerance;
+  points.pop_back();
+  tolerance.pop_back();
+  if (!series.fixed.empty()) series.fixed.pop_back();
+  return true;
+}
+
+double first_station(const AlignmentJob& job, const Units& units,
+                     std::vector<std::string>& remarks) {
+  if (job.first_station) return *job.first_station;
+  const double out = job.road.station.value_or(0.0);
+  if (out != 0.0) {
+    remarks.push_back(fmt::format(
+        "stations begin at {:.10g} {}, as in the file; --station says another", out, units.text()));
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<AlignmentReport> alignment_report(const PointSeries& given, const AlignmentJob& job,
                                          const RunContext& run) {
   AlignmentReport out;
   OBVID_TRY(pipeline_detail::drawn_curve_has_tolerance(given, job.noise.has_value()));
-  const PointSeries series =
+  PointSeries series =
       pipeline_detail::with_drawn_points(given, job.noise.value_or(0.0), out.remarks, out.warnings);
-  const auto tolerance = tolerances_of(series, job, out.remarks);
+  auto tolerance = tolerances_of(series, job, out.remarks);
   OBVID_TRY(tolerance);
+  const bool closed = closes(series, *tolerance, job.closing, out);
+  if (!closed && job.closing == Closing::kAutomatic && given.kept.empty()) {
+    auto hint = pipeline_detail::hint_at_closing(series.points, series.units);
+    if (hint) out.warnings.push_back(std::move(*hint));
+  }
   const auto limit = speed_limit(series.units, job.acceleration);
   OBVID_TRY(limit);
   AlignmentOptions limits;
@@ -215,11 +260,12 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
   limits.least_radius = job.least_radius;
   limits.transitions = job.transitions;
   limits.without_steps = job.without_steps;
-  limits.closed = job.closed;
+  limits.closed = closed;
   auto alignment = fit_alignment(series.points, *tolerance, limits, run);
   OBVID_TRY(alignment);
-  for (AlignmentElement& e : alignment->elements) e.station += job.first_station;
-  for (AlignmentDeviation& d : alignment->deviations) d.station += job.first_station;
+  const double first = first_station(job, series.units, out.remarks);
+  for (AlignmentElement& e : alignment->elements) e.station += first;
+  for (AlignmentDeviation& d : alignment->deviations) d.station += first;
   auto profile = pipeline_detail::profile_report(series, *alignment, job, out.remarks, run);
   OBVID_TRY(profile);
   out.profile = std::move(*profile);
@@ -294,9 +340,10 @@ std::string alignment_picture(const AlignmentReport& report) {
 
 DataTable deviation_rows(const AlignmentReport& report) {
   const std::vector<Vec2>& points = report.points;
+  const bool has_heights = report.profile && !report.profile->of_file;
   DataTable out{
-      heads_of(report.profile ? "station,offset,x,y,height,height_offset" : "station,offset,x,y")};
-  const bool beside = report.profile && report.profile->of_points;
+      heads_of(has_heights ? "station,offset,x,y,height,height_offset" : "station,offset,x,y")};
+  const bool beside = has_heights && report.profile->of_points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const AlignmentDeviation& d = report.alignment.deviations[i];
     out.rows.push_back({d.station, d.offset, points[i].x, points[i].y});
@@ -304,7 +351,7 @@ DataTable deviation_rows(const AlignmentReport& report) {
     out.rows.back().emplace_back(report.profile->heights[i].y);
     out.rows.back().emplace_back(report.profile->profile.offsets[i]);
   }
-  if (!report.profile || beside) return out;
+  if (!has_heights || beside) return out;
   for (std::size_t i = 0; i < report.profile->heights.size(); ++i) {
     const Vec2 at = report.profile->heights[i];
     out.rows.push_back({at.x, {}, {}, {}, at.y, report.profile->profile.offsets[i]});

@@ -18,8 +18,9 @@ Result<void> take_tolerance(const std::string& typed, const char* option, const 
   }
   const auto number = typed_number(typed);
   if (!number || !std::isfinite(*number) || !(*number > 0.0)) {
-    return fail(bad_option("the tolerance must be a positive length, rounding or auto, not " + typed,
-                           option, with_point(typed) + hint));
+    return fail(
+        bad_option("the tolerance must be a positive length, rounding or auto, not " + typed,
+                   option, with_point(typed) + hint));
   }
   length = number;
   return {};
@@ -33,6 +34,11 @@ Result<void> set_alignment(const AlignmentValues& typed, AlignmentJob& job) {
   OBVID_TRY(take_tolerance(typed.profile_noise, "--profile-noise",
                            "give it in the units of the points", job.profile_noise,
                            job.profile_noise_from_scatter));
+  if (typed.closed && typed.open) {
+    return fail(bad_option("--closed and --open contradict each other", "", "give one of them"));
+  }
+  if (typed.closed) job.closing = Closing::kClosed;
+  if (typed.open) job.closing = Closing::kOpen;
   if (!typed.transitions.empty()) {
     const auto kind = transition_named(typed.transitions);
     if (!kind) {

@@ -179,6 +179,38 @@ void tell_humps(const std::vector<UnborneGrade>& humps, double tolerance, const 
       counted(humps.size(), "such joint", "such joints"), significant(tolerance, 3), units.text()));
 }
 
+/// The profile that is drawn, at the stations of the alignment. Around a loop it would have to
+/// begin elsewhere.
+std::optional<ProfileReport> profile_of_file(const PointSeries& series, const Alignment& alignment,
+                                             const AlignmentJob& job,
+                                             std::vector<std::string>& remarks) {
+  if (alignment.closed) {
+    remarks.emplace_back(
+        "the profile of the file is left out around a loop: --profile takes its heights");
+    return std::nullopt;
+  }
+  ProfileReport out;
+  out.of_file = true;
+  out.profile = *job.road.profile;
+  if (job.first_station && job.road.station) {
+    const double moved = *job.first_station - *job.road.station;
+    for (ProfileElement& e : out.profile.elements) e.station += moved;
+    out.profile.end_station += moved;
+  }
+  const double longer = alignment.length - job.road.length;
+  remarks.push_back(fmt::format(
+      "the profile is that of the file, as it is, over the station: the alignment is {} {} {} than "
+      "what is drawn",
+      significant(std::abs(longer), 3), series.units.text(), longer < 0.0 ? "shorter" : "longer"));
+  if (job.profile_noise || job.profile_noise_from_scatter ||
+      job.profile.curves != out.profile.curves) {
+    remarks.emplace_back(
+        "options of profiles have nothing to do: that of the file stays as it is (--profile with "
+        "heights makes another)");
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<double> estimated_noise(const std::vector<Vec2>& points, const Units& units,
@@ -204,6 +236,7 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   const bool any = std::any_of(series.fixed.begin(), series.fixed.end(),
                                [](const FixedData& f) { return f.height.has_value(); });
   if (!job.heights && !any) {
+    if (job.road.profile) return profile_of_file(series, alignment, job, remarks);
     if (job.profile_noise || job.profile_noise_from_scatter) {
       remarks.emplace_back("--profile-noise has nothing to do: the points have no heights");
     }
@@ -255,7 +288,8 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   out.tolerance = *tolerance;
   if (ascending.size() > 1) {
     // those of the points before the first one lie before its station
-    const double from = out.of_points ? alignment.elements.front().station : job.first_station;
+    const double from = out.of_points ? alignment.elements.front().station
+                                      : job.first_station.value_or(job.road.station.value_or(0.0));
     OBVID_TRY(cover(ascending, from, alignment.length, alignment.closed, series.units, remarks));
     if (alignment.closed) {
       OBVID_TRY(close_around(ascending, alignment.length, *tolerance, out.of_points));

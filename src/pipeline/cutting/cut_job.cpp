@@ -178,7 +178,26 @@ void tell_apart(MadeCut& made) {
   }
 }
 
+/// Once, where reading told already that no unit is stated.
+void tell_assumed_unit(MadeCut& made) {
+  const std::string asks = ": --units says what it is", assumed = ": " + made.units.name;
+  bool told = false;
+  for (std::string& warning : made.warnings) {
+    if (!warning.ends_with(asks)) continue;
+    warning.resize(warning.size() - asks.size());
+    warning += assumed + " is assumed; --units says what it is";
+    told = true;
+  }
+  if (told) return;
+  made.warnings.push_back("the drawing does not say its unit" + assumed +
+                          " is assumed; --units says what a unit is");
+}
+
 }  // namespace
+
+std::string unit_of_program(const MadeCut& made) {
+  return made.units.known() ? made.units.text() : made.units.name;
+}
 
 Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& options,
                          const CutJob& job, const RunContext& run) {
@@ -208,10 +227,7 @@ Result<MadeCut> make_cut(std::vector<Drawing> drawings, const ImportOptions& opt
   auto program = cut(made.outlines, plan, run);
   OBVID_TRY(program);
   made.program = std::move(*program);
-  if (!made.units.known()) {
-    made.warnings.push_back("the drawing does not say its unit: " + made.units.name +
-                            " is assumed; --units says what a unit is");
-  }
+  if (!made.units.known()) tell_assumed_unit(made);
   auto& warnings = made.program.warnings;
   made.warnings.insert(made.warnings.end(), warnings.begin(), warnings.end());
   return made;
@@ -236,8 +252,8 @@ Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
   const CutReport& report = made.program.report;
   out.remarks.push_back(fmt::format("{}, {} {} at feed, {} {} rapid, about {} min",
                                     counted(made.program.steps.size(), "outline", "outlines"),
-                                    significant(report.cut_length, 4), made.units.text(),
-                                    significant(report.rapid_length, 4), made.units.text(),
+                                    significant(report.cut_length, 4), unit_of_program(made),
+                                    significant(report.rapid_length, 4), unit_of_program(made),
                                     significant(report.minutes, 3)));
   SketchLayer outlines = sketch_layer("OUTLINES", "outline", "#1c2733", 7, 1.6);
   SketchLayer axis = sketch_layer("TOOL", "way of the tool's axis", "#cf5a12", 30, 1.0);

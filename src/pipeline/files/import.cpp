@@ -541,6 +541,17 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
   return placed(std::move(out), options);
 }
 
+DrawnRoad drawn_road(const DrawnCurve& curve, const ImportOptions& options) {
+  if ((!curve.station && !curve.profile) || options.unordered || options.drop_outliers) return {};
+  Drawing alone;
+  alone.curves.push_back(curve);
+  place(options.placement, alone);
+  DrawnCurve& placed_curve = alone.curves.front();
+  DrawnRoad out{placed_curve.station, 0.0, std::move(placed_curve.profile)};
+  for (const Piece& piece : placed_curve.pieces) out.length += arc_length(piece, 0.0);
+  return out;
+}
+
 }  // namespace
 
 Result<std::vector<std::size_t>> chosen_curves(const Drawing& drawing, const CurveChoice& asked,
@@ -698,6 +709,38 @@ Result<PointSeries> read_series(const std::string& path, const ImportOptions& op
   auto drawing = read_drawing(path, options.planes, run);
   OBVID_TRY(drawing);
   return points_of_drawing(*drawing, options, path);
+}
+
+Result<RoadSeries> parse_road(const std::string& text, const std::string& name,
+                              const ImportOptions& options, const RunContext& run) {
+  RoadSeries out;
+  if (!is_drawing_text(text, name)) {
+    auto points = parse_series(text, name, options, run);
+    OBVID_TRY(points);
+    out.points = std::move(*points);
+    return out;
+  }
+  auto drawing = parse_drawing(text, name, options.planes, run);
+  OBVID_TRY(drawing);
+  auto points = points_of_drawing(*drawing, options, name);
+  OBVID_TRY(points);
+  out.points = std::move(*points);
+  const auto chosen = chosen_curve(*drawing, options.curve, name);
+  OBVID_TRY(chosen);
+  if (*chosen < drawing->curves.size()) out.road = drawn_road(drawing->curves[*chosen], options);
+  return out;
+}
+
+Result<RoadSeries> read_road(const std::string& path, const ImportOptions& options,
+                             const RunContext& run) {
+  if (path != "-" && (!is_drawing(path) || is_cad(file_kind(head_of(path))))) {
+    auto points = read_series(path, options, run);
+    OBVID_TRY(points);
+    return RoadSeries{std::move(*points), {}};
+  }
+  const auto text = read_file(path);
+  OBVID_TRY(text);
+  return parse_road(*text, path == "-" ? "standard input" : path, options, run);
 }
 
 Result<PointSeries> parse_point_list(const std::string& text, const std::string& name,

@@ -25,6 +25,7 @@
 #include "obvid/certify/certify.h"
 #include "obvid/chain/internal/smooth_chain.h"
 #include "obvid/contour/common/internal/carry.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/curve/internal/runs.h"
 #include "obvid/numeric/internal/median.h"
 #include "obvid/region/internal/refine.h"

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "fit/closing_hint.h"
 #include "fit/fixed_once.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/core/units.h"
@@ -273,41 +274,6 @@ class Preparation {
     return norm(normal) / std::hypot(normal.x / axes.x, normal.y / axes.y);
   }
 
-  /// Ends as near as neighbours, or as a fortieth of the length, with the curve going on over the
-  /// gap: an outline that was left open (docs/methods/series.md). It may begin at a tip, and turn
-  /// on one side of the gap. At a trailing edge it turns back instead.
-  void hint_at_closing() {
-    constexpr double kMayClose = 2.0;      // middle chords
-    constexpr double kOfLength = 0.025;    // of the whole
-    constexpr double kLeastLength = 10.0;  // of the whole, gaps
-    constexpr double kPercent = 100.0;
-    constexpr double kGoesOn = std::numbers::pi / 3;  // at either end, rad
-    // a tip: a step like the others, and a turn at one end that is none of a trailing edge, rad
-    constexpr double kLeastOfStep = 0.5, kSharpest = 25.0 / 36.0 * std::numbers::pi;
-    if (job_.closing != Closing::kAutomatic || !out_.kept.empty() || out_.points.size() < 4) return;
-    const Vec2 gap = out_.points.front() - out_.points.back();
-    const Vec2 first = out_.points[1] - out_.points.front();
-    const Vec2 last = out_.points.back() - out_.points[out_.points.size() - 2];
-    const std::vector<double> lengths = chords();
-    const double apart = norm(gap), length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
-    const double step = median_of(lengths);
-    const bool near = apart <= kMayClose * step, in_length = apart <= kOfLength * length;
-    if ((!near && !in_length) || length < kLeastLength * apart) return;
-    const double before = std::abs(turning(last, gap)), behind = std::abs(turning(gap, first));
-    const bool goes_on = std::max(before, behind) <= kGoesOn;
-    const bool at_tip = std::min(before, behind) <= kGoesOn &&
-                        std::max(before, behind) <= kSharpest && near && in_length &&
-                        apart >= kLeastOfStep * step;
-    if (!goes_on && !at_tip) return;
-    out_.warnings.push_back(fmt::format(
-        "the ends are {:.4g} {} apart, {}, and the curve would go on there{}: --closed closes it, "
-        "--open says that it ends",
-        apart, series_.units.text(),
-        near ? "hardly farther than neighbours"
-             : fmt::format("{} % of its length", significant(kPercent * apart / length, 2)),
-        goes_on ? "" : ", around a tip"));
-  }
-
   Result<void> close() {
     const std::size_t n = out_.points.size();
     const bool again =
@@ -316,7 +282,10 @@ class Preparation {
                                                              out_.tolerance.back()));
     out_.closed =
         job_.closing == Closing::kClosed || (job_.closing == Closing::kAutomatic && returns);
-    if (!out_.closed) hint_at_closing();
+    if (!out_.closed && job_.closing == Closing::kAutomatic && out_.kept.empty()) {
+      auto hint = hint_at_closing(out_.points, series_.units);
+      if (hint) out_.warnings.push_back(std::move(*hint));
+    }
     if (!out_.closed || !returns) return {};
     if (again && out_.points.front() != out_.points.back()) {
       out_.warnings.emplace_back(

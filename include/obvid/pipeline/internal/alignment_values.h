@@ -10,6 +10,7 @@ namespace obvid {
 
 /// What is typed of an alignment, in words; empty: as if nothing had been said.
 struct AlignmentValues {
+  bool closed = false, open = false;
   std::string noise;           ///< a length, rounding or auto
   std::string profile_noise;   ///< likewise
   std::string profile_curves;  ///< parabolas or arcs
