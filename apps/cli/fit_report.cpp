@@ -71,11 +71,8 @@ Table fit_segments(const Fit& fit) {
 
 /// Points of a line or arc, in order along the contour; around a whole circle they are all.
 std::string points_on_text(const LineOrArc& one) {
-  constexpr double kOnce = 1.0 - 1e-9;  // of a full turn: rounding
-  if (std::abs(one.kappa) * one.length < kOnce * kFullTurn) {
-    return fmt::format("{}-{}", one.from + 1, one.to + 1);
-  }
-  return fmt::format("all, from {}", one.from + 1);
+  if (one.from == one.to) return fmt::format("all, from {}", one.from + 1);
+  return fmt::format("{}-{}", one.from + 1, one.to + 1);
 }
 
 /// A coordinate of a centre; below the rounding of what it was computed from it is 0.
