@@ -231,7 +231,7 @@ int run(const SurfaceCheckOptions& options) {
   ProgressBar bar(options.progress);
   bar.tell("reading", 0.0);
   std::vector<std::string> warnings;
-  const Result<SurfaceModel> model = read_surface(options.input, warnings, ReadTrims::kKept);
+  const Result<SurfaceModel> model = read_surface(options.input, warnings);
   if (!model) {
     bar.clear();
     return report(model.error());

@@ -146,7 +146,7 @@ Result<CutDone> cut_done(const SurfaceCutOptions& options, ProgressBar& bar) {
   OBVID_TRY(check_outputs_of(options));
   bar.tell("reading", 0.0);
   std::vector<std::string> warnings;
-  const auto model = read_surface(options.input, warnings, ReadTrims::kKept);
+  const auto model = read_surface(options.input, warnings);
   OBVID_TRY(model);
   auto made = cut_surface(*model, options.job, bar.progress());
   OBVID_TRY(made);

@@ -57,7 +57,7 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<Output>& outp
                        ProgressBar& bar) {
   Made made;
   bar.tell("reading", 0.0);
-  auto model = read_surface(command.input, made.warnings, ReadTrims::kKept);
+  auto model = read_surface(command.input, made.warnings);
   OBVID_TRY(model);
   made.model = std::move(*model);
   auto path = make_toolpath(made.model, command.job, bar.progress());

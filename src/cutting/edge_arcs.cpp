@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/geom/internal/circle.h"
+
 namespace obvid::cutting {
 namespace {
 
@@ -101,11 +103,9 @@ class EdgeRow {
     if (std::abs(half) > kMostHalfTurn) return std::nullopt;
     Fit out{between(a, b, half), 0.0};
     const double kappa = curvature_of(out.piece);
-    const Vec2 normal = left_normal(unit_at(heading_at_start(out.piece)));
+    const double theta = heading_at_start(out.piece);
     const bool near = each_place(from, to, [&](Vec2 at, Vec2) {
-      const Vec2 v = at - a;
-      const double twice = 2.0 * dot(v, normal) - kappa * dot(v, v);
-      out.off = std::max(out.off, std::abs(twice) / (1.0 + norm(kappa * v - normal)));
+      out.off = std::max(out.off, distance_from_circle(a, theta, kappa, at));
       return out.off <= within_;
     });
     out.off /= kBetweenPlaces;

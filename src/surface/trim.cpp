@@ -53,17 +53,6 @@ bool is_trimmed(const SurfaceModel& model) {
                      [](const SurfacePatch& patch) { return !patch.trims.empty(); });
 }
 
-std::vector<std::string> take_off_trims(SurfaceModel& model) {
-  std::vector<std::string> told;
-  for (SurfacePatch& patch : model.patches) {
-    if (patch.trims.empty()) continue;
-    patch.trims.clear();
-    told.push_back(
-        fmt::format("{} is trimmed: the whole box of its parameters was taken", patch.name));
-  }
-  return told;
-}
-
 NurbsCurve parameter_line(Vec2 a, Vec2 b) { return {1, {0.0, 0.0, 1.0, 1.0}, {a, b}, {}}; }
 
 TrimLoop outline_of(const NurbsSurface& surface) {

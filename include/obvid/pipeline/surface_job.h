@@ -178,15 +178,10 @@ struct MadeSurface {
 /// What is to be said where section contours were formed but are not proved (E501).
 [[nodiscard]] std::optional<Error> not_proved(const MadeSurface& made);
 
-/// What becomes of the trims of patches that are read: whole patches with a warning for each, or
-/// patches with their trims, for what minds them.
-enum class ReadTrims { kTakenOff, kKept };
-
 /// A surface from a file: stored (.json), STEP, IGES, BREP, control points (.cpt, .cptw, .csv).
 /// `warnings` get what was left out.
 [[nodiscard]] Result<SurfaceModel> read_surface(const SurfaceInput& input,
                                                 std::vector<std::string>& warnings,
-                                                ReadTrims trims = ReadTrims::kTakenOff,
                                                 const RunContext& run = {});
 
 /// A curve of space from a file: a contour, a curve of a drawing, or points: in a plane the fair

@@ -128,8 +128,6 @@ struct SurfaceModel {
   std::vector<SurfacePatch> patches;
 };
 
-/// Makes all patches whole; a sentence about each that was trimmed.
-[[nodiscard]] std::vector<std::string> take_off_trims(SurfaceModel& model);
 [[nodiscard]] bool is_trimmed(const SurfaceModel& model);
 
 /// The surfaces of all patches, in order; valid as long as the model is.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "obvid/geom/internal/circle.h"
 #include "peak.h"
 
 namespace obvid::arcs {
@@ -62,11 +63,8 @@ bool goes_forward(const Piece& piece) {
 
 }  // namespace
 
-/// | |p - centre| - radius | without the cancellation of a large circle.
 double signed_distance(const Circle& c, Vec2 p) {
-  const Vec2 v = p - c.start, n = left_normal(c.tangent);
-  const double twice = 2.0 * dot(v, n) - c.kappa * dot(v, v);
-  return twice / (1.0 + norm(c.kappa * v - n));
+  return distance_beside_circle(c.start, c.tangent, c.kappa, p);
 }
 
 CirclePair circles_between(const Node& a, const Node& b) {

@@ -44,10 +44,9 @@
 namespace obvid {
 namespace {
 
-constexpr std::size_t kHead = 4096;          // bytes that tell the kind of a file
 constexpr std::size_t kMostPointsNamed = 8;  // points in one sentence; the others are counted
 
-std::string head_of(const std::string& path) { return head_of_file(path, kHead); }
+std::string head_of(const std::string& path) { return head_of_file(path, kHeadOfKind); }
 
 std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
@@ -85,7 +84,7 @@ bool is_drawn(FileKind kind) { return kind != FileKind::kPoints && kind != FileK
 
 Result<Drawing> parsed_by_kind(const std::string& text, const std::string& path,
                                const std::vector<PlaneRow>& planes, const RunContext& run) {
-  const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
+  const FileKind kind = file_kind(std::string_view(text).substr(0, kHeadOfKind));
   if (!is_drawn(kind) && is_mesh(text, text.size(), path)) {
     return pipeline_detail::sections_of_mesh(text, path, planes, run);
   }
@@ -671,10 +670,10 @@ Result<Drawing> read_drawing(const std::string& path, const std::vector<PlaneRow
 }
 
 bool is_drawing_text(std::string_view text, std::string_view name) {
-  return is_drawn(file_kind(text.substr(0, kHead))) || is_mesh(text, text.size(), name);
+  return is_drawn(file_kind(text.substr(0, kHeadOfKind))) || is_mesh(text, text.size(), name);
 }
 
-bool needs_cad(std::string_view text) { return is_cad(file_kind(text.substr(0, kHead))); }
+bool needs_cad(std::string_view text) { return is_cad(file_kind(text.substr(0, kHeadOfKind))); }
 
 Result<Drawing> parse_drawing(const std::string& text, const std::string& name,
                               const std::vector<PlaneRow>& planes, const RunContext& run) {
@@ -685,7 +684,7 @@ Result<Drawing> parse_drawing(const std::string& text, const std::string& name,
 
 Result<PointSeries> parse_series(const std::string& text, const std::string& name,
                                  const ImportOptions& options, const RunContext& run) {
-  const FileKind kind = file_kind(std::string_view(text).substr(0, kHead));
+  const FileKind kind = file_kind(std::string_view(text).substr(0, kHeadOfKind));
   if (!is_drawing_text(text, name) || kind == FileKind::kContour) {
     OBVID_TRY(check_no_planes(options.planes, name));
     return placed(parse_points(text, name, options.list), options);

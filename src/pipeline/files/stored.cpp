@@ -34,8 +34,6 @@ Result<Stored> parse_stored(const std::string& text, const std::string& name,
 
 namespace {
 
-constexpr std::size_t kHeadOfConvertible = 4096;  // bytes that tell the kind of a file
-
 /// Whether it is taken as it is drawn; of a contour file only where it goes elsewhere.
 bool is_foreign(bool drawing, FileKind kind, const ConvertJob& job) {
   return drawing && (kind != FileKind::kContour || !job.import.placement.changes_nothing());
@@ -75,7 +73,7 @@ Result<Convertible> stored_as_it_is(const std::string& text, const std::string& 
 Result<Convertible> read_convertible(const std::string& path, const ConvertJob& job,
                                      const RunContext& run) {
   OBVID_TRY(may_go_on(run));
-  if (needs_cad(head_of_file(path, kHeadOfConvertible))) {
+  if (needs_cad(head_of_file(path, kHeadOfKind))) {
     return convertible_of(read_drawing(path, job.import.planes, run), path, job, run);
   }
   const auto text = read_file(path);

@@ -11,16 +11,10 @@
 #include "obvid/pipeline/space_fit.h"
 
 namespace obvid {
-namespace {
-
-constexpr std::size_t kHeadBytes = 4096;  // that tell the kind of a file
-
-}  // namespace
-
 Result<std::optional<SpaceSeries>> space_series(const std::string& path, bool any_third,
                                                 const ImportOptions& import) {
   // what can be read only once is for whoever reads it: `parse_space_series`
-  const std::string head = head_of_file(path, kHeadBytes);
+  const std::string head = head_of_file(path, kHeadOfKind);
   if (head.empty() || file_kind(head) != FileKind::kPoints) return std::nullopt;
   const auto text = read_file(path);
   OBVID_TRY(text);

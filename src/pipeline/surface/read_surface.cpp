@@ -53,12 +53,9 @@ Result<SurfaceModel> read_trimmed(const SurfaceInput& input, std::vector<std::st
 }  // namespace
 
 Result<SurfaceModel> read_surface(const SurfaceInput& input, std::vector<std::string>& warnings,
-                                  ReadTrims trims, const RunContext& run) {
+                                  const RunContext& run) {
   OBVID_TRY(may_go_on(run));
-  auto model = read_trimmed(input, warnings, run);
-  if (!model || trims == ReadTrims::kKept) return model;
-  for (std::string& told : take_off_trims(*model)) warnings.push_back(std::move(told));
-  return model;
+  return read_trimmed(input, warnings, run);
 }
 
 }  // namespace obvid

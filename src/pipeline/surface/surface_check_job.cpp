@@ -31,7 +31,7 @@ Result<Reference> reference_of(const SurfaceInput& against, std::vector<std::str
   }
   Reference out;
   if (input.text && pipeline_detail::holds_surface(*input.text, input.name)) {
-    auto surface = read_surface(input, warnings, ReadTrims::kKept, run);
+    auto surface = read_surface(input, warnings, run);
     OBVID_TRY(surface);
     out.units = surface->units;
     out.surface = std::move(*surface);

@@ -141,7 +141,7 @@ ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
 
 Result<MadeSurface> as_read(const SurfaceJob& job, const RunContext& run) {
   MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept, run);
+  auto model = read_surface(job.inputs.front(), made.warnings, run);
   OBVID_TRY(model);
   made.model = std::move(*model);
   return made;
@@ -241,7 +241,7 @@ Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job,
                               const RunContext& run) {
   OBVID_TRY(need(job, 1, 1, "one surface"));
   MadeSurface made;
-  auto model = read_surface(job.inputs.front(), made.warnings, ReadTrims::kKept, run);
+  auto model = read_surface(job.inputs.front(), made.warnings, run);
   OBVID_TRY(model);
   made.model = std::move(*model);
   // points of the offset have the parameters of theirs: trims stay as they are

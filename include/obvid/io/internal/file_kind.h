@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 namespace obvid {
@@ -22,6 +23,9 @@ enum class FileKind {
 };
 
 [[nodiscard]] FileKind file_kind(std::string_view text);
+
+/// Bytes at the beginning of a file that are enough for it.
+inline constexpr std::size_t kHeadOfKind = 4096;
 
 /// Whether it is a JSON object of any kind.
 [[nodiscard]] bool is_json_text(std::string_view text);
