@@ -74,7 +74,8 @@ std::vector<std::pair<std::size_t, double>> strays_of_end(const At& at, double l
     std::vector<std::pair<std::size_t, double>> out;
     for (std::size_t k = 0; k < count; ++k) {
       const double off = off_at(at, k, count);
-      if (off > least) out.emplace_back(k, off);
+      // without the first point behind it too, which may be the wrong one
+      if (off > least && off_at(at, k, count + 1) > least) out.emplace_back(k, off);
     }
     // each of them is off what lies behind them, which goes on without them
     const bool goes_on = !(off_at(at, count, count + 1) > least);

@@ -23,9 +23,9 @@ namespace judge {
 namespace {
 
 constexpr const char* kUsage =
-    "usage: judge --series N [--of fit|space|nurbs|spline|region] [--seed S] [--first I] [--jobs "
-    "J]\n"
-    "             [--obvid PROGRAM] [--keep FOLDER] [--json FILE] [--limit SECONDS] [--most "
+    "usage: judge --series N [--of fit|scan|space|nurbs|spline|region] [--seed S] [--first I]\n"
+    "             [--jobs J] [--obvid PROGRAM] [--keep FOLDER] [--json FILE] [--limit SECONDS] "
+    "[--most "
     "FINDINGS]\n"
     "       judge CONTOUR.json [--points FILE] [--options \"OPTIONS OF fit\"] [--text FILE]\n"
     "             [--verify FILE] [--export FILE]... [--json FILE]\n"
@@ -88,7 +88,7 @@ Settings settings_of(int argc, char** argv) {
     else
       out.wrong = true;
   }
-  const std::set<std::string> kinds = {"fit", "space", "nurbs", "spline", "region"};
+  const std::set<std::string> kinds = {"fit", "scan", "space", "nurbs", "spline", "region"};
   out.wrong =
       out.wrong || (out.series == 0) == out.contour.empty() || !kinds.contains(out.trial.of);
   return out;

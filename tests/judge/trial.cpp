@@ -401,6 +401,7 @@ Trial run_trial(const TrialOptions& options, std::uint64_t index) {
   if (options.of == "nurbs") return run_nurbs_trial(options, index);
   if (options.of == "spline") return run_grid_trial(options, index);
   if (options.of == "region") return run_region_trial(options, index);
+  if (options.of == "scan") return run_scan_trial(options, index);
   return Work(options, index).run();
 }
 

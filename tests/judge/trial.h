@@ -13,7 +13,7 @@ namespace judge {
 struct TrialOptions {
   std::string obvid;       ///< the program
   std::string folder;      ///< to work in; emptied
-  std::string of = "fit";  ///< what is tried: fit, space, nurbs, spline, region
+  std::string of = "fit";  ///< what is tried: fit, scan, space, nurbs, spline, region
   std::uint64_t seed = 1;
   double limit = 10.0;  ///< seconds of processor time of one run
 };
@@ -36,6 +36,8 @@ Trial run_nurbs_trial(const TrialOptions& options, std::uint64_t index);
 Trial run_grid_trial(const TrialOptions& options, std::uint64_t index);
 /// Points and headings for `region`, its constructions and what its ranges promise of `fit`.
 Trial run_region_trial(const TrialOptions& options, std::uint64_t index);
+/// Measured points for `fit`: outliers, points in no order, errors of known size.
+Trial run_scan_trial(const TrialOptions& options, std::uint64_t index);
 
 /// All claims of a file of format obvid-space-curve, and of the printed report if there is one.
 void judge_space(const std::string& stored, const std::string& report, Sheet& sheet);

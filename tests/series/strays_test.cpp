@@ -116,6 +116,17 @@ TEST(Strays, AtAnEndAreNoneOfRowsThatGoOn) {
   }
 }
 
+TEST(Strays, AtAnEndAreNoneWhereThePointBehindMayBeTheWrongOne) {
+  // the second point lies off the circle, by less than an end has to (a quarter of a step)
+  for (const double off : {0.15, 0.2, 0.24}) {
+    std::vector<Vec2> row;
+    for (int k = 0; k < 120; ++k) row.push_back((k == 1 ? 50.0 + off : 50.0) * unit_at(0.02 * k));
+    const auto whole = order_along_curve(row);
+    ASSERT_TRUE(whole);
+    EXPECT_FALSE(without_end_strays(row, *whole)) << off;
+  }
+}
+
 TEST(Strays, AreSoFarOffAsTheyAre) {
   const Cloud cloud = circle_with({{0, 0}}, 300, 7);
   const auto found = order_beside_strays(cloud.points);
