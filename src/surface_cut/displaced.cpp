@@ -12,6 +12,7 @@
 #include "obvid/geom/internal/box.h"
 #include "obvid/numeric/internal/gauss.h"
 #include "obvid/surface/internal/topology.h"
+#include "openings.h"
 
 namespace obvid {
 namespace {
@@ -259,9 +260,8 @@ double runs_round(const EdgeUse& use) {
   return with == use.along ? 1.0 : -1.0;
 }
 
-Turned turned_alike(const SurfaceModel& model) {
-  const std::size_t count = model.patches.size();
-  const Topology topology = topology_of(model);
+Turned turned_alike(const Topology& topology) {
+  const std::size_t count = topology.edge_of.size();
   Turned out{std::vector<double>(count, 0.0), std::vector<std::size_t>(count, 0), 0, 0};
   for (std::size_t first = 0; first < count; ++first) {
     if (out.sign[first] != 0.0) continue;
@@ -322,7 +322,8 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
   const PlaneFoot foot(plane, 0.25 * rounding);
   const double middle_y = options.mirror ? 0.0 : box.middle().y;
   const Vec3 origin{box.middle().x, middle_y, options.water};
-  const Turned turned = turned_alike(model);
+  const Topology topology = topology_of(model);
+  const Turned turned = turned_alike(topology);
   std::vector<Sum> parts(turned.parts);
   Displaced out;
   out.parts = turned.parts;
@@ -355,6 +356,11 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
     return MeasuredFigure{sign * sides * all.value[k], sides * all.error[k]};
   };
   out.volume = figure(kVolume, 1.0);
+  const auto open = openings_below(topology, options.water, size, options.mirror, run);
+  OBVID_TRY(open);
+  out.open_volume = sides * open->volume;
+  out.open_width = open->width;
+  out.open_at = open->at;
   out.wetted = figure(kArea, 1.0);
   out.waterplane = figure(kFlat, flat_sign);
   const auto centre = [&](std::size_t k, std::size_t of, double shift) {

@@ -230,6 +230,55 @@ TEST(DisplacedVolume, OfHalfOfWigleysHullWhereverItsPatchesAreCut) {
   }
 }
 
+/// A flat patch with these corners.
+NurbsSurface flat(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  NurbsSurface out;
+  out.degree_u = out.degree_v = 1;
+  out.knots_u = out.knots_v = {0, 0, 1, 1};
+  out.points = {a, b, c, d};  // a b along u, then c d
+  return out;
+}
+
+TEST(DisplacedVolume, TellsWhatIsOpenBelowTheWater) {
+  // a box 4 x 2 x 1 from the origin on without its lid; the bottom may be missing, or begin at y =
+  // s
+  const auto walls = [](double s, bool bottom, double raked) {
+    std::vector<NurbsSurface> out = {
+        flat({0, s, 0}, {0, 2, 0}, {0, s, 1}, {0, 2, 1}),
+        flat({4, s, 0}, {4, 2, 0}, {4 + raked, s, 1}, {4 + raked, 2, 1}),
+        flat({0, 2, 0}, {4, 2, 0}, {0, 2, 1}, {4 + raked, 2, 1})};
+    if (s == 0.0) out.push_back(flat({0, 0, 0}, {4, 0, 0}, {0, 0, 1}, {4 + raked, 0, 1}));
+    if (bottom) out.push_back(flat({0, s, 0}, {4, s, 0}, {0, 2, 0}, {4, 2, 0}));
+    return out;
+  };
+  const auto of = [](const std::vector<NurbsSurface>& patches, double water, bool half) {
+    return displaced(model_of(patches), {water, half});
+  };
+  const auto closed = of(walls(0, true, 0), 0.5, false);
+  ASSERT_TRUE(closed);
+  EXPECT_EQ(closed->open_volume, 0.0);
+  EXPECT_NEAR(closed->volume.value, 4.0, 1e-12);
+  // without its bottom: all of it, 4 x 2 x 0.5
+  const auto without = of(walls(0, false, 0), 0.5, false);
+  EXPECT_NEAR(without->open_volume, 4.0, 1e-9);
+  EXPECT_NEAR(without->open_width, 2.0, 1e-12);
+  // half a barge that begins at 0.1: 2 x 0.1 x 4 x 0.5 lack in 4.0 of both halves
+  auto half = walls(0.1, true, 0);
+  const auto siding = of(half, 0.5, true);
+  EXPECT_NEAR(siding->volume.value, 2 * 1.9 * 4 * 0.5, 1e-12);
+  EXPECT_NEAR(siding->open_volume, 0.4, 1e-12);
+  EXPECT_NEAR(siding->open_width, 0.1, 1e-12);
+  EXPECT_EQ(of(half, 0.5, false)->open_volume, 0.0);  // its own body ends there
+  // an upright end may be missing; a raked one is told: 2 x 0.6 x 0.5^2 / 2
+  auto open_end = walls(0, true, 0.6);
+  open_end.erase(open_end.begin() + 1);
+  const auto raked = of(open_end, 0.5, false);
+  EXPECT_NEAR(raked->open_volume, 2.0 * 0.6 * 0.125, 1e-9);
+  auto upright = walls(0, true, 0);
+  upright.erase(upright.begin() + 1);
+  EXPECT_EQ(of(upright, 0.5, false)->open_volume, 0.0);
+}
+
 TEST(DisplacedVolume, OfWhatDoesNotReachTheWaterIsNothing) {
   const auto above = displaced(sphere(1.0), {-2.0, false});
   ASSERT_TRUE(above);

@@ -89,7 +89,8 @@ void add_displaced(JsonText& json, const MadeSurfaceCut& made) {
   } else {
     json.null();
   }
-  json.pair("parts", d.parts).end_object();
+  json.pair("parts", d.parts).pair("open_volume", d.open_volume);
+  json.pair("open_width", d.open_width).end_object();
 }
 
 }  // namespace
