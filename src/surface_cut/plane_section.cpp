@@ -31,7 +31,7 @@ constexpr double kBesidePlane = 1e-12;   ///< of the size
 constexpr double kRoundingsBeside = 64;  ///< of the largest coordinate, where that is more
 constexpr double kForBetween =
     0.8;  ///< of the tolerance: what lies between the places that are measured
-constexpr double kTouching = 4e-6;   ///< of the size: branches smaller than this
+constexpr double kTouching = 4e-6;   ///< of the size: branches smaller or narrower than this
 constexpr double kEndsMeet = 1e-6;   ///< of the size
 constexpr double kSamePlace = 1e-4;  ///< of the size: places that are told once
 constexpr double kTangent = 1e-5;    ///< rad: where branches beside the plane run along it
@@ -264,11 +264,26 @@ class Section {
       ++touching;
       near_.push_back(p.point);
     }
-    if (touching == branch.points.size()) {
+    const bool sliver =
+        branch.closed && touching > 0 && mean_width(branch.points) <= kTouching * parts_.size;
+    if (touching == branch.points.size() || sliver) {
       ++out_.touching_lines;
       return;
     }
     out_.branches.push_back(std::move(branch));
+  }
+
+  /// Of a closed branch: its area over half of its length.
+  static double mean_width(const std::vector<SectionPoint>& points) {
+    const Vec3 first = points.front().point;
+    Vec3 area;
+    double length = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3 a = points[i].point, b = points[(i + 1) % points.size()].point;
+      area = area + 0.5 * cross(a - first, b - first);
+      length += norm(b - a);
+    }
+    return length > 0.0 ? 2.0 * norm(area) / length : 0.0;
   }
 
   /// The last place is the first one of what comes next: there once, but for trims, which need it

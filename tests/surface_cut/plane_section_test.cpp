@@ -125,6 +125,26 @@ TEST(PlaneSection, TellsWhereThePlaneTouches) {
   EXPECT_TRUE(section(sphere(1.0), {{0, 0, 1}, 1.0 + 1e-9}).touching.empty());
 }
 
+TEST(PlaneSection, APlaneThatTouchesACappedBodyCutsNoSliverOfIt) {
+  for (const double top : {1.0, 0.3}) {  // a cylinder, a cone
+    SpaceCurve profile;
+    profile.degree = 1;
+    profile.knots = {0, 0, 1, 2, 3, 3};
+    profile.points = {{0, 0, 0}, {1, 0, 0}, {top, 0, 2}, {0, 0, 2}};
+    const SurfaceModel body = model_of({revolved(profile)});
+    for (const double turn : {0.0, 0.4, 2.0}) {
+      const Vec3 normal = unit(Vec3{2.0 * std::cos(turn), 2.0 * std::sin(turn), 1.0 - top});
+      const Vec3 on_wall{std::cos(turn), std::sin(turn), 0.0};
+      const PlaneSection s = section(body, {normal, dot(normal, on_wall)});
+      EXPECT_TRUE(s.branches.empty()) << top << ' ' << turn;
+      EXPECT_GE(s.touching.size() + s.touching_lines + s.undecided, 1U);
+      // beside it there is a branch, however narrow: 2 sqrt(2 d) wide at the foot
+      const PlaneSection beside = section(body, {normal, dot(normal, on_wall) - 1e-8});
+      EXPECT_EQ(beside.branches.size(), 1U) << top << ' ' << turn;
+    }
+  }
+}
+
 TEST(PlaneSection, BordersInThePlaneAreExactAndJoined) {
   const SurfaceModel model = model_of({wigley(10.0, 1.0, 0.625)});
   const PlaneSection s = section(model, {{0, 1, 0}, 0.0});
