@@ -269,6 +269,14 @@ class Fillets(trims_test.Trims):
         self.assertIn("--sides", told.stderr)
         self.assertFalse((self.work / "no.json").exists())
 
+    def test_faces_that_keep_the_rounded_corner_are_named(self):
+        end = plate("end", (0, 0, 0), (3, 0, 0), (0, 0, 3), (3, 0, 3))
+        source = self.work / "open.json"
+        for faces, named in ((corner(math.pi / 2), False), ([*corner(math.pi / 2), end], True)):
+            source.write_text(json.dumps(model(*faces)))
+            done = self.run_it("surface", "fillet", source, "--faces", "1,2", "--radius", 1, "-o", self.work / "closed.json")
+            self.assertEqual("the blend ends at face end, which keeps the corner that it rounds" in done.stderr, named, done.stderr)
+
     def test_a_trough_that_bends_more_than_the_ball(self):
         """z = x^2 has the radius 1/2 at its bottom."""
         trough = patch("trough", (2, 1), ([0, 0, 0, 1, 1, 1], FLAT), [[x, y, z] for y in (0, 6) for x, z in ((-1, 1), (0, -1), (1, 1))])

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/core/internal/near_name.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/job_values.h"
+#include "obvid/surface_builders/internal/deviation.h"
 #include "obvid/surface_builders/internal/fillet.h"
 #include "obvid/surface_cut/internal/trim.h"
 #include "surface/surface_kinds.h"
@@ -76,6 +78,29 @@ Result<std::vector<SurfacePatch>> left_of(const SurfacePatch& face,
   }
   made.deviation = std::max(made.deviation, left->deviation);
   return std::move(left->model.patches);
+}
+
+/// Other faces that a blend of two reaches with an end: those keep the corner that it rounds.
+std::vector<std::string> faces_at_ends(const SurfaceModel& model,
+                                       const std::array<std::size_t, 2>& own,
+                                       const std::vector<Fillet>& blends, double tolerance) {
+  std::vector<Vec3> corners;
+  for (const Fillet& one : blends) {
+    if (one.closed) continue;
+    for (const double v : {0.0, 1.0}) {
+      for (const double u : {0.0, 1.0}) corners.push_back(evaluate(one.surface, u, v).point);
+    }
+  }
+  std::vector<std::string> out;
+  for (std::size_t p = 0; p < model.patches.size(); ++p) {
+    if (p == own[0] || p == own[1]) continue;
+    SurfaceModel alone;
+    alone.patches.push_back(model.patches[p]);
+    const NearestOnModel face(alone);
+    const auto meets = [&](Vec3 corner) { return face.at(corner).distance <= tolerance; };
+    if (std::any_of(corners.begin(), corners.end(), meets)) out.push_back(model.patches[p].name);
+  }
+  return out;
 }
 
 /// As `face_named` takes them.
@@ -157,6 +182,14 @@ Result<MadeSurface> made_fillet(const RolledBall& by, const SurfaceJob& job,
     const std::string which = blends->size() > 1 ? fmt::format(" {}", k + 1) : "";
     patches.push_back(
         {fmt::format("blend{} of {} and {}", which, names[0], names[1]), one.surface, one.trims});
+  }
+  const auto beside = faces_at_ends(made.model, at, *blends, tolerance);
+  if (!by.whole && !beside.empty()) {
+    made.warnings.push_back(fmt::format(
+        "the blend ends at {} {}, which {} the corner that it rounds: the body is open there "
+        "until {} trimmed, as by hand in CAD",
+        beside.size() == 1 ? "face" : "faces", listed(beside),
+        beside.size() == 1 ? "keeps" : "keep", beside.size() == 1 ? "it is" : "they are"));
   }
   made.model.patches = std::move(patches);
   made.kind = fmt::format("blend of {} and {} by a ball", names[0], names[1]);
