@@ -231,7 +231,10 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
         "the earlier cutter comes to every place that is seen from above: nothing "
         "is left for this one");
   } else if (r.passes == 0) {
-    add("no pass: the cutter meets nothing", 0.0, "");
+    add(options.strategy == ToolpathStrategy::kZLevel
+            ? "no pass: nothing is a wall that levels go around"
+            : "no pass: the cutter meets nothing",
+        0.0, "");
   }
   if (r.gouge.found > out.tolerance) {
     add(fmt::format("the program cuts {:.3g} {} into the surface at {}, {:.3g} are allowed",

@@ -144,6 +144,16 @@ TEST(Levels, OnAPlaneTheyLieAsFarApartAsTheScallopAllows) {
   EXPECT_GT(mean / sine, 0.85 * most) << "more levels than are needed";
 }
 
+TEST(Levels, SayThatThereIsNoWallWhereThereIsNone) {
+  ToolpathOptions o = milling_with(CutterKind::kBall, 4.0, ToolpathStrategy::kZLevel);
+  o.scallop = 0.1;
+  const auto path =
+      plan(test::model_of({test::plate({0, 0, 0}, {0, 20, 0}, {30, 0, 0.3}, {30, 20, 0.3})}), o);
+  ASSERT_TRUE(path) << to_line(path.error());
+  ASSERT_FALSE(path->not_kept.empty());
+  EXPECT_EQ(path->not_kept.front().what, "no pass: nothing is a wall that levels go around");
+}
+
 // No terrace stays on a cone that is higher than what the report says, nor anywhere beside it.
 TEST(Levels, OnAConeNothingStaysBeyondWhatIsTold) {
   constexpr double kBall = 2.0, kConeScallop = 0.1, kBase = 8.0;
