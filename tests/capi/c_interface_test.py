@@ -1120,7 +1120,7 @@ class Surfaces(unittest.TestCase):
             nc = os.path.join(folder, "s.nc")
             for plan in ({"diameter": 6, "scallop": 0.1, "tolerance": 0.02},
                          {"diameter": 6, "scallop": 0.2, "tolerance": 0.05, "steep-angle": 20},
-                         {"diameter": 6, "scallop": 0.2, "tolerance": 0.05, "rest-of": 30, "rest-corner": 12},
+                         {"diameter": 6, "scallop": 1, "tolerance": 0.2, "rest-of": 30, "rest-corner": 12},
                          {"diameter": 6, "scallop": 0.2, "tolerance": 0.05, "one-way": True, "entry": "helix", "ramp": 8,
                           "ramp-height": 2},
                          {"strategy": "rough", "cutter": "flat", "allowance": 0.2, "step-down": 2, "ramp": 8,

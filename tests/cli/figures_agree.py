@@ -53,7 +53,8 @@ SERIES = [
     ("found/jumps/*.csv", [[]], 1),
 ]
 DRAWINGS = [("cad_dxf/*", 3), ("cad_svg/*", 4), ("roads_opendrive/*.xodr", 1), ("landxml/*", 1)]
-BYTES_OF_A_SMALL_FILE = 5000  # larger ones are left to --all: the test is for every day
+# Larger ones are left to --all: the test is for every day. Twice as large where a set has no such file.
+BYTES_OF_A_SMALL_FILE = 2500
 # kind, files (patterns that give one file each), options: sets of matrices belong together
 SURFACES = [("skin", ["hulls_grids/Series60Offset_%s.dat"], []),
             ("grid", ["hulls_grids/TrawlerOffset_%s.dat"], []),
@@ -833,6 +834,8 @@ def jobs_of(data, own, every_file, everything):
         files = sorted(p for p in data.glob(pattern) if p.is_file())
         there += len(files)
         small = [p for p in files if p.stat().st_size <= BYTES_OF_A_SMALL_FILE]
+        if len(small) < count:
+            small = [p for p in files if p.stat().st_size <= 2 * BYTES_OF_A_SMALL_FILE]
         for i, path in enumerate(files if every_file else spread(small, count)):
             for options in choices if everything else [choices[i % len(choices)]]:
                 turn += 1  # carriers take turns, spirals are always there
@@ -841,7 +844,7 @@ def jobs_of(data, own, every_file, everything):
     for pattern, count in DRAWINGS:
         files = sorted(p for p in data.glob(pattern) if p.is_file())
         there += len(files)
-        small = [p for p in files if p.stat().st_size <= 10 * BYTES_OF_A_SMALL_FILE]
+        small = [p for p in files if p.stat().st_size <= 20 * BYTES_OF_A_SMALL_FILE]
         jobs += [(path,) for path in (files if every_file else spread(small, count))]
     for surfaces, folder in [(OWN_SURFACES, own[0]), (SURFACES, data)]:
         for kind, patterns, options in surfaces:

@@ -10,6 +10,7 @@ beyond the tolerance; rapid moves only at or up to the safe height; no way strai
 ramp meets stock; no way cuts deeper than a level; the stock is gone down to its bottom beside the part; the
 report's stock that is left is what is left there. An allowance of zigzag passes is judged likewise.
 """
+import bisect
 import json
 import math
 import pathlib
@@ -68,18 +69,22 @@ def rise(radius, corner, level):
 
 def depth_in(radius, corner, tips, points):
     """How far points lie inside the body at any of these tips, at most."""
-    deepest = np.full(len(points), -np.inf)
+    order = np.argsort(points[:, 0], kind="stable")
+    x, y, z = points[order].T.copy()
+    sorted_deepest, deepest = np.full(len(points), -np.inf), np.empty(len(points))
     ring = radius - corner
-    for tip in tips:
-        near = np.nonzero((abs(points[:, 0] - tip[0]) <= radius) & (abs(points[:, 1] - tip[1]) <= radius)
-                          & (points[:, 2] >= tip[2]))[0]
-        if not len(near):
+    first, last = np.searchsorted(x, tips[:, 0] - radius, "left"), np.searchsorted(x, tips[:, 0] + radius, "right")
+    for tip, low, high in zip(tips.tolist(), first.tolist(), last.tolist()):
+        near = np.flatnonzero((abs(y[low:high] - tip[1]) <= radius) & (z[low:high] >= tip[2]))
+        if not near.size:
             continue
-        d = points[near] - tip
+        near += low
+        d = np.stack([x[near] - tip[0], y[near] - tip[1], z[near] - tip[2]], axis=1)
         level = np.hypot(d[:, 0], d[:, 1])
         rounded = corner - np.hypot(np.maximum(level - ring, 0.0), np.minimum(d[:, 2] - corner, 0.0))
         inside = np.where((d[:, 2] >= corner) | (level <= ring), np.minimum(radius - level, d[:, 2]), rounded)
-        deepest[near] = np.maximum(deepest[near], inside)
+        sorted_deepest[near] = np.maximum(sorted_deepest[near], inside)
+    deepest[order] = sorted_deepest
     return deepest
 
 
@@ -96,17 +101,23 @@ class Stock:
         self.y = np.arange(low[1] + 0.5 * cell, high[1], cell)
         self.z = np.full((len(self.y), len(self.x)), high[2])
         self.radius, self.corner = radius, corner
+        self.ends_x, self.ends_y = self.x.tolist(), self.y.tolist()
 
     def cut(self, tip):
         """Takes the cutter's body out; the highest stock over its lower side before."""
-        i = slice(*np.searchsorted(self.x, [tip[0] - self.radius, tip[0] + self.radius]))
-        j = slice(*np.searchsorted(self.y, [tip[1] - self.radius, tip[1] + self.radius]))
+        x, y, z = tip.tolist()
+        i = slice(*(bisect.bisect_left(self.ends_x, x + side) for side in (-self.radius, self.radius)))
+        j = slice(*(bisect.bisect_left(self.ends_y, y + side) for side in (-self.radius, self.radius)))
         if i.start == i.stop or j.start == j.stop:
             return 0.0
-        level = np.hypot(self.x[None, i] - tip[0], self.y[j, None] - tip[1])
-        lower = np.where(level < self.radius, tip[2] + rise(self.radius, self.corner, level), np.inf)
-        over = float(np.max(self.z[j, i] - np.minimum(lower, 1e9)))
-        self.z[j, i] = np.minimum(self.z[j, i], lower)
+        there = self.z[j, i]
+        highest = float(there.max())
+        if highest <= z:
+            return 0.0
+        level = np.hypot(self.x[i] - x, (self.y[j] - y)[:, None])
+        lower = np.where(level < self.radius, z + rise(self.radius, self.corner, level) if self.corner else z, np.inf)
+        over = float((there - lower).max())
+        np.minimum(there, lower, out=there)
         return max(0.0, over)
 
 

@@ -4,7 +4,7 @@
 
 usage: dxf_audit.py audit FILE...  one line per error or repair, the file in front of it; nothing when all is well
        dxf_audit.py extent FILE    KIND COUNT per kind, then "length L", then "box X0 Y0 X1 Y1"
-       dxf_audit.py points FILE N  points of all curves, N to a piece, in order, "x y" each
+       dxf_audit.py points N FILE...  "file COUNT" for each, then points of all its curves, N to a piece, in order, "x y" each
 """
 import collections
 import math
@@ -79,21 +79,20 @@ def entity_points(entity, count):
 
 
 def points(doc, count):
-    for entity in doc.modelspace():
-        for p in entity_points(entity, count):
-            print(f"{p.x!r} {p.y!r}")
+    found = [p for entity in doc.modelspace() for p in entity_points(entity, count)]
+    print("file", len(found))
+    print("".join(f"{p.x!r} {p.y!r}\n" for p in found), end="")
 
 
 def main():
     if sys.argv[1] == "audit":
         for name in sys.argv[2:]:
             audit(name)
-        return
-    doc = ezdxf.readfile(sys.argv[2])
-    if sys.argv[1] == "extent":
-        extent(doc)
+    elif sys.argv[1] == "extent":
+        extent(ezdxf.readfile(sys.argv[2]))
     else:
-        points(doc, int(sys.argv[3]))
+        for name in sys.argv[3:]:
+            points(ezdxf.readfile(name), int(sys.argv[2]))
 
 
 if __name__ == "__main__":

@@ -95,6 +95,8 @@ class Ellipse:
             f = (self.b ** 2 - self.a ** 2) * s * c + px * self.a * s - py * self.b * c
             g = (self.b ** 2 - self.a ** 2) * (c * c - s * s) + px * self.a * c + py * self.b * s
             t -= f / g
+            if abs(f) <= 1e-15 * abs(g):
+                break
         d = math.hypot(px - self.a * math.cos(t), py - self.b * math.sin(t))
         return d if (px / self.a) ** 2 + (py / self.b) ** 2 > 1 else -d
 

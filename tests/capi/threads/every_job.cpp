@@ -14,8 +14,8 @@
 #include <cstdio>
 #include <deque>
 #include <functional>
-#include <regex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -31,21 +31,32 @@ void fault(const std::string& job, const char* what) {
   ++faults;
 }
 
-/// A text of the library, without the times in it.
+/// Without the times in it.
+std::string timeless(std::string_view text) {
+  constexpr std::string_view kSeconds = "\"seconds\": ";
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t time = std::min(text.find(kSeconds, at), text.size());
+    out.append(text.substr(at, time - at));
+    if (time == text.size()) break;
+    at = std::min(text.find_first_not_of("0123456789.e+-", time + kSeconds.size()), text.size());
+  }
+  return out;
+}
+
+/// A text of the library.
 std::string taken(char* text) {
-  static const std::regex kSeconds("\"seconds\": [0-9.e+-]+");
-  std::string out = text == nullptr ? "" : std::regex_replace(text, kSeconds, "");
+  std::string out = text == nullptr ? "" : timeless(text);
   obvid_free(text);
   return out;
 }
 
 std::string told(obvid_files* files) {
-  static const std::regex kSeconds("\"seconds\": [0-9.e+-]+");
   std::string out;
   for (std::size_t i = 0; files != nullptr && i < obvid_files_count(files); ++i) {
     std::size_t size = 0;
     const char* data = obvid_files_data(files, i, &size);
-    out += std::regex_replace(std::string(data, size), kSeconds, "");
+    out += timeless({data, size});
   }
   obvid_files_free(files);
   return out;
@@ -420,15 +431,18 @@ int notes(void* user) {
 }
 
 /// A job that is asked to go on does, and asks again. How long it goes without a question is
-/// printed (50 ms are aimed at; benches/cancellation.py measures longer jobs), not judged.
-void ask_often(const Job& job, const Handles& h, const std::string& wanted) {
+/// printed (50 ms are aimed at; benches/cancellation.py measures longer jobs), not judged. How
+/// often it asked.
+int ask_often(const Job& job, const Handles& h, const std::string& wanted) {
   Gaps gaps{own_seconds()};
   const obvid_run run{&gaps, nullptr, notes, 0};
   if (job.work(h, &run) != wanted) fault(job.name, "says something else when it is asked");
+  const int questions = gaps.questions;
   notes(&gaps);
-  if (gaps.questions < 2) fault(job.name, "never asks whether to go on");
+  if (questions < 1) fault(job.name, "never asks whether to go on");
   std::printf("%-32s %6d questions, at most %4.0f ms of processor time between two\n",
               job.name.c_str(), gaps.questions, 1e3 * gaps.longest);
+  return questions;
 }
 
 /// Cancelled at a question, counted from 0: there is nothing. Whether it came to that: the library
@@ -444,35 +458,53 @@ bool ends_at(int question, const Job& job, const Handles& h, const std::string& 
   return ending.ended;
 }
 
-int questions_of(const Job& job, const Handles& h) {
+/// What a job is ended on: inputs so large that it has a middle, what it says of them, and how
+/// often it asked then.
+struct Middle {
+  const Handles* handles = nullptr;
+  std::string wanted;
+  int questions = 0;
+  bool there = false;
+};
+
+Middle asked_on(const Job& job, const Handles& h) {
   Gaps gaps{own_seconds()};
   const obvid_run run{&gaps, nullptr, notes, 0};
-  (void)job.work(h, &run);
-  return gaps.questions;
+  Middle out{&h, job.work(h, &run)};
+  out.questions = gaps.questions;
+  return out;
 }
 
 constexpr int kWithMiddle = 3;  // questions of a job that has one
 constexpr int kTries = 5;       // of a middle that quick runs may miss
 
-/// The first, the middle and the last of its questions. The first always comes.
-void end_in_the_middle(const Job& job, const Handles& h, const std::string& wanted,
-                       bool has_middle) {
-  if (!ends_at(0, job, h, wanted)) fault(job.name, "never asks whether to go on");
-  if (!has_middle) return;
-  bool came = false;
-  for (int k = 0; k < kTries && !came; ++k) {
-    came = ends_at(questions_of(job, h) / 2, job, h, wanted);
-  }
-  if (!came) fault(job.name, "its middle was never reached");
-  (void)ends_at(questions_of(job, h) - 1, job, h, wanted);
+/// The first of its questions always comes.
+void end_at_once(const Job& job, const Middle& on) {
+  if (!ends_at(0, job, *on.handles, on.wanted)) fault(job.name, "never asks whether to go on");
 }
 
-/// Both threads do `work` for every job, one forwards and one backwards.
-void from_two_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
+void end_in_the_middle(const Job& job, const Middle& on) {
+  int questions = on.questions;
+  for (int k = 0; k < kTries; ++k) {
+    if (ends_at(questions / 2, job, *on.handles, on.wanted)) return;
+    questions = asked_on(job, *on.handles).questions;
+  }
+  fault(job.name, "its middle was never reached");
+}
+
+/// The last question of a quicker run may not come.
+void end_at_last(const Job& job, const Middle& on) {
+  (void)ends_at(on.questions - 1, job, *on.handles, on.wanted);
+}
+
+/// Both threads do `work` for every job, one forwards and one backwards, and are told which of them
+/// they are.
+void from_two_threads(std::size_t count,
+                      const std::function<void(std::size_t job, std::size_t thread)>& work) {
   std::thread other([&] {
-    for (std::size_t i = count; i-- > 0;) work(i);
+    for (std::size_t i = count; i-- > 0;) work(i, 1);
   });
-  for (std::size_t i = 0; i < count; ++i) work(i);
+  for (std::size_t i = 0; i < count; ++i) work(i, 0);
   other.join();
 }
 
@@ -626,13 +658,6 @@ void release(Handles& h) {
   for (obvid_input* input : h.curves) obvid_input_free(input);
 }
 
-/// What a job is ended on: inputs so large that it has a middle, and what it says of them.
-struct Middle {
-  const Handles* handles = nullptr;
-  std::string wanted;
-  bool there = false;
-};
-
 /// Inputs of growing size, made when they are wanted.
 class Levels {
  public:
@@ -644,22 +669,19 @@ class Levels {
   Levels(const Levels&) = delete;
   Levels& operator=(const Levels&) = delete;
 
-  /// The smallest inputs on which the job asks often enough.
-  Middle middle_of(const Job& job, const std::string& wanted) {
-    Middle out{&made_.front(), wanted, false};
+  /// The smallest inputs on which the job asks often enough; `smallest` is how it did on the first.
+  Middle middle_of(const Job& job, Middle smallest) {
+    Middle out = smallest;
     for (std::size_t k = 0; k < kSizes.size(); ++k) {
       if (k == made_.size() && !grow()) break;
-      out.handles = &made_[k];
-      const int questions = questions_of(job, *out.handles);
-      if (questions < kWithMiddle) continue;
+      if (k > 0) out = asked_on(job, made_[k]);
+      if (out.questions < kWithMiddle) continue;
       std::printf("%-32s is ended in its middle on inputs %zu, of %d questions\n", job.name.c_str(),
-                  k, questions);
+                  k, out.questions);
       out.there = true;
-      if (k > 0) out.wanted = job.work(*out.handles, nullptr);
       return out;
     }
-    out.handles = &made_.front();
-    return out;
+    return smallest;
   }
 
  private:
@@ -709,25 +731,36 @@ int main(int count, char** arguments) {
     wanted.push_back(job.work(h, nullptr));
     if (wanted.back().empty()) fault(job.name, "says nothing");
   }
-  from_two_threads(all.size(), [&](std::size_t i) {
+  from_two_threads(all.size(), [&](std::size_t i, std::size_t) {
     if (all[i].work(h, nullptr) != wanted[i])
       fault(all[i].name, "says something else beside another job");
   });
-  for (std::size_t i = 0; i < all.size(); ++i) ask_often(all[i], h, wanted[i]);
+  std::vector<int> questions;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    questions.push_back(ask_often(all[i], h, wanted[i]));
+  }
   std::size_t without = 0;
   {
     Levels levels(arguments[1], h, kernel);
     std::vector<Middle> middles;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      middles.push_back(levels.middle_of(all[i], wanted[i]));
+      middles.push_back(levels.middle_of(all[i], {&h, wanted[i], questions[i]}));
       // one step of some milliseconds over what was read: it is ended before that
       if (!middles.back().there) std::printf("%s: has no middle\n", all[i].name.c_str());
       without += middles.back().there ? 0 : 1;
     }
     constexpr std::size_t kOneOf = 3;  // the library asks by the clock, and machines differ
     if (kOneOf * without > all.size()) fault("jobs", "too many have no middle to be ended in");
-    from_two_threads(all.size(), [&](std::size_t i) {
-      end_in_the_middle(all[i], *middles[i].handles, middles[i].wanted, middles[i].there);
+    // Each thread ends every job at once, and of two jobs one in the middle and one at its last
+    // question; the other thread does it the other way round.
+    from_two_threads(all.size(), [&](std::size_t i, std::size_t thread) {
+      end_at_once(all[i], middles[i]);
+      if (!middles[i].there) return;
+      if ((i + thread) % 2 == 0) {
+        end_in_the_middle(all[i], middles[i]);
+      } else {
+        end_at_last(all[i], middles[i]);
+      }
     });
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
