@@ -39,11 +39,6 @@ else()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(obvid_flags INTERFACE -Wno-restrict)
   endif()
-  # The compiler looks for what it can give back from 512 MB on, not from 128: a twentieth less to compile,
-  # the same code, and no more memory for most units (a third more for the largest).
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(obvid_flags INTERFACE --param=ggc-min-heapsize=524288)
-  endif()
 endif()
 if(OBVID_WERROR)
   target_compile_options(obvid_flags INTERFACE -Werror)
