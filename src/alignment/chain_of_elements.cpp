@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "obvid/alignment/internal/transition_law.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/numeric/internal/banded.h"
 #include "obvid/numeric/internal/gauss.h"
 #include "winding.h"
@@ -559,10 +560,14 @@ class Fitter {
     if (is_cancelled()) return false;
     assemble(power);
     const std::size_t wound = winding(chain_, feet_);
+    // once around between two points each, which is more than a winding
+    const double most_turning =
+        std::max(turning(chain_), kFullTurn * static_cast<double>(points_.size() + wound));
     for (; damping < kDampingMost; damping *= 10.0) {
       const auto move = step_within_limits(damping);
       if (!move) continue;
       Chain next = moved(*move);
+      if (turning(next) > most_turning) continue;
       std::vector<Foot> feet = feet_;
       find_feet(next, points_, feet);
       if (winding(next, feet) > wound) continue;
@@ -578,6 +583,16 @@ class Fitter {
       std::swap(feet_, feet);
     }
     return false;
+  }
+
+  /// rad, of all elements together, either way.
+  [[nodiscard]] static double turning(const Chain& chain) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      sum += chain.length[k] *
+             std::max(std::abs(chain.curvature(k, 0)), std::abs(chain.curvature(k, 1)));
+    }
+    return sum;
   }
 
   [[nodiscard]] std::size_t winding(const Chain& chain, const std::vector<Foot>& feet) const {
