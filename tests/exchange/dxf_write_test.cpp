@@ -179,7 +179,10 @@ TEST_F(DxfFilesByEzdxf, AreTheSameCurveInEveryExactProfile) {
                            "conics_open.json", "arcs_closed.json"}) {
     const Contour contour = stored(name);
     const std::vector<Vec2> found = points(written(contour, DxfProfile::kExact, 1e-3).text, 5);
-    ASSERT_GE(found.size(), 5 * contour.pieces.size()) << name;
+    // the contour with a corner begins with two parts of one arc, which are one
+    const bool has_parts = std::string(name) == "spirals_corner.json";
+    const std::size_t entities = contour.pieces.size() - (has_parts ? 1 : 0);
+    ASSERT_GE(found.size(), 5 * entities) << name;
     double most = 0.0;
     for (const Vec2 p : found) most = std::max(most, distance_to(contour.pieces, p));
     EXPECT_LE(most, 1e-9 * size_of(contour)) << name;
