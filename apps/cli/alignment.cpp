@@ -14,8 +14,11 @@
 #include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/fit_figures.h"
+#include "obvid/pipeline/internal/job_values.h"
 #include "obvid/pipeline/internal/page_text.h"
+#include "obvid/pipeline/internal/summary.h"
 #include "outputs.h"
+#include "several.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -116,73 +119,147 @@ std::optional<std::string> own_text(const std::string& path, const AlignmentRepo
   return alignment_file(format, report);
 }
 
-}  // namespace
+/// What was formed and written.
+struct AlignmentDone {
+  AlignmentReport made;
+  std::vector<std::string> remarks;
+  std::vector<std::string> files;
+};
 
-int run(const AlignmentCommand& command) {
-  std::vector<std::string> names = command.outputs;
-  for (const std::string& table : {command.deviations, command.profile_table}) {
-    if (!table.empty()) names.push_back(table);
-  }
-  std::vector<std::string> inputs = {command.input};
-  if (!command.heights.empty()) inputs.push_back(command.heights);
-  if (auto free = check_outputs(names, inputs); !free) return report(free.error());
+/// The files of an alignment: those of contours, those of alignments alone, and tables.
+Result<std::vector<Output>> alignment_outputs(const AlignmentCommand& command,
+                                              const AlignmentReport& made,
+                                              const TitledContour& contour, FileNotes& notes) {
   Result<std::vector<Output>> outputs = outputs_of(command.outputs, command.input);
-  if (!outputs) return report(outputs.error());
-  Result<RoadSeries> read = read_road(command.input, with_heights(command.import));
-  if (!read) return report(read.error());
-  PointSeries& series = read->points;
-  if (command.units) take_units(series, *command.units);
-  AlignmentJob job = command.job;
-  job.road = std::move(read->road);
-  AlignmentTold told{command.asked, {}};
-  if (!command.heights.empty()) {
-    auto heights = read_heights(command.heights);
-    if (!heights) return report(heights.error());
-    job.heights = std::move(*heights);
-  }
-  ProgressBar bar(command.progress);
-  const auto made = alignment_report(series, job, bar.progress());
-  bar.clear();
-  if (!made) {
-    warn(warnings_of_reading(series, job));
-    return report(made.error());
-  }
-  const TitledContour contour = titled_contour(*made, series, job, command.input);
-  told.warnings = contour.warnings;
-  warn(told.warnings);
-  if (!command.profile_table.empty() && !made->profile) {
-    return report({ErrorCode::kBadOption, "there is no profile to be written", "--profile-table",
-                   "give heights in a column z, or a file of them by --profile"});
+  OBVID_TRY(outputs);
+  if (!command.profile_table.empty() && !made.profile) {
+    return fail(bad_option("there is no profile to be written", "--profile-table",
+                           "give heights in a column z, or a file of them by --profile"));
   }
   ExportOptions formats;
   set_titles(contour, {}, formats);
   std::vector<Output> drawn, own;
   for (Output& output : *outputs) {
-    auto text = own_text(output.path, *made, told);
+    auto text = own_text(output.path, made, {command.asked, contour.warnings});
     if (text) output.text = std::move(*text);
     (text ? own : drawn).push_back(std::move(output));
   }
-  FileNotes notes;
   auto texts = exported(drawn, contour.stored, formats, notes);
-  if (!texts) return report(texts.error());
+  OBVID_TRY(texts);
   for (Output& output : own) texts->push_back(std::move(output));
   if (!command.deviations.empty()) {
-    texts->push_back({command.deviations, FileFormat::kSamples, csv_text(deviation_rows(*made))});
+    texts->push_back({command.deviations, FileFormat::kSamples, csv_text(deviation_rows(made))});
   }
   if (!command.profile_table.empty()) {
     texts->push_back({command.profile_table, FileFormat::kSamples,
-                      csv_text(profile_rows(made->profile->profile))});
+                      csv_text(profile_rows(made.profile->profile))});
   }
-  warn(notes.warnings);
-  const auto written = write_files(*texts, command.input);
-  if (!written) return report(written.error());
+  return texts;
+}
+
+/// Reads, forms and writes; what there is to warn of is in `warnings` whatever comes of it.
+Result<AlignmentDone> aligned(const AlignmentCommand& command, const Progress& progress,
+                              std::vector<std::string>& warnings) {
+  Result<RoadSeries> read = read_road(command.input, with_heights(command.import));
+  OBVID_TRY(read);
+  PointSeries& series = read->points;
+  if (command.units) take_units(series, *command.units);
+  AlignmentJob job = command.job;
+  job.road = std::move(read->road);
+  if (!command.heights.empty()) {
+    auto heights = read_heights(command.heights);
+    OBVID_TRY(heights);
+    job.heights = std::move(*heights);
+  }
+  auto made = alignment_report(series, job, progress);
+  if (!made) warnings = warnings_of_reading(series, job);
+  OBVID_TRY(made);
+  const TitledContour contour = titled_contour(*made, series, job, command.input);
+  warnings = contour.warnings;
+  FileNotes notes;
+  const auto texts = alignment_outputs(command, *made, contour, notes);
+  OBVID_TRY(texts);
+  warnings.insert(warnings.end(), notes.warnings.begin(), notes.warnings.end());
+  auto files = write_files(*texts, command.input);
+  OBVID_TRY(files);
+  return AlignmentDone{std::move(*made), std::move(notes.remarks), std::move(*files)};
+}
+
+/// The command of one of several; `names` are its files, in the order of `alignment_files`.
+AlignmentCommand command_of_one(const AlignmentCommand& all, const OneOf& one,
+                                std::vector<std::string> names) {
+  AlignmentCommand out = all;
+  out.input = one.input;
+  if (one.curve) out.import.curve = {one.curve, {}, false};
+  const auto take_last = [&](std::string& table) {
+    if (table.empty()) return;
+    table = std::move(names.back());
+    names.pop_back();
+  };
+  take_last(out.profile_table);
+  take_last(out.deviations);
+  out.outputs = std::move(names);
+  return out;
+}
+
+/// All files that are to be written.
+std::vector<std::string> alignment_files(const AlignmentCommand& command) {
+  std::vector<std::string> names = command.outputs;
+  for (const std::string& table : {command.deviations, command.profile_table}) {
+    if (!table.empty()) names.push_back(table);
+  }
+  return names;
+}
+
+Summary summary_of_alignment(const AlignmentCommand& command) {
+  Summary out;
+  const auto done = aligned(command, {}, out.warnings);
+  if (!done) {
+    out.error = done.error();
+    return out;
+  }
+  out.cells = summary_cells(done->made);
+  out.verdict = "aligned";
+  return out;
+}
+
+int align_several(const AlignmentCommand& command) {
+  const auto all = all_of_them(command.inputs, command.input, command.import, true);
+  if (!all) return report(all.error());
+  Several several(*all, summary_form(command.csv, command.json, command.quiet));
+  return several.run(alignment_files(command),
+                     [&](const OneOf& one, const std::vector<std::string>& names) {
+                       return summary_of_alignment(command_of_one(command, one, names));
+                     });
+}
+
+}  // namespace
+
+int run(const AlignmentCommand& command) {
+  if (are_several(command.inputs, command.import.curve)) return align_several(command);
+  std::vector<std::string> inputs = {command.input};
+  if (!command.heights.empty()) inputs.push_back(command.heights);
+  if (auto free = check_outputs(alignment_files(command), inputs); !free) {
+    return report(free.error());
+  }
+  if (auto known = outputs_of(command.outputs, command.input); !known) {
+    return report(known.error());
+  }
+  ProgressBar bar(command.progress);
+  std::vector<std::string> warnings;
+  const auto done = aligned(command, bar.progress(), warnings);
+  bar.clear();
+  warn(warnings);
+  if (!done) return report(done.error());
   std::string text;
   if (command.json) {
-    text = alignment_json(*made);
+    text = alignment_json(done->made);
+  } else if (command.csv) {
+    text = csv_text(element_rows(done->made.alignment.elements, done->made.limit));
   } else if (!command.quiet) {
-    text = alignment_text(*made, notes.remarks, *written);
+    text = alignment_text(done->made, done->remarks, done->files);
   }
-  if (auto done = put(text); !done) return report(done.error());
+  if (auto shown = put(text); !shown) return report(shown.error());
   return 0;
 }
 

@@ -14,6 +14,7 @@
 #include "obvid/pipeline/internal/format_values.h"
 #include "obvid/pipeline/internal/job_values.h"
 #include "options.h"
+#include "several.h"
 
 namespace obvid {
 namespace {
@@ -25,7 +26,7 @@ struct RawAlignment {
       least_vertical;
   AlignmentValues typed;
   std::string format;  ///< of what -o sends to standard output
-  bool csv = false, no_progress = false;
+  bool no_progress = false;
   FormatValues reading;
 };
 
@@ -62,13 +63,16 @@ constexpr std::array kNumberOptions = {
 
 void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   AlignmentCommand& command = raw.command;
-  app.add_option("POINTS", command.input,
+  app.add_option("POINTS", command.inputs,
                  "File with x and y per line, or a drawing or map with a list of points; a column "
-                 "tol gives tolerances of single points; - is standard input");
+                 "tol gives tolerances of single points; - is standard input; of several files a "
+                 "line each")
+      ->type_name("");
   add_output(app, command.outputs, raw.format,
              "File to write: .xml LandXML, .xodr OpenDRIVE, .dxf, .json contour, .step, .svg "
              "and every other ending of obvid convert; .csv is the table of elements, .svg shows "
-             "curvature, speed and heights over the station, .html is a page with both");
+             "curvature, speed and heights over the station, .html is a page with both; of several "
+             "inputs 'NAME{id}.xml', {id} being the name of each");
   app.add_option(
          "--noise", raw.typed.noise,
          "How far the alignment may pass the points, input units, or rounding: as far as half "
@@ -113,7 +117,7 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
   app.add_option("--units", raw.units, "Unit of the input: m, ft, usft, km, ... [as the file says]")
       ->type_name("NAME");
   add_import(app, raw.reading);
-  app.add_flag("--csv", raw.csv, "Table of elements as CSV on standard output, as -o NAME.csv");
+  app.add_flag("--csv", command.csv, "Table of elements as CSV on standard output, as -o NAME.csv");
   app.add_flag("--json", command.json, "JSON on standard output instead of the table");
   app.add_flag("-q,--quiet", command.quiet, "Print nothing but errors and warnings");
   app.add_flag("--no-progress", raw.no_progress, "No progress bar");
@@ -121,6 +125,7 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
       "Elements join with common tangents; curvature steps only where the points ask for it.\n"
       "Examples:\n"
       "  obvid alignment survey.csv --noise 0.02 --units m -o road.xml\n"
+      "  obvid alignment roads/*.csv --noise 0.05 -o 'out/{id}.xml'\n"
       "  obvid alignment track.geojson --closed --noise 0.5 -o road.xodr -o elements.csv\n"
       "  obvid alignment survey.csv --noise 0.02 --profile levels.csv --profile-noise 0.01 -o "
       "road.xml"));
@@ -141,13 +146,19 @@ Result<std::optional<double>> given_number(const std::optional<std::string>& tex
 Result<void> check_alignment(RawAlignment& raw) {
   AlignmentCommand& command = raw.command;
   OBVID_TRY(set_import(raw.reading, command.import));
-  OBVID_TRY(settle_streams(command, raw.format, raw.csv));
-  if (raw.csv) command.outputs.emplace_back("-.csv");
-  if (raw.csv) command.quiet = true;
-  command.progress = !raw.no_progress && !command.quiet && !command.json;
-  command.input = input_or_pipe(command.input);
-  if (command.input.empty()) {
+  OBVID_TRY(settle_streams(command, raw.format, command.csv));
+  command.progress = !raw.no_progress && !command.quiet && !command.json && !command.csv;
+  command.inputs = inputs_or_pipe(std::move(command.inputs));
+  if (command.inputs.empty()) {
     return fail(usage("alignment needs a file of points", "see obvid alignment --help"));
+  }
+  if (command.inputs.size() == 1) {
+    command.input = command.inputs.front();
+    command.inputs.clear();
+  }
+  if (!command.heights.empty() && are_several(command.inputs, command.import.curve)) {
+    return fail(bad_option("a file of heights is of one alignment", "--profile",
+                           "give one input, or heights in a column z"));
   }
   if (raw.units) {
     auto units = given_units(*raw.units, "--units");

@@ -14,6 +14,7 @@ namespace obvid {
 /// `obvid alignment`: the fewest lines, arcs and clothoids within a tolerance.
 struct AlignmentCommand {
   std::string input;
+  std::vector<std::string> inputs;  ///< several, in place of one
   std::vector<std::string> outputs;
   std::string deviations;     ///< .csv of all points; empty: none
   std::string heights;        ///< file of stations and heights; empty: the column z
@@ -22,6 +23,7 @@ struct AlignmentCommand {
   std::string asked;  ///< what was typed, for pages
   ImportOptions import;
   std::optional<Units> units;
+  bool csv = false;
   bool json = false;
   bool quiet = false;
   bool progress = true;

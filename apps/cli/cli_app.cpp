@@ -31,6 +31,33 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+namespace {
+
+/// Why a command takes one input alone, or where many of them go; docs/decisions/0011.
+std::string why_one(const std::string& name, const std::string& see) {
+  if (name == "spline" || name == "nurbs") {
+    return "many tables at once: obvid batch FILES -o out.h5 --job " + name;
+  }
+  if (name == "toolpath") return "a program mills one part: one surface at a time; " + see;
+  if (name == "surface cut") {
+    return "one surface at a time: {id} in names of files stands for its branches; " + see;
+  }
+  return see;
+}
+
+/// Where a unit comes from that cannot be told to a command.
+std::string instead_of(const std::string& option, const std::string& name,
+                       const std::string& hint) {
+  if (option != "--units") return hint;
+  if (name == "verify") return "the unit is that of the file; obvid convert --units names another";
+  if (name == "toolpath" || name == "surface check" || name == "surface cut") {
+    return "the unit is that of the surface; obvid surface convert --units names another";
+  }
+  return hint;
+}
+
+}  // namespace
+
 Result<void> check_extras(const CLI::App& command, const std::vector<std::string>& extras,
                           const std::string& name) {
   if (extras.empty()) return {};
@@ -39,12 +66,9 @@ Result<void> check_extras(const CLI::App& command, const std::vector<std::string
     if (!extra.starts_with("-")) continue;
     const std::string option = extra.substr(0, extra.find('='));
     return fail(usage("unknown option '" + option + "' of " + name,
-                      did_you_mean(option, option_names(command), see)));
+                      instead_of(option, name, did_you_mean(option, option_names(command), see))));
   }
-  const bool in_batches = name == "alignment" || name == "region";
-  return fail(
-      usage("one argument too many: '" + extras.front() + "'",
-            in_batches ? "many files at once: obvid batch FILES -o out.h5 --job " + name : see));
+  return fail(usage("one argument too many: '" + extras.front() + "'", why_one(name, see)));
 }
 
 std::string with_exit_codes(const std::string& text) {

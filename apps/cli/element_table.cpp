@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
 #include "table.h"
@@ -21,7 +20,7 @@ std::string azimuth_text(double theta) {
 /// Of elements that a line replaces within a billionth of the size: "straight".
 std::string element_radius(double kappa, double length, double size) {
   constexpr double kStraight = 1e-9;  // sagitta, of the size
-  return radius_text(std::abs(kappa) * length * length / 8.0 <= kStraight * size ? 0.0 : kappa);
+  return radius_over(kappa, length, kStraight * size);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -40,6 +41,17 @@ std::string pieces_text(const Contour& contour, std::size_t from, std::size_t to
   return end > from ? std::to_string(end - from) : "-";
 }
 
+/// How far a line may be off what is called straight: a hundredth of what the points may be off,
+/// where they say no curvature any more, and at least a billionth of the size, as in tables of
+/// elements.
+double straight_within(const Contour& contour) {
+  constexpr double kOfTolerance = 1e-2, kOfSize = 1e-9;
+  double tolerance = HUGE_VAL;
+  for (const double one : contour.point_tolerance) tolerance = std::min(tolerance, one);
+  if (contour.point_tolerance.empty()) tolerance = 0.0;
+  return std::max(kOfTolerance * tolerance, kOfSize * bounding_diagonal(contour.points));
+}
+
 Table fit_segments(const Fit& fit) {
   const Contour& contour = fit.contour;
   const std::vector<std::size_t> joint = joints_of_points(contour);
@@ -55,6 +67,7 @@ Table fit_segments(const Fit& fit) {
   std::vector<double> width;
   for (const SegmentReport& segment : fit.report.segments) width.push_back(segment.width);
   const std::vector<EndCurvatures> curvatures = end_curvatures(contour);
+  const double within = straight_within(contour);
   std::size_t before = 0;
   for (const std::size_t i : rows_worth_showing(width)) {
     if (i > before) table.gap();
@@ -64,7 +77,8 @@ Table fit_segments(const Fit& fit) {
     table.row({points_of_segment(segment), significant(segment.chord),
                significant(segment.points_only_error, 4), significant(segment.width, 4),
                std::to_string(segment.inserted), pieces_text(contour, from, to),
-               radius_text(curvatures[i].start), radius_text(curvatures[i].end)});
+               radius_over(curvatures[i].start, segment.chord, within),
+               radius_over(curvatures[i].end, segment.chord, within)});
   }
   return table;
 }

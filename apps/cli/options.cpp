@@ -373,10 +373,11 @@ void add_region(CLI::App& app, Raw& raw) {
   CLI::App& region = *app.add_subcommand(
       "region",
       "Worksheet of points and tangents: ranges of headings and radii, heights and widths");
-  region.add_option("INPUT", raw.region.input, kInputHelp);
+  region.add_option("INPUT", raw.inputs, kInputsHelp)->type_name("");
   add_output(region, raw.region.outputs, raw.format,
              "File to write: .csv, .tex or .json the tables; .svg or .dxf the limiting arcs, "
-             "adjacent circles, tangents and triangles; .html a page with both");
+             "adjacent circles, tangents and triangles; .html a page with both; of several inputs "
+             "'NAME{id}.svg', {id} being the name of each");
   region
       .add_option("--prefer", raw.construction.prefer,
                   "Tangents that are not given: fair (as fit chooses them) or centre (each in the "
@@ -517,6 +518,7 @@ void add_checkers(CLI::App& app, Raw& raw) {
   CLI::App& explain =
       *app.add_subcommand("explain", "What an error code means and what to do; all without a code");
   explain.add_option("CODE", raw.explain.code, "For example E401 or 401");
+  explain.add_flag("--csv", raw.explain.csv, "CSV on standard output");
   explain.add_flag("--json", raw.explain.json, "JSON on standard output");
   explain.add_flag("-q,--quiet", raw.explain.quiet,
                    "Exit code only: whether there is such an error");
@@ -707,7 +709,7 @@ Result<Command> checked_region(Raw& raw) {
   OBVID_TRY(set_units(raw.units, raw.region.units));
   OBVID_TRY(settle_streams(raw.region, raw.format, raw.region.csv));
   raw.region.asked = raw.asked;
-  OBVID_TRY(need(raw.region.input, "region", "a file with points"));
+  OBVID_TRY(set_inputs(raw, raw.region, "region", "a file with points"));
   return command_of(raw.region);
 }
 
@@ -721,7 +723,13 @@ Result<Command> checked(const CLI::App& app, Raw& raw) {
   if (name == "convert") return checked_convert(raw);
   if (name == "region") return checked_region(raw);
   if (name == "compare") return checked_compare(raw);
-  if (name == "explain") return command_of(raw.explain);
+  if (name == "explain") {
+    if (raw.explain.csv && raw.explain.json) {
+      return fail(
+          bad_option("standard output cannot hold two things", "--csv", "leave it or --json out"));
+    }
+    return command_of(raw.explain);
+  }
   OBVID_TRY(settle_streams(raw.verify, raw.format, raw.verify.csv));
   raw.verify.asked = raw.asked;
   OBVID_TRY(set_inputs(raw, raw.verify, "verify", "a contour file"));

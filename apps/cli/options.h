@@ -68,6 +68,7 @@ struct AnalyseOptions {
 
 struct RegionOptions {
   std::string input;
+  std::vector<std::string> inputs;  ///< several, in place of one
   std::vector<std::string> outputs;
   ImportOptions import;
   RegionJob job;
@@ -107,6 +108,7 @@ struct VerifyOptions {
 
 struct ExplainOptions {
   std::string code;  ///< empty: list all
+  bool csv = false;
   bool json = false;
   bool quiet = false;
 };

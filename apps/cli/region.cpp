@@ -15,7 +15,9 @@
 #include "obvid/pipeline/internal/construction_values.h"
 #include "obvid/pipeline/internal/region_files.h"
 #include "obvid/pipeline/internal/report_json.h"
+#include "obvid/pipeline/internal/summary.h"
 #include "outputs.h"
+#include "several.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -194,9 +196,62 @@ struct NamedFile {
   RegionFile file;
 };
 
+/// The files of a worksheet, written.
+Result<std::vector<NamedFile>> write_worksheet(const PointSeries& series, const RegionTable& region,
+                                               const RegionOptions& options) {
+  std::vector<NamedFile> files;
+  std::vector<Output> outputs;
+  for (const std::string& path : options.outputs) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    auto file =
+        region_file(ending.empty() ? ending : ending.substr(1), series, region, {}, options.asked);
+    if (!file) return fail(of_file(file.error(), path));
+    outputs.push_back({path, {}, file->text});
+    files.push_back({path, std::move(*file)});
+  }
+  const auto done = write_files(outputs);
+  OBVID_TRY(done);
+  return files;
+}
+
+Summary summary_of_region(const RegionOptions& all, const OneOf& one,
+                          const std::vector<std::string>& outputs) {
+  Summary out;
+  RegionOptions options = all;
+  options.input = one.input;
+  options.outputs = outputs;
+  if (one.curve) options.import.curve = {one.curve, {}, false};
+  const auto done = [&]() -> Result<void> {
+    Result<PointSeries> series = read_series(options.input, options.import);
+    OBVID_TRY(series);
+    if (options.units) take_units(*series, *options.units);
+    out.warnings = series->warnings;
+    const Result<RegionTable> region = region_table(*series, options.job);
+    OBVID_TRY(region);
+    out.warnings.insert(out.warnings.end(), region->warnings.begin(), region->warnings.end());
+    OBVID_TRY(write_worksheet(*series, *region, options));
+    out.cells = summary_cells(*series, *region);
+    out.verdict = "as told";
+    return {};
+  }();
+  if (!done) out.error = done.error();
+  return out;
+}
+
+int region_of_several(const RegionOptions& options) {
+  const auto all = all_of_them(options.inputs, options.input, options.import, true);
+  if (!all) return report(all.error());
+  Several several(*all, summary_form(options.csv, options.json, options.quiet));
+  return several.run(options.outputs,
+                     [&](const OneOf& one, const std::vector<std::string>& outputs) {
+                       return summary_of_region(options, one, outputs);
+                     });
+}
+
 }  // namespace
 
 int run(const RegionOptions& options) {
+  if (are_several(options.inputs, options.import.curve)) return region_of_several(options);
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
   }
@@ -207,21 +262,8 @@ int run(const RegionOptions& options) {
   const Result<RegionTable> region = region_table(*series, options.job);
   if (!region) return report(explained(*series, options.job, region.error(), {}));
   warn(region->warnings);
-  std::vector<NamedFile> files;
-  for (const std::string& path : options.outputs) {
-    const std::string ending = std::filesystem::path(path).extension().string();
-    auto file = region_file(ending.empty() ? ending : ending.substr(1), *series, *region, {},
-                            options.asked);
-    if (!file) {
-      Error error = file.error();
-      error.where = path;
-      return report(error);
-    }
-    files.push_back({path, std::move(*file)});
-  }
-  std::vector<Output> outputs;
-  for (const NamedFile& one : files) outputs.push_back({one.path, {}, one.file.text});
-  if (auto done = write_files(outputs); !done) return report(done.error());
+  const auto files = write_worksheet(*series, *region, options);
+  if (!files) return report(files.error());
   std::string text;
   if (options.json) {
     auto json = region_json(*series, *region, {});
@@ -233,7 +275,7 @@ int run(const RegionOptions& options) {
     text = std::move(table->text);
   } else if (!options.quiet) {
     text = region_text(*series, *region);
-    for (const auto& [path, file] : files) {
+    for (const auto& [path, file] : *files) {
       text +=
           fmt::format("written        {}{}\n", path, file.remark.empty() ? "" : ": " + file.remark);
     }

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "commands.h"
+#include "obvid/core/internal/data_table.h"
+#include "obvid/pipeline/internal/summary.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
 #include "outputs.h"
+#include "several.h"
 #include "surface_options.h"
 #include "surface_outputs.h"
 #include "surface_report.h"
@@ -225,34 +228,128 @@ std::string surface_check_text(const SurfaceModel& model, const CheckedSurface& 
   return text + facts.text();
 }
 
-int run(const SurfaceCheckOptions& options) {
+namespace {
+
+/// What was read, measured and written.
+struct CheckDone {
+  SurfaceModel model;
+  CheckedSurface checked;
+  Written written;
+};
+
+Result<CheckDone> check_done(const SurfaceCheckOptions& options, ProgressBar& bar) {
   const auto outputs = pictures_of(options);
-  if (!outputs) return report(outputs.error());
-  ProgressBar bar(options.progress);
+  OBVID_TRY(outputs);
   bar.tell("reading", 0.0);
   std::vector<std::string> warnings;
-  const Result<SurfaceModel> model = read_surface(options.input, warnings);
-  if (!model) {
-    bar.clear();
-    return report(model.error());
-  }
+  Result<SurfaceModel> model = read_surface(options.input, warnings);
+  OBVID_TRY(model);
   auto checked = check_surface(*model, options.job, bar.progress());
-  if (!checked) {
-    bar.clear();
-    return report(checked.error());
-  }
+  OBVID_TRY(checked);
   warnings.insert(warnings.end(), checked->warnings.begin(), checked->warnings.end());
   SurfaceExportOptions formats = options.formats;
   show_findings(*checked, formats);
-  const auto written = write_surface(*model, *outputs, formats, bar.progress(), warnings);
-  bar.clear();
-  if (!written) return report(written.error());
-  warn(warnings);
+  auto written = write_surface(*model, *outputs, formats, bar.progress(), warnings);
+  OBVID_TRY(written);
   checked->warnings = std::move(warnings);  // those of reading and writing, too
-  if (options.quiet && !options.json) return 0;
-  const std::string text = options.json ? surface_check_json(*model, *checked, *written)
-                                        : surface_check_text(*model, *checked, *written);
-  if (auto done = put(text); !done) return report(done.error());
+  return CheckDone{std::move(*model), std::move(*checked), std::move(*written)};
+}
+
+DataTable patch_rows(const SurfaceCheck& check) {
+  DataTable out{
+      heads_of("patch,degree_u,degree_v,control_points_u,control_points_v,inside_u,inside_v,trims,"
+               "area,gaussian_least,gaussian_most,mean_least,mean_most,least_curvature,"
+               "largest_curvature,vertices_along_u,vertices_along_v")};
+  for (const PatchReport& p : check.patches) {
+    out.rows.push_back({p.name, p.degree_u, p.degree_v, p.count_u, p.count_v, p.order_u, p.order_v,
+                        p.trims, p.area, p.gaussian.least, p.gaussian.most, p.mean.least,
+                        p.mean.most, p.k2.least, p.k1.most, p.along_u.vertices,
+                        p.along_v.vertices});
+  }
+  return out;
+}
+
+/// Least and greatest of all patches.
+Extent over_patches(const SurfaceCheck& check, const Extent PatchReport::*which) {
+  Extent out;
+  out.least = HUGE_VAL;
+  out.most = -HUGE_VAL;
+  for (const PatchReport& p : check.patches) {
+    out.least = std::min(out.least, (p.*which).least);
+    out.most = std::max(out.most, (p.*which).most);
+  }
+  return out;
+}
+
+std::vector<SummaryCell> cells_of(const CheckDone& done) {
+  const SurfaceCheck& check = done.checked.check;
+  const std::string units = done.model.units.text();
+  const Extent gaussian = over_patches(check, &PatchReport::gaussian);
+  const Extent mean = over_patches(check, &PatchReport::mean);
+  std::vector<SummaryCell> out{
+      {"patches", counted(check.patches.size(), "patch", "patches"),
+       std::to_string(check.patches.size())},
+      {"size", fmt::format("size {} {}", significant(check.size), units), csv_cell(check.size)},
+      {"gaussian_least", "", csv_cell(gaussian.least)},
+      {"gaussian_most", "Gaussian " + range_text(gaussian), csv_cell(gaussian.most)},
+      {"mean_least", "", csv_cell(mean.least)},
+      {"mean_most", "mean " + range_text(mean), csv_cell(mean.most)},
+      {"joints", "borders " + borders_text(check), std::to_string(check.joints.size())}};
+  if (const auto& deviation = done.checked.deviation) {
+    const double off = deviation->found.farthest().off;
+    out.push_back(
+        {"farthest", fmt::format("{} {} off", significant(off, 3), units), csv_cell(off)});
+  }
+  return out;
+}
+
+Summary summary_of_check(const SurfaceCheckOptions& all, const OneOf& one,
+                         const std::vector<std::string>& outputs) {
+  Summary out;
+  SurfaceCheckOptions options = all;
+  options.input = one.input;
+  options.outputs = outputs;
+  ProgressBar none(false);
+  auto done = check_done(options, none);
+  if (!done) {
+    out.error = done.error();
+    return out;
+  }
+  out.warnings = done->checked.warnings;
+  out.cells = cells_of(*done);
+  out.verdict = "measured";
+  return out;
+}
+
+int check_several(const SurfaceCheckOptions& options) {
+  const auto all = all_of_them(options.inputs, options.input, {}, false);
+  if (!all) return report(all.error());
+  Several several(*all, summary_form(options.csv, options.json, options.quiet));
+  return several.run(options.outputs,
+                     [&](const OneOf& one, const std::vector<std::string>& outputs) {
+                       return summary_of_check(options, one, outputs);
+                     });
+}
+
+}  // namespace
+
+int run(const SurfaceCheckOptions& options) {
+  if (!options.inputs.empty()) return check_several(options);
+  ProgressBar bar(options.progress);
+  const auto done = check_done(options, bar);
+  bar.clear();
+  if (!done) return report(done.error());
+  const auto& [model, checked, written] = *done;
+  warn(checked.warnings);
+  std::string text;
+  if (options.json) {
+    text = surface_check_json(model, checked, written);
+  } else if (options.csv) {
+    text = csv_text(patch_rows(checked.check));
+  } else if (!options.quiet) {
+    text = surface_check_text(model, checked, written);
+  }
+  if (auto shown = put(text); !shown) return report(shown.error());
   return 0;
 }
 

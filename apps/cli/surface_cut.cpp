@@ -172,6 +172,8 @@ int run(const SurfaceCutOptions& options) {
   std::string text;
   if (options.json) {
     text = surface_cut_json(done->made, done->written, false);
+  } else if (options.csv) {
+    text = sections_csv(done->made);
   } else if (!options.quiet) {
     text = sections_text(options, done->made, done->written);
   }

@@ -319,7 +319,10 @@ CLI::App& add_maker(CLI::App& app, RawSurface& raw, const KindText& text) {
 
 void add_check(CLI::App& app, RawSurface& raw) {
   CLI::App& check = *app.add_subcommand("check", "Curvature, joints of patches, monotone sections");
-  check.add_option("INPUT", raw.check.input, "Surface (.json, STEP, IGES, BREP, control points)");
+  check
+      .add_option("INPUT", raw.inputs,
+                  "Surface (.json, STEP, IGES, BREP, control points); of several files a line each")
+      ->type_name("");
   add_output(check, raw.check.outputs, raw.format, "File to write: .html (page), .svg (picture)",
              "svg");
   check
@@ -341,6 +344,7 @@ void add_check(CLI::App& app, RawSurface& raw) {
       ->type_name("NAME");
   check.add_option("--view", raw.formats.view, "iso, front, top, side, back or bottom [iso]")
       ->type_name("NAME");
+  check.add_flag("--csv", raw.check.csv, "Table of patches as CSV on standard output");
   check.add_flag("--json", raw.check.json, "JSON on standard output instead of the tables");
   check.add_flag("-q,--quiet", raw.check.quiet, "No tables and no progress bar");
   check.add_flag("--no-progress", raw.no_progress, "No progress bar");
@@ -387,6 +391,7 @@ void add_cut(CLI::App& app, RawSurface& raw) {
                  "Mass of water in a cubic input unit: the displacement is told too")
       ->type_name("RHO")
       ->group(group);
+  cut.add_flag("--csv", raw.cut.csv, "Points as CSV on standard output, as -o NAME.csv");
   cut.add_flag("--json", raw.cut.json, "JSON on standard output instead of the table");
   cut.add_flag("-q,--quiet", raw.cut.quiet, "No table and no progress bar");
   cut.add_flag("--no-progress", raw.no_progress, "No progress bar");
@@ -436,15 +441,20 @@ Result<Command> checked_maker(RawSurface& raw, const KindText& text) {
 }
 
 Result<Command> checked_check(RawSurface& raw) {
-  raw.check.input = input_or_pipe(raw.check.input);
-  if (raw.check.input.empty()) {
+  raw.inputs = inputs_or_pipe(std::move(raw.inputs));
+  if (raw.inputs.empty()) {
     return fail(usage("surface check needs a surface", "see obvid surface check --help"));
+  }
+  if (raw.inputs.size() == 1) {
+    raw.check.input = raw.inputs.front();
+  } else {
+    raw.check.inputs = raw.inputs;
   }
   OBVID_TRY(set_surface_check(raw.check_values, raw.check.job));
   raw.formats.colour = raw.colour.value_or(raw.check.job.against ? "deviation" : "gaussian");
   OBVID_TRY(set_surface_formats(raw.formats, raw.check.formats));
-  OBVID_TRY(settle_streams(raw.check, raw.format, false, "svg"));
-  raw.check.progress = !raw.no_progress && !raw.check.json && !raw.check.quiet;
+  OBVID_TRY(settle_streams(raw.check, raw.format, raw.check.csv, "svg"));
+  raw.check.progress = !raw.no_progress && !raw.check.json && !raw.check.csv && !raw.check.quiet;
   return command_of(raw.check);
 }
 
@@ -454,8 +464,8 @@ Result<Command> checked_sections(RawSurface& raw) {
     return fail(usage("surface cut needs a surface", "see obvid surface cut --help"));
   }
   OBVID_TRY(set_surface_cut(raw.cut_values, raw.cut.job));
-  OBVID_TRY(settle_streams(raw.cut, raw.format, false, "csv"));
-  raw.cut.progress = !raw.no_progress && !raw.cut.json && !raw.cut.quiet;
+  OBVID_TRY(settle_streams(raw.cut, raw.format, raw.cut.csv, "csv"));
+  raw.cut.progress = !raw.no_progress && !raw.cut.json && !raw.cut.csv && !raw.cut.quiet;
   return command_of(raw.cut);
 }
 

@@ -26,9 +26,11 @@ struct SurfaceOptions {
 /// `obvid surface check`
 struct SurfaceCheckOptions {
   std::string input;
+  std::vector<std::string> inputs;   ///< several, in place of one
   std::vector<std::string> outputs;  ///< pictures and pages of curvature or deviation
   SurfaceCheckJob job;
   SurfaceExportOptions formats;
+  bool csv = false;
   bool json = false;
   bool quiet = false;
   bool progress = true;
@@ -39,6 +41,7 @@ struct SurfaceCutOptions {
   std::string input;
   std::vector<std::string> outputs;  ///< points, drawings; with {id} a file for each branch
   SurfaceCutJob job;
+  bool csv = false;
   bool json = false;
   bool quiet = false;
   bool progress = true;

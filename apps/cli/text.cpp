@@ -26,6 +26,11 @@ std::string radius_text(double kappa) {
   return large ? fmt::format("{:.4e}", radius) : significant(radius);
 }
 
+std::string radius_over(double kappa, double length, double within) {
+  const double sagitta = std::abs(kappa) * length * length / 8.0;
+  return radius_text(sagitta <= within ? 0.0 : kappa);
+}
+
 const char* direction_text(int direction) {
   return direction > 0 ? "increasing" : direction < 0 ? "decreasing" : "constant";
 }

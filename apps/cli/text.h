@@ -16,6 +16,9 @@ namespace obvid {
 
 /// Radius of a signed curvature for a table; "straight" for 0.
 [[nodiscard]] std::string radius_text(double kappa);
+/// The same of what has that length; "straight" where a line is nowhere farther from it than
+/// `within`.
+[[nodiscard]] std::string radius_over(double kappa, double length, double within);
 
 /// Direction of curvature along the way: increasing, decreasing, constant.
 [[nodiscard]] const char* direction_text(int direction);

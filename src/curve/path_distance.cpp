@@ -75,8 +75,9 @@ class DistanceBound {
   /// Spans whose ends are compared with two pieces are cut where a joint of these is nearest: a
   /// place of the span may be compared with any other, the bound holds for each.
   void cut_at_joints(const Piece& piece, Match first, const Match& last) {
+    const std::size_t pieces = to_.size();
+    const bool on = goes_on(first.piece, last.piece);
     while (first.piece != last.piece) {
-      const bool on = first.piece < last.piece;
       const Vec2 joint = evaluate(to_[first.piece], on ? 1.0 : 0.0).point;
       Match cut;
       cut.piece = first.piece;
@@ -94,12 +95,22 @@ class DistanceBound {
       if (cut.distance > most) return leap(piece, first, last, 0);  // another way round
       bound(piece, first, cut, 0);
       first = cut;
-      first.piece = on ? cut.piece + 1 : cut.piece - 1;
+      first.piece = (cut.piece + (on ? 1 : pieces - 1)) % pieces;
       first.u = on ? 0.0 : 1.0;
       // pieces may leave a gap between them
       first.distance = norm(here - evaluate(to_[first.piece], first.u).point);
     }
     bound(piece, first, last, 0);
+  }
+
+  /// Whether the nearer way from one piece of the other path to another goes on along it: of a
+  /// closed path over its seam, too.
+  [[nodiscard]] bool goes_on(std::size_t first, std::size_t last) const {
+    const bool ahead = first < last;
+    const std::size_t joints = ahead ? last - first : first - last;
+    if (2 * joints <= to_.size()) return ahead;
+    const double gap = norm(end_point(to_.back()) - start_point(to_.front()));
+    return gap <= found_ ? !ahead : ahead;
   }
 
   /// The way along a piece, at least.

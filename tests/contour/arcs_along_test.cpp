@@ -297,6 +297,28 @@ TEST(ArcsAlong, OfSlimAndRoundEllipsesAreHardlyMoreThanTheBestEither) {
   }
 }
 
+TEST(ArcsAlong, OfTheSharpEndsOfASlimEllipseAreATenthMoreThanTheBestAtMost) {
+  for (const double tolerance : {8e-3, 1e-3, 1e-4}) {
+    const auto made = arcs_along(whole_ellipse(50.0, 5.0), tolerance);
+    ASSERT_TRUE(made);
+    EXPECT_LE(made->deviation, tolerance);
+    expect_joined(made->pieces);
+    EXPECT_LE(static_cast<double>(made->pieces.size()), 1.1 * best_count(50.0, 5.0, tolerance))
+        << tolerance;
+  }
+}
+
+TEST(ArcsAlong, OfStretchesOfHundredsOfPairsAreAsFewAsOfShortOnes) {
+  for (const double tolerance : {1e-5, 1e-6}) {
+    const auto made = arcs_along(whole_ellipse(50.0, 5.0), tolerance);
+    ASSERT_TRUE(made);
+    EXPECT_LE(made->deviation, tolerance);
+    expect_joined(made->pieces);
+    EXPECT_LE(static_cast<double>(made->pieces.size()), 1.05 * best_count(50.0, 5.0, tolerance))
+        << tolerance;
+  }
+}
+
 TEST(ArcsAlong, OfAWholeEllipseAreHardlyMoreThanTheBest) {
   const Contour ellipse = whole_ellipse(12.37, 7.42);
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {

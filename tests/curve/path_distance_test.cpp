@@ -146,6 +146,22 @@ TEST(PathDistance, OfClosedPathsFarAwayGoesOnFromTheirStartsWhereTheEndIsAsNear)
   EXPECT_LT(path_distance(many, few), 1e-7);
 }
 
+TEST(PathDistance, OfClosedPathsWhoseSeamsLieBesideEachOtherIsThatBetweenThem) {
+  // the seam of the one is nearest to the last piece of the other, places behind it to the first
+  Pieces quarters, many;
+  for (int k = 0; k < 4; ++k) {
+    quarters.push_back(arc_around({0.0, 0.0}, 1.0, 0.5 * kPi * k, 0.5 * kPi));
+  }
+  for (int k = 0; k < 128; ++k) {
+    many.push_back(arc_around({0.0, 0.0}, 1.01, 0.01 + 2.0 * kPi * k / 128, 2.0 * kPi / 128));
+  }
+  // beside a seam a place may be taken for the nearest that is up to 1 % farther
+  for (const double bound : {path_distance(quarters, many), path_distance(many, quarters)}) {
+    EXPECT_GE(bound, 0.01 * (1.0 - 1e-12));
+    EXPECT_LE(bound, 1.01 * 0.01);
+  }
+}
+
 TEST(PathDistance, SurvivesPiecesOfNoLengthAndEmptyPaths) {
   const Pieces point = {LinePiece{{0.0, 0.0}, {0.0, 0.0}}};
   EXPECT_NEAR(path_distance(point, Pieces{LinePiece{{0.0, 0.0}, {3.0, 4.0}}}), 5.0, 1e-12);

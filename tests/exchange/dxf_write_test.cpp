@@ -226,7 +226,10 @@ TEST_F(DxfFilesByEzdxf, AreTheSameCurveInEveryExactProfile) {
   const auto found = points(files, 5);
   for (std::size_t k = 0; k < files.size(); ++k) {
     const Contour contour = stored(names[k]);
-    ASSERT_GE(found[k].size(), 5 * contour.pieces.size()) << names[k];
+    // the contour with a corner begins with two parts of one arc, which are one
+    const bool has_parts = std::string(names[k]) == "spirals_corner.json";
+    const std::size_t entities = contour.pieces.size() - (has_parts ? 1 : 0);
+    ASSERT_GE(found[k].size(), 5 * entities) << names[k];
     EXPECT_LE(farthest(found[k], contour), 1e-9 * size_of(contour)) << names[k];
   }
 }
@@ -319,8 +322,8 @@ TEST(DxfRoundTrip, UnitsAreKeptEvenInR12) {
 TEST(DxfWrites, OneEntityPerSmoothPart) {
   EXPECT_EQ(written(stored("spirals_open.json"), DxfProfile::kExact, 1e-3).entities, 1u);
   EXPECT_EQ(written(stored("spirals_closed.json"), DxfProfile::kExact, 1e-3).entities, 1u);
-  // before the corner two arcs, after it a spline
-  EXPECT_EQ(written(stored("spirals_corner.json"), DxfProfile::kExact, 1e-3).entities, 3u);
+  // before the corner two parts of one arc, after it a spline
+  EXPECT_EQ(written(stored("spirals_corner.json"), DxfProfile::kExact, 1e-3).entities, 2u);
   EXPECT_EQ(written(stored("spirals_corner.json"), DxfProfile::kCubic, 1e-3).entities, 2u);
   EXPECT_EQ(written(stored("spirals_corner.json"), DxfProfile::kArcs, 1e-3).entities, 1u);
 }

@@ -37,6 +37,8 @@ constexpr std::size_t kMostArcs = 1000000;
 constexpr std::size_t kEvened = 20;      // pairs before the end of a stretch that are made alike
 constexpr int kEvenings = 5;             // bisections for that
 constexpr std::size_t kMostFitted = 80;  // pairs of a stretch that are fitted together
+constexpr std::size_t kWindow = 60;      // pairs of longer ones that are
+constexpr std::size_t kMostInWindows = 2000;
 
 /// Pairs in a row: the node before each, and the last one.
 using Chain = std::vector<Node>;
@@ -246,18 +248,57 @@ class StretchArcs {
   /// Fewer pairs whose nodes may lie anywhere, as few as are found; nothing where there are none.
   [[nodiscard]] std::optional<Chain> fewer_than(const Chain& chain) const {
     const std::size_t had = chain.size() - 1;
-    if (!fitted_ || had < 2 || had > kMostFitted) return std::nullopt;
-    const arcs::PairsAlong along{track_, from_, to_, closed_, tolerance_};
-    const auto best = static_cast<std::size_t>(0.5 * arcs::best_number_of_arcs(along));
+    if (!fitted_ || had < 2 || had > kMostInWindows) return std::nullopt;
     const bool was_monotone = is_monotone(chain);
+    if (had <= kMostFitted) {
+      return fewest_fitted({track_, from_, to_, closed_, tolerance_}, had - 1, was_monotone);
+    }
+    return fewer_in_windows(chain, was_monotone);
+  }
+
+  /// The node about there beside which the curvature goes one way: at an extremum of it arcs that
+  /// have the contour's heading there would not.
+  [[nodiscard]] std::size_t window_end(const Chain& chain, std::size_t about) const {
+    constexpr std::size_t kBeside = 3, kFarthest = kWindow / 4;
+    for (std::size_t away = 0; away < kFarthest; ++away) {
+      for (const std::size_t i : {about - away, about + away}) {
+        const std::size_t last = std::min(i + kBeside, chain.size() - 1);
+        if (!turns_inside(chain[i - kBeside].s, chain[last].s)) return i;
+      }
+    }
+    return about;
+  }
+
+  /// The same of a long chain: of windows one after another, which meet at places of the contour
+  /// with its headings.
+  [[nodiscard]] std::optional<Chain> fewer_in_windows(const Chain& chain, bool monotone) const {
+    const std::size_t had = chain.size() - 1, windows = (had + kWindow - 1) / kWindow;
+    Chain out;
+    for (std::size_t w = 0; w < windows; ++w) {
+      const std::size_t first = w == 0 ? 0 : window_end(chain, w * had / windows);
+      const std::size_t last = w + 1 == windows ? had : window_end(chain, (w + 1) * had / windows);
+      const arcs::PairsAlong along{track_, chain[first].s, chain[last].s, false, tolerance_};
+      const auto found = fewest_fitted(along, last - first, monotone);
+      if (!found) return std::nullopt;
+      // a node tells the legs of the pair before it: where windows meet it is the first one's
+      out.insert(out.end(), found->begin() + (out.empty() ? 0 : 1), found->end());
+    }
+    const bool better = out.size() < chain.size() && (!monotone || is_monotone(out));
+    return better ? std::optional(std::move(out)) : std::nullopt;
+  }
+
+  /// At most so many pairs between two places, as few as are found.
+  [[nodiscard]] std::optional<Chain> fewest_fitted(const arcs::PairsAlong& along, std::size_t most,
+                                                   bool monotone) const {
+    const auto best = static_cast<std::size_t>(0.5 * arcs::best_number_of_arcs(along));
     const auto fitted = [&](std::size_t pairs) {
       auto out = arcs::fitted_pairs(along, pairs, watch_);
-      if (out && was_monotone && !is_monotone(*out)) out.reset();
+      if (out && monotone && !is_monotone(*out)) out.reset();
       return out;
     };
-    std::size_t pairs = std::clamp<std::size_t>(best + 1, 1, had - 1);
+    std::size_t pairs = std::clamp<std::size_t>(best + 1, 1, most);
     std::optional<Chain> found = fitted(pairs);
-    while (!found && ++pairs < had && !is_to_end(watch_)) found = fitted(pairs);
+    while (!found && ++pairs <= most && !is_to_end(watch_)) found = fitted(pairs);
     for (; found && pairs > 1 && !is_to_end(watch_); --pairs) {
       auto next = fitted(pairs - 1);
       if (!next) break;

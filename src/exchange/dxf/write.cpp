@@ -208,7 +208,7 @@ class DxfDrawer {
   Result<void> exact(const Contour& part, bool closed) {
     if (std::all_of(part.pieces.begin(), part.pieces.end(), is_circular)) {
       if (centres_are_near(part)) {
-        for (const Piece& piece : part.pieces) circular(piece);
+        for (const Piece& piece : whole_arcs(part.pieces)) circular(piece);
       } else {
         lwpolyline(part.pieces, closed);
       }
@@ -230,6 +230,34 @@ class DxfDrawer {
     result_.deviation = std::max(result_.deviation, made->deviation);
     spline(made->curve, closed);
     return {};
+  }
+
+  /// Arcs that are parts of one are that; once around it is a circle.
+  [[nodiscard]] static std::vector<Piece> whole_arcs(const std::vector<Piece>& pieces) {
+    constexpr double kSame = 1e-12;     // of the curvature
+    constexpr double kSmooth = 1e-9;    // rad
+    constexpr double kRounding = 1e-9;  // of a turn
+    std::vector<Piece> out;
+    for (const Piece& piece : pieces) {
+      const auto* next = std::get_if<ArcPiece>(&piece);
+      auto* last = out.empty() ? nullptr : std::get_if<ArcPiece>(&out.back());
+      const bool goes_on =
+          next != nullptr && last != nullptr &&
+          std::abs(next->kappa - last->kappa) <= kSame * std::abs(last->kappa) &&
+          std::abs(std::remainder(last->theta0 + last->kappa * last->length - next->theta0,
+                                  kFullTurn)) <= kSmooth &&
+          std::abs(last->kappa) * (last->length + next->length) <= (1.0 + kRounding) * kFullTurn;
+      if (!goes_on) {
+        out.push_back(piece);
+        continue;
+      }
+      last->length += next->length;
+      const double turn = std::abs(last->kappa) * last->length;
+      if (std::abs(turn - kFullTurn) <= kRounding * kFullTurn) {
+        last->length = kFullTurn / std::abs(last->kappa);
+      }
+    }
+    return out;
   }
 
   void circular(const Piece& piece) {

@@ -35,6 +35,12 @@ constexpr int kCurvePlaces = 32;
 /// Heights of more points than this would hide the profile.
 constexpr std::size_t kMostHeights = 2000;
 
+std::string path_through(const std::vector<Vec2>& places) {
+  PicturePath graph;
+  for (const Vec2 at : places) graph.empty() ? graph.move(at) : graph.line(at);
+  return graph.text();
+}
+
 void begin_clip(PictureCanvas& canvas, const PictureFrame& frame, int id) {
   canvas.add(
       "<clipPath id=\"diagram{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
@@ -73,14 +79,43 @@ void draw_zero(PictureCanvas& canvas, const PictureFrame& frame) {
   canvas.line({frame.left, zero}, {frame.right, zero}, "axis");
 }
 
+/// Least and greatest height of a graph between two places, px.
+std::array<double, 2> heights_between(const std::vector<Vec2>& graph, double from, double to) {
+  std::array<double, 2> out{HUGE_VAL, -HUGE_VAL};
+  for (std::size_t k = 0; k + 1 < graph.size(); ++k) {
+    const Vec2 a = graph[k], b = graph[k + 1];
+    if (b.x < from || a.x > to) continue;
+    for (const double x : {std::max(a.x, from), std::min(b.x, to)}) {
+      const double part = b.x > a.x ? (x - a.x) / (b.x - a.x) : 0.0;
+      const double y = a.y + part * (b.y - a.y);
+      out = {std::min(out[0], y), std::max(out[1], y)};
+    }
+    if (!(b.x > a.x)) out = {std::min(out[0], b.y), std::max(out[1], b.y)};
+  }
+  return out;
+}
+
+/// Base line of a text of that width about a place along a plot, px: at its bottom, or at its top
+/// where the graph leaves more room there.
+double label_base(const PictureFrame& frame, const std::vector<Vec2>& graph, double x,
+                  double width) {
+  constexpr double kLetters = 10.0;  // height, px
+  constexpr double kFree = 4.0;      // of them to the graph, px
+  const double low = frame.bottom - 6.0, high = frame.top + kLetters + 4.0;
+  const auto [least, most] = heights_between(graph, x - 0.5 * width, x + 0.5 * width);
+  const double below = low - kLetters - most, above = least - high;
+  return below >= kFree || below >= above ? low : high;
+}
+
 /// Names of elements that are wide enough for them.
-void draw_labels(PictureCanvas& canvas, const PictureFrame& frame,
-                 const AlignmentDiagram& diagram) {
+void draw_labels(PictureCanvas& canvas, const PictureFrame& frame, const AlignmentDiagram& diagram,
+                 const std::vector<Vec2>& graph) {
   for (const auto& part : diagram.parts) {
     const double width = frame.px_x(part.station + part.length) - frame.px_x(part.station);
-    if (part.label.empty() || width < kCharacter * static_cast<double>(part.label.size())) continue;
-    canvas.label({frame.px_x(part.station + 0.5 * part.length), frame.bottom - 6.0}, "middle",
-                 "note", part.label);
+    const double room = kCharacter * static_cast<double>(part.label.size());
+    if (part.label.empty() || width < room) continue;
+    const double x = frame.px_x(part.station + 0.5 * part.length);
+    canvas.label({x, label_base(frame, graph, x, room)}, "middle", "note", part.label);
   }
 }
 
@@ -100,17 +135,16 @@ void curvature_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentD
   draw_grid(canvas, frame, false);
   draw_boundaries(canvas, frame, boundaries_of(diagram), true);
   draw_zero(canvas, frame);
-  PicturePath graph;
+  std::vector<Vec2> places;
   for (const auto& part : diagram.parts) {
     const auto steps = static_cast<double>(part.curvatures.size() - 1);
     for (std::size_t k = 0; k < part.curvatures.size(); ++k) {
       const double station = part.station + part.length * static_cast<double>(k) / steps;
-      const Vec2 at{frame.px_x(station), frame.px_y(part.curvatures[k])};
-      graph.empty() ? graph.move(at) : graph.line(at);
+      places.push_back({frame.px_x(station), frame.px_y(part.curvatures[k])});
     }
   }
-  canvas.add("<path class=\"graph up\" d=\"{}\"/>\n", graph.text());
-  draw_labels(canvas, frame, diagram);
+  canvas.add("<path class=\"graph up\" d=\"{}\"/>\n", path_through(places));
+  draw_labels(canvas, frame, diagram, places);
 }
 
 /// Fastest speed at the sharpest places of elements, km/h; 0: all are straight.
@@ -193,12 +227,8 @@ void profile_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentDia
   stations.push_back(profile.end_station);
   draw_boundaries(canvas, frame, stations, true);
   begin_clip(canvas, frame, 2);
-  PicturePath graph;
-  for (const Vec2 p : places) {
-    const Vec2 at{frame.px_x(p.x), frame.px_y(p.y)};
-    graph.empty() ? graph.move(at) : graph.line(at);
-  }
-  canvas.add("<path class=\"graph even\" d=\"{}\"/>\n", graph.text());
+  for (Vec2& p : places) p = {frame.px_x(p.x), frame.px_y(p.y)};
+  canvas.add("<path class=\"graph even\" d=\"{}\"/>\n", path_through(places));
   if (diagram.heights.size() <= kMostHeights) {
     PicturePath dots;
     for (const Vec2 p : diagram.heights) {
@@ -212,9 +242,10 @@ void profile_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentDia
   for (const ProfileElement& e : profile.elements) {
     const std::string label = grade_label(e);
     const double width = frame.px_x(e.station + e.length) - frame.px_x(e.station);
-    if (width < kCharacter * static_cast<double>(label.size())) continue;
-    canvas.label({frame.px_x(e.station + 0.5 * e.length), frame.bottom - 6.0}, "middle", "note",
-                 label);
+    const double room = kCharacter * static_cast<double>(label.size());
+    if (width < room) continue;
+    const double x = frame.px_x(e.station + 0.5 * e.length);
+    canvas.label({x, label_base(frame, places, x, room)}, "middle", "note", label);
   }
 }
 

@@ -120,4 +120,42 @@ std::vector<SummaryCell> summary_cells(const Contour& contour, const Certificate
                  "inflections")};
 }
 
+std::vector<SummaryCell> summary_cells(const AlignmentReport& made) {
+  const Alignment& alignment = made.alignment;
+  std::size_t lines = 0, arcs = 0;
+  for (const AlignmentElement& element : alignment.elements) {
+    lines += element.kind == AlignmentKind::kLine ? 1 : 0;
+    arcs += element.kind == AlignmentKind::kArc ? 1 : 0;
+  }
+  double largest = 0.0;
+  for (const AlignmentDeviation& deviation : alignment.deviations) {
+    largest = std::max(largest, std::abs(deviation.offset));
+  }
+  const std::string unit = made.units.text();
+  return {count_cell("points", alignment.deviations.size(), "point", "points"),
+          count_cell("elements", alignment.elements.size(), "element", "elements"),
+          count_cell("lines", lines, "line", "lines"),
+          count_cell("arcs", arcs, "arc", "arcs"),
+          count_cell("transitions", alignment.elements.size() - lines - arcs, "transition",
+                     "transitions"),
+          {"length", fmt::format("length {} {}", significant(alignment.length), unit),
+           csv_cell(alignment.length)},
+          {"largest_deviation",
+           fmt::format("at most {} {} off", significant(largest, kErrorDigits), unit),
+           csv_cell(largest)},
+          {"tolerance", "", csv_cell(made.tolerance)}};
+}
+
+std::vector<SummaryCell> summary_cells(const PointSeries& series, const RegionTable& region) {
+  double widest = 0.0;
+  for (const RegionRow& row : region.last().rows)
+    widest = std::max(widest, row.width.value_or(0.0));
+  return {
+      count_cell("points", series.points.size(), "point", "points"),
+      count_cell("segments", region.last().rows.size(), "segment", "segments"),
+      {"widest",
+       fmt::format("at most {} {} wide", significant(widest, kErrorDigits), series.units.text()),
+       csv_cell(widest)}};
+}
+
 }  // namespace obvid

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "obvid/core/error.h"
+#include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/analyse.h"
 #include "obvid/pipeline/fit.h"
+#include "obvid/pipeline/region_table.h"
 
 namespace obvid {
 
@@ -47,5 +49,8 @@ struct Summary {
 [[nodiscard]] std::vector<SummaryCell> summary_cells(const AnalysedDrawing& drawing);
 [[nodiscard]] std::vector<SummaryCell> summary_cells(const Contour& contour,
                                                      const Certificate& certificate);
+[[nodiscard]] std::vector<SummaryCell> summary_cells(const AlignmentReport& made);
+[[nodiscard]] std::vector<SummaryCell> summary_cells(const PointSeries& series,
+                                                     const RegionTable& region);
 
 }  // namespace obvid
