@@ -140,8 +140,9 @@ class TextCheck {
               std::strtod(words[5].c_str(), nullptr) == static_cast<double>(part.to - part.from),
           "table pieces", words[5], static_cast<double>(part.to - part.from));
     }
-    radius(words[6], part.from, part.from_point, true);
-    radius(words[7], part.to, part.to_point, false);
+    const double chord = figure(rows[k], "chord").value.value_or(0.0);
+    radius(words[6], part.from, part.from_point, chord, true);
+    radius(words[7], part.to, part.to_point, chord, false);
   }
   /// The part that leads between the points of a row's name.
   [[nodiscard]] std::size_t row_of(const std::string& name) const {
@@ -162,20 +163,40 @@ class TextCheck {
     std::sort(y.begin(), y.end());
     return x == y;
   }
-  void radius(const std::string& printed, Real order, std::size_t point, bool leaving) {
+  /// A radius is printed as "straight" where a line as long as the chord would be within a
+  /// hundredth of the least tolerance of all points, or 1e-9 of the size (docs/formats.md).
+  void radius(const std::string& printed, Real order, std::size_t point, double chord,
+              bool leaving) {
     if (printed == "-") return;
+    const double flat = 8.0 * straight_within() / std::max(chord * chord, 1e-300);
     const FileElement* e =
         order == std::floor(order) ? file_.joint(static_cast<std::size_t>(order)) : nullptr;
-    if (e == nullptr || !(e->source || e->parted())) return radius_beside(printed, order, point);
+    if (e == nullptr || !(e->source || e->parted())) {
+      return radius_beside(printed, order, point, flat);
+    }
     const double kappa = leaving && e->parted() ? e->kappa_out : e->kappa;
-    say(radius_of(printed, kappa), "table radius", printed, kappa == 0.0 ? 0.0 : 1.0 / kappa);
+    say(radius_of(printed, kappa, flat), "table radius", printed, kappa == 0.0 ? 0.0 : 1.0 / kappa);
   }
-  static bool radius_of(const std::string& printed, double kappa) {
-    return kappa == 0.0 ? printed == "straight" : prints(printed, 1.0 / kappa);
+  /// At the limit, to the last digits, either is right.
+  static bool radius_of(const std::string& printed, double kappa, double flat) {
+    constexpr double kDigits = 1e-9;
+    if (printed == "straight") return std::abs(kappa) <= flat * (1.0 + kDigits);
+    return std::abs(kappa) >= flat * (1.0 - kDigits) && prints(printed, 1.0 / kappa);
+  }
+  [[nodiscard]] double straight_within() const {
+    double tolerance = file_.tolerance.empty() ? 0.0 : HUGE_VAL;
+    for (const double one : file_.tolerance) tolerance = std::min(tolerance, one);
+    Vec low{HUGE_VALL, HUGE_VALL}, high{-HUGE_VALL, -HUGE_VALL};
+    for (const Point p : file_.points) {
+      const Vec q = seen(p, course_.origin);
+      low = {std::min(low.x, q.x), std::min(low.y, q.y)};
+      high = {std::max(high.x, q.x), std::max(high.y, q.y)};
+    }
+    return std::max(1e-2 * tolerance, static_cast<double>(1e-9L * norm(high - low)));
   }
   /// At a point that is no joint: of a place that rounding of the coordinates does not tell from
   /// the nearest one (docs/claims.md), as doubles evaluate it.
-  void radius_beside(const std::string& printed, Real order, std::size_t point) {
+  void radius_beside(const std::string& printed, Real order, std::size_t point, double limit) {
     // distances from a point at D differ by s^2 / (2 D): doubles do not tell them apart below
     constexpr Real kRoundings = 4.0L * 0x1p-52L;
     const Real away = norm(course_.path.at(order) - seen(file_.points[point], course_.origin));
@@ -184,10 +205,15 @@ class TextCheck {
     const Real blur = course_.curvature_rounding(order);
     least -= blur;
     most += blur;
-    const bool straight = printed == "straight";
-    const double kappa = straight ? 0.0 : 1.0 / std::strtod(printed.c_str(), nullptr);
-    say((kappa >= least && kappa <= most) || radius_of(printed, static_cast<double>(least)) ||
-            radius_of(printed, static_cast<double>(most)),
+    if (printed == "straight") {
+      return say(least <= limit && most >= -limit, "table radius", printed,
+                 static_cast<double>(1.0L / least));
+    }
+    const double kappa = 1.0 / std::strtod(printed.c_str(), nullptr);
+    const bool may_bend = least < -limit || most > limit;
+    say(may_bend && ((kappa >= least && kappa <= most) ||
+                     prints(printed, static_cast<double>(1.0L / least)) ||
+                     prints(printed, static_cast<double>(1.0L / most))),
         "table radius", printed, static_cast<double>(1.0L / least));
   }
 
