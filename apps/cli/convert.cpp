@@ -116,6 +116,7 @@ int convert_several(const ConvertOptions& options) {
 
 int run(const ConvertOptions& options) {
   warn(options.idle);
+  if (auto able = can_write_all(options.outputs); !able) return report(able.error());
   if (are_several(options.inputs, options.import.curve)) return convert_several(options);
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());

@@ -142,6 +142,7 @@ int fit_several(const FitOptions& options) {
 
 int run(const FitOptions& given) {
   warn(given.idle);
+  if (auto able = can_write_all(given.outputs); !able) return report(able.error());
   if (are_several(given.inputs, given.import.curve)) return fit_several(given);
   FitOptions options = given;
   if (options.input == "-") {

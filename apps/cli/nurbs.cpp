@@ -77,6 +77,7 @@ int run(const NurbsOptions& options) {
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
   }
+  if (auto able = can_write_all(options.outputs); !able) return report(able.error());
   auto points = read_control_table(options.input);
   if (!points) return report(points.error());
   ProgressBar bar(options.progress);

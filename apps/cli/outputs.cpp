@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "obvid/core/files.h"
+#include "obvid/pipeline/internal/can_write.h"
 #include "obvid/pipeline/internal/no_such_file.h"
 #include "text.h"
 
@@ -31,9 +32,19 @@ Result<FileFormat> table_format_of(const std::string& path, const std::string& w
   return no_such_file(what, ".svg (picture), .html (page), " + tables).where(path);
 }
 
+Result<void> can_write_all(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (auto able = can_write_curves(format_of(path)); !able) {
+      return fail(of_file(able.error(), path));
+    }
+  }
+  return {};
+}
+
 Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
                                        const std::string& input) {
   OBVID_TRY(check_outputs(paths, {&input, 1}));
+  OBVID_TRY(can_write_all(paths));
   std::vector<Output> outputs;
   for (const std::string& path : paths) {
     Result<Output> output = output_of(path);

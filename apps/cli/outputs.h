@@ -29,7 +29,11 @@ struct FileNotes {
 /// ".csv and .json (tables)". Error: E202.
 [[nodiscard]] Result<FileFormat> table_format_of(const std::string& path, const std::string& what,
                                                  const std::string& tables);
-/// All of them. Errors: E202; E203 where the input or another output would be replaced.
+/// Whether files of curves can be written here, to be asked before the work begins; names without a
+/// format are passed over. Error: E310, as `can_write_curves` has it, told of the file.
+[[nodiscard]] Result<void> can_write_all(const std::vector<std::string>& paths);
+/// All of them. Errors: E202; E203 where the input or another output would be replaced; E310 as
+/// above.
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths,
                                                      const std::string& input);
 

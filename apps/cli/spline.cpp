@@ -134,6 +134,11 @@ Result<void> write_spline(const TableSpline& made, const SplineOptions& options)
 
 Result<TableSpline> made_of(const SplineOptions& options, ProgressBar& bar) {
   OBVID_TRY(check_outputs(options.outputs, {&options.input, 1}));
+  for (const std::string& path : options.outputs) {  // CAD files hold graphs, which are surfaces
+    const auto format = surface_format_of(path);
+    if (!format) continue;
+    if (auto able = can_write_surfaces(*format); !able) return fail(of_file(able.error(), path));
+  }
   const auto table = read_table(options.input);
   OBVID_TRY(table);
   std::optional<NamedTable> finer;

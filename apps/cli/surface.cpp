@@ -36,11 +36,6 @@ int run(const SurfaceOptions& options) {
   }
   Result<std::vector<Output>> outputs = surface_outputs_of(options.outputs, inputs);
   if (!outputs) return report(outputs.error());
-  for (const Output& output : *outputs) {
-    if (auto able = can_write_surfaces(output.format); !able) {
-      return report(of_file(able.error(), output.path));
-    }
-  }
   ProgressBar bar(options.progress);
   bar.tell("reading", 0.0);
   Result<MadeSurface> made = make_surface(options.job, bar.progress());

@@ -31,11 +31,7 @@ Result<void> check_outputs_of(const SurfaceCutOptions& options) {
     } else if (options.job.fair) {
       const auto of_contour = output_of(path);
       OBVID_TRY(of_contour);
-      // STEP files of contours are written without the kernel
-      if (of_contour->format == FileFormat::kStep) continue;
-      if (auto able = can_write_surfaces(of_contour->format); !able) {
-        return fail(of_file(able.error(), path));
-      }
+      OBVID_TRY(can_write_all({path}));
     } else {
       OBVID_TRY(branch_format_of(path, false));
     }

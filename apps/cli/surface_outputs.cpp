@@ -18,6 +18,9 @@ Result<std::vector<Output>> surface_outputs_of(const std::vector<std::string>& p
           .where(path)
           .hint("possible file extensions are " + known_surface_endings());
     }
+    if (auto able = can_write_surfaces(*format); !able) {
+      return fail(of_file(able.error(), path));
+    }
     outputs.push_back({path, *format, {}});
   }
   return outputs;

@@ -7,6 +7,7 @@
 #include "door.h"
 #include "handles.h"
 #include "obvid/io/read_points.h"
+#include "obvid/pipeline/internal/can_write.h"
 #include "obvid/pipeline/internal/space_values.h"
 #include "options.h"
 
@@ -185,6 +186,7 @@ int obvid_space_export(const obvid_space* space, const char* ending, const char*
     SpaceChain chain = space->chain;
     if (request->units) (void)take_units(chain, *request->units);
     const RunContext context = context_of(run);
+    OBVID_TRY(can_write_curves(space_format_of("." + std::string(ending))));
     const auto nurbs = chain_nurbs(chain, request->formats.tolerance, context);
     OBVID_TRY(nurbs);
     Result<Exported> made =

@@ -8,6 +8,7 @@
 
 #include "door.h"
 #include "handles.h"
+#include "obvid/pipeline/internal/can_write.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
 #include "obvid/pipeline/internal/surface_values.h"
 #include "obvid/pipeline/surface_check_job.h"
@@ -152,6 +153,7 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
       return fail({ErrorCode::kUnknownFormat, "no format of surfaces has this file extension", name,
                    "possible are " + known_surface_endings()});
     }
+    OBVID_TRY(can_write_surfaces(*format));
     request->formats.lines = surface->lines;
     const RunContext context = context_of(run);
     OBVID_TRY(may_go_on(context));
@@ -245,6 +247,7 @@ int obvid_surface_branches(const obvid_surface* surface, const char* options, co
     const std::string name = ending == nullptr ? "" : ending;
     const auto format = branch_format_of("branch." + name, request->cut.fair.has_value());
     OBVID_TRY(format);
+    OBVID_TRY(can_write_curves(*format));
     const RunContext context = context_of(run);
     auto made = cut_surface(surface->model, request->cut, context);
     OBVID_TRY(made);

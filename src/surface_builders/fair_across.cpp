@@ -18,17 +18,21 @@
 namespace obvid {
 namespace {
 
-/// Control points along of the correction: the next number where those before leave too many waves.
-constexpr std::array<std::size_t, 2> kAlong = {12, 24};
-/// Normals, signs and runs anew so often; fewer where that is in vain this often in a row.
-constexpr std::size_t kRounds = 4;
-constexpr int kMostInVain = 2;
-/// Waves beyond the forced ones that are few enough.
-constexpr double kFew = 0.01;
+/// Control points along of the correction, how often normals, signs and runs are taken anew, at how
+/// many places of a section its run is asked for, and the weight of that. Run that is lost between
+/// the places costs the section a share of its whole correction. The second, for what the first
+/// leaves, has more freedom and asks less for runs; it takes twice the time.
+struct Along {
+  std::size_t points, rounds, run_places;
+  double soft_runs;
+};
+constexpr std::array<Along, 2> kAlong = {Along{16, 2, 1000, 1e4}, Along{24, 1, 300, 1e3}};
+/// Waves beyond the forced ones, of those: few enough to end, and not to try the second.
+constexpr double kFew = 0.01, kFewForMore = 0.06;
 /// Of the lines: shallow waves that are worth moving sections for, where no high ones are.
 constexpr double kMany = 0.1;
 /// Half widths of the boxes: normal, along, across. Their corners lie in the ball of 1.
-constexpr std::array<double, 3> kBox = {0.95, 0.2, 0.2}, kEvenBox = {0.55, 0.55, 0.55};
+constexpr std::array<double, 3> kBox = {0.98, 0.1, 0.1}, kEvenBox = {0.55, 0.55, 0.55};
 /// The string keeps away from the bounds by what smoothness needs.
 constexpr double kStringShare = 0.87;
 /// Of a section's length: what is left of its shape.
@@ -38,9 +42,9 @@ constexpr double kMostAgainstRun = 0.95e-3;
 /// Of a box: where nothing may move, until it is set to 0; and half widths are this at least.
 constexpr double kHeld = 1e-3, kLeastHalf = 1e-9;
 constexpr double kSmoothAlong = 1e-2;
-constexpr double kSoft = 1e3, kSoftRuns = 1e3;
-/// Lines of the program at least, and places of a section at which its run is kept.
-constexpr std::size_t kLeastLines = 40, kLinesPerSpan = 3, kRunPlaces = 300;
+constexpr double kSoft = 1e3;
+/// Lines of the program at least.
+constexpr std::size_t kLeastLines = 40, kLinesPerSpan = 3;
 constexpr std::size_t kMostMeterPlaces = 32000;
 constexpr double kMovedRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
@@ -127,12 +131,13 @@ NurbsSurface with_knots_of(const NurbsSurface& surface, const NurbsSurface& othe
 
 class Correction {
  public:
-  Correction(const SkinStretch& stretch, const FairAcross& wanted, std::size_t along)
+  Correction(const SkinStretch& stretch, const FairAcross& wanted, const Along& along)
       : stretch_(stretch),
+        along_(along),
         given_(stretch.surface),
         how_(wanted),
         breaks_(distinct(given_.knots_u)),
-        knots_(knots_along(breaks_, along)),
+        knots_(knots_along(breaks_, along.points)),
         count_(knots_.size() - kSkinDegree - 1),
         degree_(static_cast<std::size_t>(given_.degree_v)),
         at_sections_(bases_across(given_, wanted.v, 2)),
@@ -424,8 +429,11 @@ class Correction {
     const auto v_of = [&](const StringContact& c) { return how_.v[line.section[c.node]]; };
     for (std::size_t k = 0; k + 1 < contacts.size(); ++k) {
       if (contacts[k + 1].bend == contacts[k].bend) continue;
-      const auto first = static_cast<std::size_t>(
-          std::lower_bound(place_.begin(), place_.end(), v_of(contacts[k])) - place_.begin());
+      // behind the change before, which may lie at the contact itself
+      const auto first = std::max(
+          from,
+          static_cast<std::size_t>(
+              std::lower_bound(place_.begin(), place_.end(), v_of(contacts[k])) - place_.begin()));
       const auto last = static_cast<std::size_t>(
           std::lower_bound(place_.begin(), place_.end(), v_of(contacts[k + 1])) - place_.begin());
       std::size_t best = first;
@@ -456,8 +464,9 @@ class Correction {
     std::vector<double> at;
     const std::vector<double>& breaks = stretch_.breaks;  // where the contours have joints, too
     const std::size_t spans = breaks.size() - 1;
-    const std::size_t each = std::max<std::size_t>(1, std::min<std::size_t>(6, kRunPlaces / spans));
-    const std::size_t stride = std::max<std::size_t>(1, spans * each / kRunPlaces);
+    const std::size_t each =
+        std::max<std::size_t>(1, std::min<std::size_t>(6, along_.run_places / spans));
+    const std::size_t stride = std::max<std::size_t>(1, spans * each / along_.run_places);
     for (std::size_t s = 0; s < spans; ++s) {
       for (std::size_t k = 0; k < each; ++k) {
         if ((s * each + k) % stride != 0) continue;
@@ -544,7 +553,7 @@ class Correction {
       if (!(length > 0.0)) continue;
       for (double& x : f.coefficient) x /= length;
       f.wanted = -sign * (slopes[i + 1].kappa - slopes[i].kappa) / (length * how_.tolerance);
-      f.weight = kSoftRuns;
+      f.weight = along_.soft_runs;
       g.at_least.push_back(std::move(f));
     }
   }
@@ -614,6 +623,7 @@ class Correction {
   void rebuild() { current_ = sum_of(given_, alone()); }
 
   const SkinStretch& stretch_;
+  Along along_;
   const NurbsSurface& given_;
   const FairAcross& how_;
   std::vector<double> breaks_;  ///< of the given surface along
@@ -673,8 +683,8 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
 /// Waves that need not be: high ones, and shallow ones with them; and how many are forced.
 struct Waves {
   std::size_t beyond = 0, all_beyond = 0, forced = 0, lines = 0;
-  [[nodiscard]] bool high_ones_few() const {
-    return static_cast<double>(beyond) <= kFew * static_cast<double>(forced);
+  [[nodiscard]] bool high_ones_few(double share = kFew) const {
+    return static_cast<double>(beyond) <= share * static_cast<double>(forced);
   }
   [[nodiscard]] bool shallow_ones_many() const {
     return static_cast<double>(all_beyond) > kMany * static_cast<double>(lines);
@@ -721,25 +731,23 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
   const auto given = waves_of(stretch, best.surface, wanted, run);
   OBVID_TRY(given);
   Waves least = *given;
-  constexpr double kParts = static_cast<double>(kAlong.size() * kRounds);
+  constexpr double kParts = kAlong[0].rounds + kAlong[1].rounds;
   const bool high_ones = !given->high_ones_few();
   const auto goes_on = [&] {
     return high_ones ? !least.high_ones_few() : least.shallow_ones_many();
   };
-  for (std::size_t n = 0; n < (high_ones ? kAlong.size() : 1) && goes_on(); ++n) {
+  double begun = 0.0;  // rounds
+  for (std::size_t n = 0; n < kAlong.size() && goes_on(); ++n) {
+    if (n > 0 && (!high_ones || least.high_ones_few(kFewForMore))) break;
     Correction correction(stretch, wanted, kAlong[n]);
-    int in_vain = 0;
-    for (std::size_t round = 0; round < kRounds && in_vain < kMostInVain && goes_on(); ++round) {
-      const double start = from + (to - from) * static_cast<double>(n * kRounds + round) / kParts;
+    for (std::size_t round = 0; round < kAlong[n].rounds && goes_on(); ++round) {
+      const double start = from + (to - from) * begun / kParts;
+      begun += 1.0;
       OBVID_TRY(correction.improve(runs, at, allowed, run, start, start + (to - from) / kParts));
       const auto left = waves_of(stretch, correction.surface(), wanted, run);
       OBVID_TRY(left);
       // shallow waves are waves, too
-      if (left->all_beyond > given->all_beyond || !left->less_than(least)) {
-        ++in_vain;
-        continue;
-      }
-      in_vain = 0;
+      if (left->all_beyond > given->all_beyond || !left->less_than(least)) continue;
       least = *left;
       best = {correction.surface(), correction.alone(), correction.moved()};
     }

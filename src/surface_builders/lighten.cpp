@@ -11,6 +11,7 @@
 
 #include "approximate_line.h"
 #include "network_curves.h"
+#include "obvid/core/internal/parallel.h"
 #include "obvid/core/internal/watch.h"
 #include "obvid/curve/internal/basis.h"
 #include "obvid/surface_builders/internal/grid.h"
@@ -472,15 +473,19 @@ Result<LightSurfaces> lightened(const std::vector<NurbsSurface>& given, double t
   for (const double share : {kShareAlong, 1.0}) {
     if (!across_too && share != 1.0) continue;
     out = {given, 0.0};
+    OBVID_TRY(told(0.0));
+    std::vector<std::optional<Lighter>> light_along(given.size());
+    OBVID_TRY(in_parallel(given.size(), run, [&](std::size_t k, const RunContext& part) {
+      Watch own(part);
+      if (given[k].degree_u < kLeastDegree) return;
+      light_along[k] = along[k].within(share * tolerance, own);
+    }));
     for (std::size_t k = 0; k < given.size(); ++k) {
-      OBVID_TRY(told(static_cast<double>(k) / parts));
+      if (!light_along[k]) continue;
       NurbsSurface& s = out.surfaces[k];
-      if (s.degree_u < kLeastDegree) continue;
-      const auto light = along[k].within(share * tolerance, watch);
-      if (!light) continue;
-      out.moved = std::max(out.moved, light->moved);
-      s.knots_u = light->spline.knots;
-      s.points = transposed(light->spline.coefficients).points;
+      out.moved = std::max(out.moved, light_along[k]->moved);
+      s.knots_u = light_along[k]->spline.knots;
+      s.points = transposed(light_along[k]->spline.coefficients).points;
     }
     OBVID_TRY(told((parts - 1.0) / parts));
     if (share == 1.0) continue;

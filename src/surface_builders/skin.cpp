@@ -90,19 +90,57 @@ void form(Net& net, std::vector<double> breaks) {
   }
 }
 
-Result<Net> net_of(const std::vector<MeasuredSection>& sections, const MatchedStretch& stretch,
-                   const SkinOptions& options, const RunContext& run) {
-  Net net;
+/// Sections that begin at their first points, as they lie along their contours. The error is that
+/// of the first section that has one.
+Result<std::vector<MeasuredSection>> measured_all(std::vector<SkinSection>& sections,
+                                                  const RunContext& run) {
+  std::vector<std::optional<Result<MeasuredSection>>> each(sections.size());
+  OBVID_TRY(in_parallel(sections.size(), run, [&](std::size_t k) {
+    auto begun = begun_at_first_point(sections[k].contour);
+    if (!begun) {
+      each[k] = fail(begun.error());
+      return;
+    }
+    sections[k].contour = std::move(*begun);
+    each[k] = measured(sections[k]);
+  }));
+  std::vector<MeasuredSection> out;
   for (std::size_t k = 0; k < sections.size(); ++k) {
+    if (!*each[k]) return fail(of_section(each[k]->error(), sections, k));
+    out.push_back(std::move(**each[k]));
+  }
+  return out;
+}
+
+/// Every `stride`-th section, as if there were no others.
+Result<Net> net_of(const std::vector<MeasuredSection>& sections, const MatchedStretch& stretch,
+                   double tolerance, std::size_t stride, const RunContext& run) {
+  Net net;
+  for (std::size_t k = 0; k < sections.size(); k += stride) {
     OBVID_TRY(may_go_on(run));
     auto curve = SectionCurve::make(sections[k], stretch.marks[k], stretch.at);
     OBVID_TRY(curve);
     net.curves.push_back(std::move(*curve));
   }
-  auto breaks = breaks_for(net.curves, stretch.at, {options.tolerance}, run);
+  auto breaks = breaks_for(net.curves, stretch.at, {tolerance}, run);
   OBVID_TRY(breaks);
   form(net, std::move(*breaks));
   return net;
+}
+
+/// Those of all stretches; the error is that of the first that has one.
+Result<std::vector<Net>> nets_of(const std::vector<MeasuredSection>& sections, const Matched& match,
+                                 double tolerance, std::size_t stride, const RunContext& run) {
+  std::vector<std::optional<Result<Net>>> each(match.stretches.size());
+  OBVID_TRY(in_parallel(each.size(), run, [&](std::size_t n, const RunContext& part) {
+    each[n] = net_of(sections, match.stretches[n], tolerance, stride, part);
+  }));
+  std::vector<Net> out;
+  for (std::optional<Result<Net>>& net : each) {
+    if (!*net) return fail(net->error());
+    out.push_back(std::move(**net));
+  }
+  return out;
 }
 
 /// Parameters of the sections: chords at all breaks of all stretches, averaged.
@@ -179,6 +217,7 @@ Result<MatchingTrial> tried(const std::vector<MeasuredSection>& sections, const 
 struct TriedMatching {
   Matched match;
   MatchingTrial trial;
+  std::vector<Net> nets;  ///< of all sections, where these were followed
 };
 
 /// What each matching forces, the one at hand first. Those that these sections do not have are left
@@ -189,7 +228,7 @@ Result<std::vector<TriedMatching>> all_tried(const std::vector<MeasuredSection>&
   const auto first = tried(sections, given, tolerance, run);
   OBVID_TRY(first);
   std::vector<TriedMatching> out;
-  out.push_back({std::move(given), *first});
+  out.push_back({std::move(given), *first, {}});
   for (const SkinMatching matching :
        {SkinMatching::kByLength, SkinMatching::kByAngle, SkinMatching::kOptimised}) {
     if (matching == out.front().match.matching) continue;
@@ -200,7 +239,7 @@ Result<std::vector<TriedMatching>> all_tried(const std::vector<MeasuredSection>&
     const auto trial = tried(sections, *match, tolerance, run);
     if (!trial && trial.error().code != ErrorCode::kCancelled) continue;
     OBVID_TRY(trial);
-    out.push_back({std::move(*match), *trial});
+    out.push_back({std::move(*match), *trial, {}});
   }
   return out;
 }
@@ -212,26 +251,15 @@ struct ExactRuns {
   std::size_t spans = 0;
 };
 
-/// Of what this matching makes of every `stride`-th section, as if there were no others.
-Result<ExactRuns> runs_of(const std::vector<MeasuredSection>& sections, const Matched& match,
-                          double tolerance, std::size_t stride, const RunContext& run) {
+Result<ExactRuns> runs_of(const std::vector<Net>& nets, const RunContext& run) {
   ExactRuns out;
-  for (const MatchedStretch& stretch : match.stretches) {
-    std::vector<SectionCurve> curves;
-    for (std::size_t k = 0; k < sections.size(); k += stride) {
-      OBVID_TRY(may_go_on(run));
-      auto curve = SectionCurve::make(sections[k], stretch.marks[k], stretch.at);
-      OBVID_TRY(curve);
-      curves.push_back(std::move(*curve));
-    }
-    const auto breaks = breaks_for(curves, stretch.at, {tolerance}, run);
-    OBVID_TRY(breaks);
-    std::vector<RippleMeter> meters(curves.size());
-    OBVID_TRY(in_parallel(curves.size(), run, [&](std::size_t k) {
-      if (!curves[k].is_point()) add_ripple(curves[k], *breaks, meters[k]);
+  for (const Net& net : nets) {
+    std::vector<RippleMeter> meters(net.curves.size());
+    OBVID_TRY(in_parallel(net.curves.size(), run, [&](std::size_t k) {
+      if (!net.curves[k].is_point()) add_ripple(net.curves[k], net.breaks, meters[k]);
     }));
     for (const RippleMeter& meter : meters) out.ripple = std::max(out.ripple, meter.ripple());
-    out.spans += breaks->size() - 1;
+    out.spans += net.breaks.size() - 1;
   }
   return out;
 }
@@ -255,7 +283,10 @@ Result<void> choose(const std::vector<MeasuredSection>& sections, double toleran
     return of_line(all[a].trial) < of_line(all[b].trial);
   });
   if (order.empty()) return {};
-  const auto given = runs_of(sections, all.front().match, tolerance, 1, run);
+  auto given_nets = nets_of(sections, all.front().match, tolerance, 1, run);
+  OBVID_TRY(given_nets);
+  all.front().nets = std::move(*given_nets);
+  const auto given = runs_of(all.front().nets, run);
   OBVID_TRY(given);
   all.front().trial.ripple = given->ripple;
   all.front().trial.heavier = 1.0;
@@ -265,13 +296,16 @@ Result<void> choose(const std::vector<MeasuredSection>& sections, double toleran
     std::size_t stride = (sections.size() + kFewSections - 1) / kFewSections;
     for (bool last = false; !last; stride = 1) {
       last = stride == 1;
-      const auto runs = runs_of(sections, one.match, tolerance, stride, run);
-      if (!runs && runs.error().code != ErrorCode::kCancelled) break;  // not followed
+      auto nets = nets_of(sections, one.match, tolerance, stride, run);
+      if (!nets && nets.error().code != ErrorCode::kCancelled) break;  // not followed
+      OBVID_TRY(nets);
+      const auto runs = runs_of(*nets, run);
       OBVID_TRY(runs);
       one.trial.ripple = runs->ripple;
       one.trial.heavier = static_cast<double>(runs->spans) / static_cast<double>(given->spans);
       if (runs->ripple > allowed || *one.trial.heavier > kMostHeavier) break;
       if (last) {
+        one.nets = std::move(*nets);
         std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(i),
                     all.begin() + static_cast<std::ptrdiff_t>(i) + 1);
         return {};
@@ -364,35 +398,27 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
                   const RunContext& run) {
   OBVID_TRY(check_sections(given, options));
   std::vector<SkinSection> sections = given;
-  std::vector<MeasuredSection> measured_sections;
-  for (std::size_t k = 0; k < sections.size(); ++k) {
-    const double part = static_cast<double>(k) / static_cast<double>(sections.size());
-    OBVID_TRY(tell(run, "measuring sections", part));
-    auto begun = begun_at_first_point(sections[k].contour);
-    if (!begun) return fail(of_section(begun.error(), sections, k));
-    sections[k].contour = std::move(*begun);
-    auto section = measured(sections[k]);
-    if (!section) return fail(of_section(section.error(), sections, k));
-    measured_sections.push_back(std::move(*section));
-  }
+  OBVID_TRY(tell(run, "measuring sections", 0.0));
+  auto all_measured = measured_all(sections, run);
+  OBVID_TRY(all_measured);
+  const std::vector<MeasuredSection> measured_sections = std::move(*all_measured);
   auto match = matched(measured_sections, options.matching, run);
   OBVID_TRY(match);
   std::vector<MatchingTrial> trials;
+  std::vector<Net> nets;
   if (options.fair_across && options.matching == SkinMatching::kAutomatic) {
     auto all = all_tried(measured_sections, std::move(*match), *options.fair_across, run);
     OBVID_TRY(all);
     OBVID_TRY(choose(measured_sections, options.tolerance, *all, run));
     for (const TriedMatching& one : *all) trials.push_back(one.trial);
     match = std::move(all->front().match);
+    nets = std::move(all->front().nets);
   }
-  std::vector<Net> nets;
-  for (const MatchedStretch& stretch : match->stretches) {
-    const double part =
-        static_cast<double>(nets.size()) / static_cast<double>(match->stretches.size());
-    OBVID_TRY(tell(run, "following contours", part));
-    auto net = net_of(measured_sections, stretch, options, run);
-    OBVID_TRY(net);
-    nets.push_back(std::move(*net));
+  OBVID_TRY(tell(run, "following contours", 0.0));
+  if (nets.empty()) {
+    auto formed = nets_of(measured_sections, *match, options.tolerance, 1, run);
+    OBVID_TRY(formed);
+    nets = std::move(*formed);
   }
   const auto v = parameters_across(nets, sections.size());
   OBVID_TRY(v);

@@ -10,12 +10,14 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 
 LIBRARY, PROGRAM, SOURCES = sys.argv[1:4]
 SERIES = os.path.join(SOURCES, "examples/series10.csv")
@@ -1019,6 +1021,40 @@ def places(handle, uv, patch=0):
          C.c_size_t(n), xyz, normal, kappa)
     return ([tuple(some[size * i:size * i + size]) for i in range(n)]
             for some, size in ((xyz, 3), (normal, 3), (kappa, 2)))
+
+
+class WithoutTheHelper(unittest.TestCase):
+    """A copy of the library in a folder without `obvid-cad`: files that need it are refused before any work. Whoever
+    is asked whether the work goes on says no, so work that had begun would end with E103."""
+
+    def test_files_of_the_kernel_are_refused_first(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ):
+            for name in ("OBVID_PLUGINS", "OBVID_CAD_BUILDER"):
+                os.environ.pop(name, None)
+            alone = C.CDLL(shutil.copy(LIBRARY, folder))
+            error, out = C.POINTER(Error)(), C.c_void_p()
+
+            def read_text(text):
+                handle, data = C.c_void_p(), text.encode()
+                self.assertEqual(alone.obvid_read_text(data, C.c_size_t(len(data)), b"points", C.byref(handle), C.byref(error)), 0)
+                return handle
+            net = read_text("row,col,x,y,z\n" + "".join(f"{i},{j},{i},{j},{math.sin(0.3 * i) * math.cos(0.2 * j)!r}\n"
+                                                       for i in range(12) for j in range(12)))
+            surface, space = C.c_void_p(), C.c_void_p()
+            self.assertEqual(alone.obvid_nurbs_make(net, None, None, None, C.byref(surface), None, None, C.byref(error)), 0)
+            curve = read_text("x,y,z\n" + "".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in rail()))
+            self.assertEqual(alone.obvid_fit_space(curve, None, None, C.byref(space), None, C.byref(error)), 0)
+            stop = Run(None, PROGRESS(0), CANCELLED(lambda _: 1))
+            options = b'{"waterlines": "count:3", "fair": 0.05}'
+            for ending in (b"iges", b"brep"):
+                calls = {"branches": alone.obvid_surface_branches(surface, options, ending, C.byref(stop), C.byref(out), C.byref(error)),
+                         "surface": alone.obvid_surface_export(surface, ending, None, C.byref(stop), C.byref(out), C.byref(error)),
+                         "space": alone.obvid_space_export(space, ending, None, C.byref(stop), C.byref(out), C.byref(error))}
+                self.assertEqual(calls, dict.fromkeys(calls, 310))
+            self.assertEqual(alone.obvid_surface_export(surface, b"step", None, C.byref(stop), C.byref(out), C.byref(error)), 310)
+            # the kernel is not needed: the work begins, and is told to stop
+            self.assertEqual(alone.obvid_surface_branches(surface, options, b"step", C.byref(stop), C.byref(out), C.byref(error)), 103)
+            self.assertEqual(alone.obvid_surface_export(surface, b"stl", None, C.byref(stop), C.byref(out), C.byref(error)), 103)
 
 
 class Surfaces(unittest.TestCase):

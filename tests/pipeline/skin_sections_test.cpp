@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "../common/shared_data.h"
+#include "obvid/io/read_sections.h"
 #include "obvid/pipeline/surface_job.h"
 
 namespace obvid {
@@ -125,6 +128,112 @@ TEST(SkinSections, ClosesSlitsBelowTheToleranceAndSaysSo) {
   const NurbsSurface& s = made->skin.patches[0].surface;
   for (double v = 0.0; v <= 1.0; v += 0.1) {
     EXPECT_LT(norm(evaluate(s, 0, v).point - evaluate(s, 1, v).point), 1e-15);
+  }
+}
+
+/// Logarithmic spirals above each other, whose curvature falls. Their points stand close at one
+/// end, in turns at the other where `uneven`: point on point, one is stretched where the next is
+/// not.
+std::vector<SpaceSeries> spirals(bool uneven) {
+  std::vector<SpaceSeries> sections;
+  for (int k = 0; k < 4; ++k) {
+    sections.push_back({"spiral", {}});
+    for (int i = 0; i < 12; ++i) {
+      const double t = i / 11.0, other = 1.0 - std::pow(1.0 - t, 6.0);
+      const double angle = 2.5 * (!uneven ? t : k % 2 == 0 ? std::pow(t, 6.0) : other);
+      const double r = std::exp(0.3 * angle);
+      sections.back().points.push_back({r * std::cos(angle), r * std::sin(angle), 1.0 * k});
+    }
+  }
+  return sections;
+}
+
+/// Largest rise of curvature along a section of such a skin, share of its largest.
+double rise_along(const NurbsSurface& s, double v) {
+  constexpr int kPlaces = 40000;
+  double least = std::numeric_limits<double>::infinity(), rise = 0.0, largest = 0.0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const SurfaceJet jet = evaluate(s, (i + 0.5) / kPlaces, v);
+    const double speed = std::hypot(jet.du.x, jet.du.y);
+    const double kappa = (jet.du.x * jet.duu.y - jet.du.y * jet.duu.x) / (speed * speed * speed);
+    least = std::min(least, kappa);
+    rise = std::max(rise, kappa - least);
+    largest = std::max(largest, std::abs(kappa));
+  }
+  return rise / largest;
+}
+
+bool warns_of_lost_runs(const FittedSkin& made) {
+  return std::any_of(made.warnings.begin(), made.warnings.end(), [](const std::string& w) {
+    return w.find("curvature goes against its run") != std::string::npos;
+  });
+}
+
+TEST(SkinSections, TellsInHowManySectionsRunsAreLostAndByHowMuch) {
+  Skin skin;
+  skin.sections.resize(3);
+  skin.sections[1].ripple = 1e-3;  // the limit itself is kept
+  EXPECT_FALSE(runs_lost(skin));
+  skin.sections[0].ripple = 0.46;
+  skin.sections[2].ripple = 2e-3;
+  ASSERT_TRUE(runs_lost(skin));
+  EXPECT_NE(runs_lost(skin)->find("in 2 of 3 sections"), std::string::npos) << *runs_lost(skin);
+  EXPECT_NE(runs_lost(skin)->find("at most 46 %"), std::string::npos) << *runs_lost(skin);
+}
+
+TEST(SkinSections, WarnsWhereAnExactSkinLosesRunsAndOnlyThere) {
+  const auto even = fit_skin(spirals(false), {}), uneven = fit_skin(spirals(true), {});
+  ASSERT_TRUE(even && uneven) << uneven.error().what;
+  EXPECT_FALSE(runs_lost(even->skin));
+  EXPECT_FALSE(warns_of_lost_runs(*even));
+  ASSERT_TRUE(runs_lost(uneven->skin));
+  EXPECT_TRUE(warns_of_lost_runs(*uneven));
+  std::size_t kept = 0, lost = 0;
+  for (const SkinSectionReport& section : even->skin.sections) {
+    kept += rise_along(even->skin.patches[0].surface, section.parameter) <= 1e-3 ? 1 : 0;
+  }
+  for (const SkinSectionReport& section : uneven->skin.sections) {
+    lost += rise_along(uneven->skin.patches[0].surface, section.parameter) > 1e-3 ? 1 : 0;
+  }
+  EXPECT_EQ(kept, 4u);
+  EXPECT_EQ(lost, 4u);
+  EXPECT_NE(runs_lost(uneven->skin)->find("in 4 of 4 sections"), std::string::npos);
+}
+
+TEST(SkinSections, ALightSkinTellsLostRunsWithoutAWarning) {
+  SkinJob job;
+  job.light = 1e-4;
+  const auto light = fit_skin(wigley(), job);
+  ASSERT_TRUE(light) << light.error().what;
+  EXPECT_TRUE(runs_lost(light->skin));
+  EXPECT_FALSE(warns_of_lost_runs(*light));
+}
+
+/// What the issue of skins that are fair across asks for: of the changes that the sections force
+/// within 1e-4 of the size, at most so many more, and runs of curvature kept.
+TEST(SkinSections, FairAcrossLeavesFewChangesBeyondTheForcedOnes) {
+  SKIP_WITHOUT("turbomachinery_nasa");
+  struct Body {
+    const char* file;
+    std::optional<double> noise;
+    double eps, most;
+  };
+  for (const Body& body :
+       {Body{"hulls_grids/Series60Offset_x.dat", {}, 3.182e-3, 0.05},
+        Body{"turbomachinery_nasa/rotor37geometry.dat", 1e-4, 9.853e-4, 0.08}}) {
+    const auto sections = read_sections({(shared_data() / body.file).string()});
+    ASSERT_TRUE(sections) << body.file;
+    SkinJob job;
+    job.sections.noise = body.noise;
+    job.fair_across = body.eps;
+    const auto made = fit_skin(*sections, job);
+    ASSERT_TRUE(made) << made.error().what;
+    const AcrossReport& across = made->skin.across;
+    EXPECT_GT(across.proved, 0u);
+    EXPECT_LE(static_cast<double>(across.beyond), body.most * static_cast<double>(across.forced))
+        << body.file;
+    EXPECT_LE(made->skin.fair->moved, body.eps);
+    EXPECT_FALSE(runs_lost(made->skin)) << body.file;
   }
 }
 

@@ -97,6 +97,27 @@ class Helper(unittest.TestCase):
             self.assertIn("not installed", done.stderr)
             self.assertNotIn("E301", done.stderr)  # the input is missing, too: nobody looked
 
+    def test_curves_are_refused_before_anything_is_read(self):
+        clean = {k: v for k, v in os.environ.items() if k not in ("OBVID_PLUGINS", "OBVID_CAD_BUILDER")}
+        missing = self.folder / "missing.csv"
+        for command in (("fit", missing), ("fit", missing, missing), ("convert", missing), ("nurbs", missing),
+                        ("alignment", missing)):
+            for ending in ("iges", "brep"):
+                target = self.folder / ("{id}." + ending if command.count(missing) > 1 else "out." + ending)
+                done = subprocess.run([self.program, *map(str, command), "-o", target], cwd=self.folder, env=clean,
+                                      capture_output=True, text=True)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertIn("E310", done.stderr, command)
+                self.assertIn("not installed", done.stderr)
+                self.assertNotIn("E301", done.stderr)  # the input is missing, too: nobody looked
+        done = subprocess.run([self.program, "spline", str(missing), "-o", self.folder / "out.step"], cwd=self.folder,
+                              env=clean, capture_output=True, text=True)
+        self.assertIn("E310", done.stderr)
+        # STEP of curves is written without the helper: the input is what is missing
+        done = subprocess.run([self.program, "fit", str(missing), "-o", self.folder / "out.step"], cwd=self.folder,
+                              env=clean, capture_output=True, text=True)
+        self.assertIn("E301", done.stderr)
+
     def test_a_helper_without_the_mark_is_not_started(self):
         self.put(self.bin)
         self.expect_refused("another build")

@@ -23,6 +23,7 @@
 #include "obvid/io/contour_json.h"
 #include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/internal/airfoil_file.h"
+#include "obvid/pipeline/internal/can_write.h"
 #include "obvid/series/analysis.h"
 #include "verify/report.h"
 
@@ -567,10 +568,16 @@ ContourWriter contour_writer_of(FileFormat format) {
 
 }  // namespace pipeline_detail
 
+Result<void> can_write_curves(std::optional<FileFormat> format) {
+  const bool of_kernel = format == FileFormat::kIges || format == FileFormat::kBrep;
+  return of_kernel ? check_cad() : Result<void>{};
+}
+
 Result<Exported> export_contour(const StoredContour& stored, FileFormat format,
                                 const ExportOptions& asked, const RunContext& run) {
   using namespace pipeline_detail;
   OBVID_TRY(may_go_on(run));
+  OBVID_TRY(can_write_curves(format));
   Watch watch(run);
   const double size = bounding_diagonal(places_of(stored.contour));
   const ExportOptions options = with_stored(asked, stored);
