@@ -150,8 +150,12 @@ class Row {
     const Vec centre = radius * left_of(unit_at(arc.theta0));
     const Real blur = kTableRoundings * std::max(coordinate_, std::abs(radius));
     figure("radius", 1, radius, 0.0L);
-    figure("centre", 2, start.x + centre.x, blur);
-    figure("centre", 3, start.y + centre.y, blur);
+    // docs/scans.md: what is less than 1e-14 of the radius and the way to the centre is printed as
+    // 0
+    const Vec at{start.x + centre.x, start.y + centre.y};
+    const Real none = 1e-14L * (std::abs(radius) + norm(at)) + blur;
+    figure("centre", 2, at.x, words_[2] == "0" ? none : blur);
+    figure("centre", 3, at.y, words_[3] == "0" ? none : blur);
     const Real heading = std::get<Arc>(file_.pieces[stretch.first]).theta0;
     figure("heading", 4, std::remainder(heading, 360.0L * kDegree) / kDegree,
            kTableRoundings * std::max(180.0L, std::abs(heading) / kDegree));
