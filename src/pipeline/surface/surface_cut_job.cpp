@@ -207,26 +207,19 @@ Result<void> measure(const SurfaceModel& model, const SurfaceCutJob& job, const 
     return fmt::format("{}, {}, {} {}", significant(p.x), significant(p.y), significant(p.z),
                        made.units.text());
   };
-  const bool is_open = found->open_width > made.tolerance;
-  if (is_open && found->open_volume >= found->volume.value) {
-    return error(ErrorCode::kNothingThere,
-                 "the surface is open below the draught: it has no volume")
-        .where(model.name + " at " + place(found->open_at))
-        .hint(job.half ? "it may be open at y = 0, at upright planes of constant x, and above the "
-                         "draught: close it elsewhere"
-                       : "it may be open at upright planes and above the draught: close it "
-                         "elsewhere, or measure a half with --half");
-  }
   if (!(found->volume.value > 0.0)) {
     made.warnings.push_back("nothing of the surface encloses water below the draught");
   }
-  if (is_open) {
-    made.warnings.push_back(fmt::format(
-        "the surface is open below the draught, {} {} wide at {}: some {} {}^3 between its borders "
-        "and {} are in no figure",
-        significant(found->open_width, 3), made.units.text(), place(found->open_at),
-        significant(found->open_volume, 3), made.units.text(),
-        job.half ? "y = 0" : "an upright plane"));
+  if (found->open_width > made.tolerance) {
+    made.warnings.push_back(
+        fmt::format("the surface is open below the draught, {} {} wide at {}: upright walls from "
+                    "its borders to "
+                    "the draught close it in these figures; closed level, to {}, the volume would "
+                    "be another by "
+                    "some {} {}^3",
+                    significant(found->open_width, 3), made.units.text(), place(found->open_at),
+                    job.half ? "y = 0" : "other borders or one plane",
+                    significant(found->open_volume, 3), made.units.text()));
   }
   if (found->parts > 1) {
     made.warnings.push_back(

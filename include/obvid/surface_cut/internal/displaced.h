@@ -28,8 +28,8 @@ struct Displaced {
   std::size_t parts = 0;  ///< of surfaces joined at their borders; each counts as positive
   std::size_t twisted = 0;    ///< borders whose patches cannot be turned to one side
   std::size_t undecided = 0;  ///< cells that touch the water along a line, left out
-  double open_volume = 0.0;   ///< units^3, about: what lies between borders that no plane closes
-  double open_width = 0.0;    ///< units: how far apart they are there, at the most
+  double open_volume = 0.0;   ///< units^3, about: what closing open borders level changes
+  double open_width = 0.0;    ///< units: how far that would be, at the most
   Vec3 open_at;               ///< a place where they are
 };
 
@@ -40,9 +40,9 @@ struct DisplacedOptions {
 
 /// Volume, areas and centres below the waterplane by the divergence theorem with fields along z
 /// that vanish at the waterplane: so the waterplane itself, vertical planes (a centre plane, a flat
-/// transom) and whatever lies above the water may be missing. What is missing elsewhere below the
-/// water is not in the figures: `open_volume` tells how much that would be if level lines closed it,
-/// from each border of one patch alone to y = 0 (`mirror`), to a plane of constant y, or to another
+/// transom) and whatever lies above the water may be missing. Borders of one patch alone
+/// below the water are closed upright; `open_volume` tells by about how much the volume would be
+/// another if level lines closed them, to y = 0 (`mirror`), to a plane of constant y, or to another
 /// border, whichever is nearer.
 ///
 /// Each span below the water is integrated by 8 x 8 Gauss points, spans that it cuts up to the
