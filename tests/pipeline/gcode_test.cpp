@@ -173,6 +173,9 @@ class Interpreter {
 
 /// Largest distance of points from a polyline that runs along with them.
 double farthest_from_path(const std::vector<Vec2>& points, const std::vector<Vec2>& path) {
+  std::vector<double> way{0.0};
+  for (std::size_t i = 1; i < path.size(); ++i)
+    way.push_back(way.back() + norm(path[i] - path[i - 1]));
   double most = 0.0;
   std::size_t at = 0;
   const auto distance = [&](Vec2 p, std::size_t i) {
@@ -184,12 +187,18 @@ double farthest_from_path(const std::vector<Vec2>& points, const std::vector<Vec
   for (const Vec2 p : points) {
     double least = HUGE_VAL;
     std::size_t best = at;
-    for (std::size_t i = at; i + 1 < path.size() && i < at + 8000; ++i) {
+    const std::size_t end = std::min(path.size() - 1, at + 8000);
+    for (std::size_t i = at; i < end;) {
       const double d = distance(p, i);
       if (d < least) {
         least = d;
         best = i;
       }
+      // no chord is nearer by more than the way to it
+      const double free = way[i + 1] + (norm(p - path[i + 1]) - least);
+      const auto next = std::upper_bound(way.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                         way.begin() + static_cast<std::ptrdiff_t>(end), free);
+      i = std::max(i + 1, static_cast<std::size_t>(next - way.begin()) - 1);
     }
     at = best > 2 ? best - 2 : 0;
     most = std::max(most, least);

@@ -77,13 +77,22 @@ double distance_across_chord(const Sampled& s, std::size_t i, Vec2 on_contour) {
   const Vec2 p = s.points[i], chord = s.points[i + 1] - p;
   const Vec2 u = chord / norm(chord);
   const double x = dot(u, on_contour);
+  // the method of false position with halved weights (Illinois): the truth is dear
   long double low = s.parameters[i], high = s.parameters[i + 1];
-  Vec2 v;
-  for (int k = 0; k < 45; ++k) {
-    const long double middle = (low + high) / 2.0L;
-    const LongVec2 z = s.truth(middle);
+  double below = -x, above = norm(chord) - x, last = 0.0;
+  Vec2 v = below * below < above * above ? Vec2{} : chord;
+  constexpr int kMost = 45;
+  const double enough = 0x1p-53 * norm(chord);
+  for (int k = 0; k < kMost && above > 0.0 && below < 0.0; ++k) {
+    const long double at = low + (high - low) * (-below / (above - below));
+    const LongVec2 z = s.truth(at);
     v = {static_cast<double>(z.x - p.x), static_cast<double>(z.y - p.y)};
-    (dot(u, v) < x ? low : high) = middle;
+    const double off = dot(u, v) - x;
+    if (std::abs(off) <= enough) break;
+    (off < 0.0 ? low : high) = at;
+    (off < 0.0 ? below : above) = off;
+    if (off * last > 0.0) (off < 0.0 ? above : below) *= 0.5;
+    last = off;
   }
   return std::abs(cross(u, v) - cross(u, on_contour));
 }
