@@ -83,6 +83,35 @@ TEST(Tessellate, TheDeviationIsWhatOneMeasuresFromTheSurfacesSide) {
   }
 }
 
+/// z = x^3 over its chord from -1 to 1: nothing at the middle, most at the sides.
+TEST(Tessellate, TheDeviationIsLookedForBesideTheMiddlesToo) {
+  NurbsSurface strip;
+  strip.degree_u = 3;
+  strip.degree_v = 1;
+  strip.knots_u = {0, 0, 0, 0, 1, 1, 1, 1};
+  strip.knots_v = {0, 0, 1, 1};
+  constexpr double kThird = 1.0 / 3.0;
+  for (const double y : {0.0, 9.0}) {
+    for (const Vec3 p : {Vec3{-1, y, -1}, {-kThird, y, 1}, {kThird, y, -1}, {1, y, 1}}) {
+      strip.points.push_back(p);
+    }
+  }
+  const Mesh mesh = drawn(strip, 0.5);
+  ASSERT_EQ(mesh.triangles.size(), 2u);
+  double true_deviation = 0.0;  // of points of the chord from the curve
+  for (int i = 0; i <= 400; ++i) {
+    const double at = -1.0 + i / 200.0;
+    double nearest = 1.0;
+    for (int k = 0; k <= 4000; ++k) {
+      const double x = -1.0 + k / 2000.0;
+      nearest = std::min(nearest, std::hypot(x - at, x * x * x - at));
+    }
+    true_deviation = std::max(true_deviation, nearest);
+  }
+  EXPECT_LE(mesh.deviation, 1.001 * true_deviation);
+  EXPECT_GE(mesh.deviation, 0.95 * true_deviation);
+}
+
 TEST(Tessellate, KeepsTheAngleBetweenNormalsOfEachEdge) {
   for (const double angle : {0.5, 0.1}) {
     for (const NurbsSurface& surface :

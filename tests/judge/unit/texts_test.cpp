@@ -120,7 +120,8 @@ TEST(JudgeTexts, FindsEveryDoctoredFigureOfAPage) {
       "<!DOCTYPE html>\n<p id=\"verdict\" class=\"kept\">proved: monotone curvature on every run, "
       "G2 "
       "joints, inside the region</p>\n<svg>"
-      "<text x=\"9\" class=\"fact\" text-anchor=\"end\">0 vertices (at least 0) · 0 inflections · "
+      "<text x=\"9\" class=\"fact\" text-anchor=\"end\">0 vertices (at least 0 unless a curve "
+      "winds) · 0 inflections · "
       "region "
       "width 8.3·10⁻⁴ mm</text><text class=\"verdict good\">✓ proved</text></svg>"
       "<table id=\"figures\"><caption>Figures</caption>\n<tbody>\n";
