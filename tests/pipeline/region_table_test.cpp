@@ -131,6 +131,18 @@ TEST(RegionTable, TellsNoRangesOfThreePointsOnTheCircleThroughThem) {
   }
 }
 
+TEST(RegionTable, TellsNoneOfThemWhereAWidthIsAskedForEither) {
+  PointSeries series;
+  series.points = {{0.0, 0.0}, {1.0, 0.2}, {2.0, 0.0}};
+  RegionJob job;
+  job.job.tolerance = 1e-3;
+  const auto table = region_table(series, job);
+  ASSERT_TRUE(table) << table.error().what;
+  ASSERT_TRUE(table->refined);
+  for (const RegionPoint& p : table->refined->points) EXPECT_FALSE(p.headings || p.curvatures);
+  for (const RegionRow& row : table->refined->rows) EXPECT_FALSE(row.width);
+}
+
 /// A heading that is not the circle's leaves curves of one direction.
 TEST(RegionTable, TellsRangesOfThreePointsWithAHeading) {
   PointSeries series;

@@ -204,8 +204,10 @@ class PartMaker {
     if (s_.loop || s_.points.size() >= kFewestThatTell) return true;
     const bool circle = std::any_of(s_.direction.begin(), s_.direction.end(),
                                     [](const std::optional<int>& d) { return d == 0; });
-    const bool all_given = std::all_of(s_.given.begin(), s_.given.end(),
-                                       [](const FixedData& f) { return f.theta.has_value(); });
+    bool all_given = true;  // by the user, not kept while points were inserted
+    for (std::size_t i = 0; i < s_.points.size(); ++i) {
+      all_given = all_given && s_.given[i].theta && (s_.kept.empty() || !s_.kept[i]);
+    }
     return !circle || all_given;
   }
 
