@@ -150,7 +150,7 @@ TEST(JudgeTexts, FindsEveryDoctoredFigureOfAPage) {
     const char *what, *by;
   } kDoctored[] = {{"proved: monotone", "NOT proved: monotone"},
                    {"0 vertices (at", "1 vertex (at"},
-                   {"0) · 0 inflections", "0) · 1 inflection"},
+                   {"winds) · 0 inflections", "winds) · 1 inflection"},
                    {"8.3·10⁻⁴", "8.1·10⁻⁴"},
                    {"8.3·10⁻⁴", "8.3·10⁻³"},
                    {"✓", "✗"},
