@@ -82,11 +82,10 @@ struct JointReport {
                        ///< is larger than `kSameBorder` of the size
   double gap = 0.0;    ///< largest distance of corresponding points, units
   double angle = 0.0;  ///< largest angle between the tangent planes, rad
-  double curvature =
-      0.0;        ///< largest step of the normal curvature across the border, as a share
-                  ///< of the largest curvature beside it; neither this nor the angle is looked at
-                  ///< beside points in which the border ends (poles)
-  int order = 0;  ///< 0 G0, 1 G1, 2 G2, by the limits named below
+  double curvature = 0.0;  ///< largest step of the normal curvature across the border, as a share
+                           ///< of the largest curvature beside it; neither this nor the angle is
+                           ///< looked at beside points in which the border ends (poles)
+  int order = 0;                        ///< 0 G0, 1 G1, 2 G2, by the limits named below
   Vec3 gap_at, angle_at, curvature_at;  ///< where on the first patch each of the three is largest
   std::size_t places = 0;               ///< that were looked at before the extremes were climbed to
 };
