@@ -86,11 +86,11 @@ Facts cut_facts(const MadeCut& made) {
   const std::string unit = unit_of_program(made);
   Facts facts;
   facts.add("program",
-            fmt::format("{} blocks at feed, {} of them arcs, {}in {}", r.blocks, r.arc_blocks,
+            fmt::format("{} blocks along the cut, {} of them arcs, {}in {}", r.blocks, r.arc_blocks,
                         r.spline_blocks > 0 ? fmt::format("{} splines, ", r.spline_blocks) : "",
                         counted(static_cast<std::size_t>(r.levels), "pass", "passes")));
   facts.add("length",
-            fmt::format("{} {} at feed, {} {} rapid, seen from above: the time counts "
+            fmt::format("{} {} along the cut, {} {} rapid, seen from above: the time counts "
                         "ways straight up and down, too",
                         significant(r.cut_length, 5), unit, significant(r.rapid_length, 5), unit));
   facts.add("time", fmt::format("about {} minutes, with acceleration", significant(r.minutes, 3)));

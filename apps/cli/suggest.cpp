@@ -77,7 +77,9 @@ std::string suggestion_text(const TradeOff& t, const std::vector<std::string>& w
   std::string text;
   if (!t.name.empty()) text += bold(t.name) + "\n";
   text += fmt::format("one tolerance for every point; lengths in {}\n\n", t.units.text());
-  text += rows_text(t) + "\n" + recommendation(t);
+  text += rows_text(t) +
+          "lower bound: vertices of every curve that does not wind between the points\n\n";
+  text += recommendation(t);
   if (!written.empty()) text += fmt::format("written  {}\n", listed(written));
   return text;
 }

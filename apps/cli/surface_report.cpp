@@ -30,7 +30,8 @@ void add_patches(const SurfaceModel& model, Facts& facts) {
 
 std::string deviation_text(const MadeSurface& made) {
   if (made.deviation == 0.0) return "exact";
-  return fmt::format("within {} {}", significant(made.deviation, 3), made.model.units.text());
+  return fmt::format("at most {} {} off where measured", significant(made.deviation, 3),
+                     made.model.units.text());
 }
 
 Table section_table(const std::vector<SkinSectionReport>& sections) {

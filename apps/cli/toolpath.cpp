@@ -144,8 +144,10 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                   : fmt::format("{}{}, {} of them between others that left too much", r.passes,
                                 r.levels > 0 ? fmt::format(", {} levels", r.levels) : "",
                                 r.added_passes));
-  facts.add("length", fmt::format("{} {} at feed, {} {} rapid", significant(r.cutting_length, 5),
-                                  unit, significant(r.rapid_length, 5), unit));
+  facts.add("length",
+            fmt::format("{} {} passes and links, {} {} ways down to them, {} {} rapid",
+                        significant(r.cutting_length, 5), unit, significant(r.plunge_length, 5),
+                        unit, significant(r.rapid_length, 5), unit));
   facts.add("entries", entries_text(r.entries, rough));
   facts.add("time", fmt::format("about {} minutes, with acceleration", significant(r.minutes, 3)));
   if (rough) {

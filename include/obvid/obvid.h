@@ -194,7 +194,7 @@ typedef struct obvid_figures {
   int proved;         /* 1, 0; -1: never looked at */
   int points, pieces; /* of the contour */
   int vertices, inflections;
-  int bound;    /* no curve that follows the points has fewer vertices (docs/claims.md) */
+  int bound;    /* no curve that does not wind between the points has fewer (docs/claims.md) */
   int corners;  /* joints that are continuous in position only */
   double error; /* largest distance to a curve with the same elements, units */
   double move;  /* largest distance of a point from the contour, an upper bound, units */

@@ -155,7 +155,7 @@ Columns columns_of_job(const JobKind& kind) {
       {"points", kCount, "of the item; here and below -1 or NaN: not known"},
       {"pieces", kCount, "of the contour"},
       {"vertices", kCount, "extrema of the curvature"},
-      {"bound", kCount, "no curve that follows the points has fewer vertices"},
+      {"bound", kCount, "no curve that does not wind between the points has fewer vertices"},
       {"inflections", kCount, "changes of sign of the curvature"},
       {"corners", kCount, "joints that are continuous in position only"},
       {"proved", kSmall, "1 every claim is proved, 0 not, -1 nothing was to be proved"},

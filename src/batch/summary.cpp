@@ -163,7 +163,8 @@ std::string summary_text(const Summary& s) {
     out += line("with warnings", s.warned, s.items, "first " + s.first_warned);
   }
   if (s.compared > 0) {
-    out += line("as few vertices as possible", s.at_bound, s.compared, "of those with a bound");
+    out += line("vertices at the bound", s.at_bound, s.compared,
+                "of those with one: no curve that does not wind between the points has fewer");
   }
   out += fmt::format("{:<28}{:>12.4g}{:>9}  of all items, one processor; longest {:.3g} s: {}\n",
                      "seconds", s.seconds, "", s.longest, s.longest_id);
@@ -183,9 +184,10 @@ std::string histogram_svg(const Summary& s) {
                                  with_commas(s.statuses[2])),
                      "14");
   out += "</g>\n<g fill=\"#3b6ea5\" stroke=\"none\">\n";
-  std::string bars = panel(s.vertices, "vertices", false, kMargin) +
-                     panel(s.above, "vertices above the bound", false, kMargin + kPanel + kGap) +
-                     panel(s.error, "error bound, units", true, kMargin + 2 * (kPanel + kGap));
+  std::string bars =
+      panel(s.vertices, "vertices", false, kMargin) +
+      panel(s.above, "vertices above the bound (no winding)", false, kMargin + kPanel + kGap) +
+      panel(s.error, "error bound, units", true, kMargin + 2 * (kPanel + kGap));
   // rects in one colour, words and axes in another
   std::string words;
   for (std::size_t at = 0; at < bars.size();) {

@@ -147,8 +147,8 @@ bool is_turned_over(const Triangle& t, double tolerance) {
 
 class Measurer {
  public:
-  Measurer(const PatchSampler& sampler, const Mesh& mesh, double tolerance)
-      : meter_(sampler), mesh_(mesh), tolerance_(tolerance) {}
+  Measurer(const PatchSampler& sampler, const Mesh& mesh, double tolerance, Look look)
+      : meter_(sampler), mesh_(mesh), tolerance_(tolerance), look_(look) {}
 
   /// Largest distance of a triangle; what is not greater than `enough` counts as that.
   [[nodiscard]] double of_triangle(const Triangle& t, double enough) const {
@@ -160,9 +160,10 @@ class Measurer {
       worst = std::max(worst, d);
     };
     std::size_t n = 1;
+    const std::size_t divided = look_ == Look::kQuarters ? 2 : 1;  // middles are looked at before
     for (std::size_t e = 0; e < 3; ++e) {
       const MeshVertex &a = *t[e], &b = *t[(e + 1) % 3];
-      const std::size_t parts = meter_.parts(a, b);
+      const std::size_t parts = divided * meter_.parts(a, b);
       n = std::max(n, parts);
       for (std::size_t i = 0; i < parts; ++i) {
         const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(parts);
@@ -188,6 +189,7 @@ class Measurer {
   Meter meter_;
   const Mesh& mesh_;
   double tolerance_;
+  Look look_;
 };
 
 }  // namespace
@@ -195,8 +197,8 @@ class Measurer {
 // Some cells together, each lot by itself: what one has seen is no measure for another.
 Result<Measured> measure(const PatchSampler& sampler, const Mesh& mesh,
                          const std::vector<CellTriangles>& triangles, std::vector<CellSeen>& seen,
-                         double tolerance, const RunContext& run) {
-  const Measurer measurer(sampler, mesh, tolerance);
+                         double tolerance, Look look, const RunContext& run) {
+  const Measurer measurer(sampler, mesh, tolerance, look);
   std::vector<std::size_t> first{0};  // triangle of each cell
   for (const CellTriangles& cell : triangles) first.push_back(first.back() + cell.count);
   seen.resize(triangles.size());

@@ -27,13 +27,17 @@ struct Measured {
   bool any_bad = false;
 };
 
-/// Distances of triangles from the surface, at points between those that led to the triangles:
-/// middles of edges (of borders: from the border curve), centroids, more of them where a triangle
-/// reaches over several spans. Cells that were good and have not changed are not looked at again.
-/// Error: E103.
+/// How closely a triangle is looked at: at middles of its edges (of borders: from the border curve)
+/// and its centroid, or at quarters and at the centroids of its corners, too; at more places where
+/// it reaches over several spans.
+enum class Look { kMiddles, kQuarters };
+
+/// Distances of triangles from the surface, at points between those that led to the triangles.
+/// Between these places a triangle may be farther off. Cells that were good and have not changed
+/// are not looked at again. Error: E103.
 [[nodiscard]] Result<Measured> measure(const PatchSampler& sampler, const Mesh& mesh,
                                        const std::vector<CellTriangles>& triangles,
-                                       std::vector<CellSeen>& seen, double tolerance,
+                                       std::vector<CellSeen>& seen, double tolerance, Look look,
                                        const RunContext& run);
 
 }  // namespace obvid::mesh

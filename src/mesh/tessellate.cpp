@@ -140,9 +140,19 @@ class Tessellator {
     PatchMesher mesher(samplers_[p], trees_[p], borders, p);
     OBVID_TRY(mesher.run(run));
     mesh = mesher.take();
-    const auto measured = mesh::measure(samplers_[p], mesh, mesher.triangles_of_cells(), seen_[p],
-                                        options_.chord_tolerance, run);
+    const std::vector<mesh::CellTriangles>& cells = mesher.triangles_of_cells();
+    auto measured = mesh::measure(samplers_[p], mesh, cells, seen_[p], options_.chord_tolerance,
+                                  mesh::Look::kMiddles, run);
     OBVID_TRY(measured);
+    const double at_middles = measured->deviation;
+    if (!measured->any_bad) {  // worth looking closer
+      std::vector<mesh::CellSeen> nothing;
+      auto closer = mesh::measure(samplers_[p], mesh, cells, nothing, options_.chord_tolerance,
+                                  mesh::Look::kQuarters, run);
+      OBVID_TRY(closer);
+      closer->deviation = std::max(closer->deviation, at_middles);
+      measured = std::move(closer);
+    }
     mesh.deviation = measured->deviation;
     if (mesh.triangles.size() > options_.most_triangles) {
       return error(ErrorCode::kToleranceNotReached,
@@ -154,12 +164,12 @@ class Tessellator {
       auto cut = trees_[p].improve(measured->bad, seen_[p]);
       if (!cut || *cut) return cut;
     }
-    if (measured->deviation > options_.chord_tolerance) {
+    if (at_middles > options_.chord_tolerance) {
       return error(ErrorCode::kToleranceNotReached,
                    fmt::format("triangles are {:.3g} off the surface however small they are",
-                               measured->deviation))
+                               at_middles))
           .hint("the surface folds or has a cusp there; allow a larger chord tolerance")
-          .value(measured->deviation);
+          .value(at_middles);
     }
     return false;
   }

@@ -257,10 +257,16 @@ class TrimmedMesher {
       const auto off = [&](double u, double v) {
         return std::abs(dot(normal, point(u, v) - a.point)) / area;
       };
-      mesh_.deviation =
-          std::max({mesh_.deviation, off((a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3),
-                    off((a.u + b.u) / 2, (a.v + b.v) / 2), off((b.u + c.u) / 2, (b.v + c.v) / 2),
-                    off((c.u + a.u) / 2, (c.v + a.v) / 2)});
+      // at all places of a grid over it, its corners aside
+      constexpr int kParts = 6;  // holds middles of edges, their thirds, and the centroid
+      for (int i = 0; i <= kParts; ++i) {
+        for (int j = 0; i + j <= kParts; ++j) {
+          const double wb = static_cast<double>(i) / kParts, wc = static_cast<double>(j) / kParts;
+          const double wa = 1.0 - wb - wc;
+          mesh_.deviation = std::max(
+              mesh_.deviation, off(wa * a.u + wb * b.u + wc * c.u, wa * a.v + wb * b.v + wc * c.v));
+        }
+      }
     }
   }
 

@@ -36,6 +36,11 @@ Seen seen_at(const std::vector<Vec2>& p, std::size_t stride) {
 
 }  // namespace
 
+std::optional<double> middle_deviation(const std::vector<Vec2>& points) {
+  const Seen near = seen_at(points, 1);
+  return near.places < kLeastPlaces ? std::nullopt : std::optional(near.deviation);
+}
+
 Result<Scatter> scatter_of(const std::vector<Vec2>& points) {
   const Seen near = seen_at(points, 1), far = seen_at(points, 2);
   if (near.places < kLeastPlaces || far.places < kLeastPlaces / 2) {

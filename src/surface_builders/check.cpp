@@ -10,6 +10,7 @@
 #include "check_joints.h"
 #include "check_lines.h"
 #include "climb.h"
+#include "obvid/numeric/internal/gauss.h"
 #include "obvid/surface/internal/topology.h"
 #include "obvid/surface/internal/trim.h"
 
@@ -125,9 +126,8 @@ double led_to(const std::array<SurfaceCurvature, kApproach + 1>& along, const Ex
 
 constexpr std::size_t kWaysUnasked = 64;  // before whoever waits is asked whether to go on
 
-/// Area and curvature of a patch.
+/// Curvature of a patch.
 struct Measured {
-  double area = 0.0;
   CurvatureExtents curvature;
 };
 
@@ -160,7 +160,6 @@ Result<Measured> measured(const NurbsSurface& s, const TrimRegion* region, std::
       const Node& u = along_u[i];
       if (!is_there(u.at, v.at)) continue;
       const SurfaceJet jet = evaluate(s, u.at, v.at);
-      out.area += norm(cross(jet.du, jet.dv)) * u.weight * v.weight;
       const SurfaceCurvature k = curvature(jet);
       if (k.normal == Vec3{}) {
         ++out.curvature.without_normal;
@@ -214,6 +213,75 @@ Result<Measured> measured(const NurbsSurface& s, const TrimRegion* region, std::
   return out;
 }
 
+/// Area of a whole patch: Gauss's rule with 8 points in each direction over the cells between
+/// knots, compared with the one with 4 and divided where they differ.
+class WholeArea {
+ public:
+  WholeArea(const NurbsSurface& s, const RunContext& run) : s_(s), run_(run) {
+    const double size = size_of(s);
+    small_ = kSmall * size * size;
+  }
+
+  Result<PatchArea> found() {
+    const std::vector<Range> us = spans(s_.knots_u, domain_u(s_)),
+                             vs = spans(s_.knots_v, domain_v(s_));
+    for (const Range& v : vs) {
+      OBVID_TRY(may_go_on(run_));
+      for (const Range& u : us) add(u, v, 0);
+    }
+    return out_;
+  }
+
+ private:
+  static constexpr double kSmall = 1e-13;  // of the size squared, for each cell
+  static constexpr double kSame = 1e-11;   // of the area of a cell
+  static constexpr int kMostQuarterings = 8;
+  static constexpr std::size_t kMostCells = 20'000;  // divided; some seconds, then as it is
+
+  static std::vector<Range> spans(const std::vector<double>& knots, const Range& domain) {
+    std::vector<Range> out;
+    double from = domain.from;
+    for (const double knot : knots) {
+      const double to = std::min(knot, domain.to);
+      if (!(to > from)) continue;
+      out.push_back({from, to});
+      from = to;
+    }
+    return out;
+  }
+  template <std::size_t N>
+  [[nodiscard]] double by(const Range& u, const Range& v) const {
+    return gauss_integral<N>(v.from, v.to, [&](double at_v) {
+      return gauss_integral<N>(u.from, u.to, [&](double at_u) {
+        const SurfaceJet jet = evaluate(s_, at_u, at_v);
+        return norm(cross(jet.du, jet.dv));
+      });
+    });
+  }
+  void add(const Range& u, const Range& v, int halvings) {
+    const double rough = by<4>(u, v), fine = by<8>(u, v), step = std::abs(fine - rough);
+    if (step <= std::max(small_, kSame * fine) || halvings >= kMostQuarterings ||
+        divided_ >= kMostCells) {
+      out_.value += fine;
+      out_.error += step;
+      return;
+    }
+    ++divided_;
+    const double mu = u.at(0.5), mv = v.at(0.5);
+    for (const Range& half_v : {Range{v.from, mv}, Range{mv, v.to}}) {
+      for (const Range& half_u : {Range{u.from, mu}, Range{mu, u.to}}) {
+        add(half_u, half_v, halvings + 1);
+      }
+    }
+  }
+
+  const NurbsSurface& s_;
+  const RunContext& run_;
+  double small_ = 0.0;
+  std::size_t divided_ = 0;
+  PatchArea out_;
+};
+
 Result<PatchReport> report_of(const SurfacePatch& patch, std::size_t samples,
                               const RunContext& run) {
   const NurbsSurface& s = patch.surface;
@@ -232,13 +300,10 @@ Result<PatchReport> report_of(const SurfacePatch& patch, std::size_t samples,
   OBVID_TRY(measures);
   const Measured& found = *measures;
   report.trims = patch.trims.size();
-  report.area = found.area;
-  if (trimmed) {
-    const auto area = area_of(patch, run);
-    OBVID_TRY(area);
-    report.area = area->value;
-    report.area_error = area->error;
-  }
+  const auto area = trimmed ? area_of(patch, run) : WholeArea(s, run).found();
+  OBVID_TRY(area);
+  report.area = area->value;
+  report.area_error = area->error;
   report.gaussian = found.curvature.gaussian;
   report.mean = found.curvature.mean;
   report.k1 = found.curvature.k1;

@@ -356,7 +356,7 @@ class Subject:
     def captions(self, labels, stored, what):
         """A caption of a picture says what the report says."""
         report, certificate, text = stored["report"], stored["certificate"], " · ".join(labels)
-        self.same(what + ": counts", True, "{} (at least {}) · {}".format(
+        self.same(what + ": counts", True, "{} (at least {} unless a curve winds) · {}".format(
             plural(certificate["vertices"], "vertex", "vertices"), report["vertices_lower_bound"],
             plural(certificate["inflections"], "inflection", "inflections")) in text)
         self.same(what + ": points and pieces", True, "{} · {}".format(

@@ -241,7 +241,7 @@ class PageCheck {
   void pictured(const std::string& fact) {
     const Sentence s = sentence_of(without_powers(fact), file_.printed_unit());
     const std::string first = s.figures.empty() ? "" : s.figures[0];
-    if (s.shape == "# vertex (at least #)") {
+    if (s.shape == "# vertex (at least # unless a curve winds)") {
       is("picture vertices", first, figure(report_, "vertices").value);
       is("picture bound", s.figures[1], figure(report_, "vertices_lower_bound").value);
     } else if (s.shape == "# inflection") {

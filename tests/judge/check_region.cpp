@@ -67,6 +67,7 @@ class RegionCheck {
 
   void run() {
     points();
+    few_points();
     ranges();
     for (std::size_t k = 0; k < p_.rows.size(); ++k) row(k);
     for (std::size_t k = 0; k < p_.rows.size(); k = p_.section(k)[1]) spline(k);
@@ -99,6 +100,36 @@ class RegionCheck {
       if (p.heading_given || input_.points.at(p.index).heading) continue;
       chosen_inside(p, at);
     }
+  }
+
+  /// Two or three points lie on one circle whatever the curve is: parabolas, conics, clothoids
+  /// through them have other headings. So no range of one heading is told, and no width of 0.
+  void few_points() {
+    if (p_.loop) return;
+    for (std::size_t k = 0; k < p_.rows.size(); k = p_.section(k)[1]) {
+      const auto [first, behind] = p_.section(k);
+      if (behind - first + 1 > 3) continue;
+      bool all_given = true;
+      for (std::size_t i = p_.rows[first].from; i <= p_.rows[behind - 1].to; ++i) {
+        const SheetPoint& p = p_.points[i];
+        all_given = all_given && input_.points.at(p.index).heading.has_value();
+      }
+      if (all_given || by_neighbours) continue;
+      for (std::size_t i = p_.rows[first].from; i <= p_.rows[behind - 1].to; ++i) {
+        const SheetPoint& p = p_.points[i];
+        if (!p.headings || input_.points.at(p.index).heading || ranged(p)) continue;
+        sheet_.expect(p.headings->high > p.headings->low, "region.range of few points",
+                      p.headings->low, p.headings->high, "point " + p.name());
+      }
+      for (std::size_t j = first; j < behind; ++j) {
+        const Figure width = figure(*p_.rows[j].figures, "width");
+        sheet_.expect(!(width.known() && *width.value == 0.0), "region.width of few points", 0.0L,
+                      NAN, where(p_.rows[j]));
+      }
+    }
+  }
+  [[nodiscard]] bool ranged(const SheetPoint& p) const {
+    return input_.points.at(p.index).headings.has_value();
   }
 
   void given(const SheetPoint& p, const std::string& at) {

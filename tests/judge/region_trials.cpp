@@ -64,7 +64,7 @@ class RegionTrial : public ProgramRuns {
     while (shape.points.size() > 40 || (known && !shape.truth) || shape.points.size() < 3) {
       shape = make_shape(dice_);
     }
-    if (dice_.chance(0.08)) shape = two_points();
+    if (dice_.chance(0.08)) shape = dice_.chance(0.4) ? three_points() : two_points();
     out_.family = shape.family;
     const Real size = size_of(shape.points);
     const double wanted =
@@ -92,6 +92,15 @@ class RegionTrial : public ProgramRuns {
     Shape out;
     out.family = "two points";
     out.points = {{0.0L, 0.0L}, {1.0L, 0.0L}};
+    return out;
+  }
+
+  /// On a circle, or on a line, as any three.
+  Shape three_points() {
+    Shape out;
+    out.family = "three points";
+    const Real high = dice_.chance(0.2) ? 0.0L : Real{dice_.between(-0.6, 0.6)};
+    out.points = {{0.0L, 0.0L}, {Real{dice_.between(0.6, 1.4)}, high}, {2.0L, 0.0L}};
     return out;
   }
 

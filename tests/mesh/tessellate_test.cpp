@@ -83,6 +83,32 @@ TEST(Tessellate, TheDeviationIsWhatOneMeasuresFromTheSurfacesSide) {
   }
 }
 
+/// A strip over a line of ten that rises by 6 t (1 - t)^5, most at a sixth of its length: at its
+/// third and its middle by half of that.
+TEST(Tessellate, TheDeviationIsLookedForBesideTheMiddlesToo) {
+  NurbsSurface strip;
+  strip.degree_u = 6;
+  strip.degree_v = 1;
+  strip.knots_u = {0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1};
+  strip.knots_v = {0, 0, 1, 1};
+  for (const double y : {0.0, 9.0}) {
+    for (int i = 0; i <= 6; ++i) strip.points.push_back({10.0 * i / 6.0, y, i == 1 ? 1.0 : 0.0});
+  }
+  const Mesh mesh = drawn(strip, 0.5);
+  ASSERT_EQ(mesh.triangles.size(), 2u);
+  double true_deviation = 0.0;  // of points of the line from the curve
+  for (int i = 0; i <= 400; ++i) {
+    double nearest = 1.0;
+    for (int k = 0; k <= 4000; ++k) {
+      const double t = k / 4000.0, rise = 6.0 * t * std::pow(1.0 - t, 5);
+      nearest = std::min(nearest, std::hypot(10.0 * (t - i / 400.0), rise));
+    }
+    true_deviation = std::max(true_deviation, nearest);
+  }
+  EXPECT_LE(mesh.deviation, 1.001 * true_deviation);
+  EXPECT_GE(mesh.deviation, 0.94 * true_deviation);
+}
+
 TEST(Tessellate, KeepsTheAngleBetweenNormalsOfEachEdge) {
   for (const double angle : {0.5, 0.1}) {
     for (const NurbsSurface& surface :

@@ -56,6 +56,47 @@ TEST(Audit, EveryPieceOfASlotIsAVertexInItsMiddle) {
   }
 }
 
+/// As polylines of drawings have them: arcs by their bulges, curvatures of pieces a rounding apart.
+TEST(Audit, AVertexOfAnArcLiesInItsMiddle) {
+  constexpr double kBulge = 0.41421356237309503, kRadius = 12.0, kWide = 200.0, kHigh = 120.0;
+  const double sweep = 4.0 * std::atan(kBulge);
+  const std::vector<Vec2> ends = {{kRadius, 0},
+                                  {kWide - kRadius, 0},
+                                  {kWide, kRadius},
+                                  {kWide, kHigh - kRadius},
+                                  {kWide - kRadius, kHigh},
+                                  {kRadius, kHigh},
+                                  {0, kHigh - kRadius},
+                                  {0, kRadius}};
+  DrawnCurve curve{"plate", {}, true};
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const Vec2 from = ends[k], to = ends[(k + 1) % ends.size()];
+    if (k % 2 == 0) {
+      curve.pieces.emplace_back(LinePiece{from, to});
+      continue;
+    }
+    const double kappa = 4.0 * kBulge / (norm(to - from) * (1.0 + kBulge * kBulge));
+    curve.pieces.emplace_back(
+        ArcPiece{from, to, heading(to - from) - 0.5 * sweep, kappa, sweep / kappa});
+  }
+  const CurveAudit a = audit(curve, "mm");
+  const double arc = 0.5 * kPi * kRadius, across = kWide - 2.0 * kRadius,
+               up = kHigh - 2.0 * kRadius;
+  std::vector<double> expected;
+  double s = 0.0;
+  for (const double length : {across, arc, up, arc, across, arc, up, arc}) {
+    expected.push_back(s + 0.5 * length);
+    s += length;
+  }
+  std::size_t next = 0;
+  for (const AuditPlace& place : a.places) {
+    if (place.kind != AuditPlace::Kind::kVertex) continue;
+    ASSERT_LT(next, expected.size());
+    EXPECT_NEAR(place.s, expected[next++], 1e-9);
+  }
+  EXPECT_EQ(next, expected.size());
+}
+
 TEST(Audit, CornersAndGapsAreNamedWithTheirSizes) {
   DrawnCurve curve{
       "polyline",

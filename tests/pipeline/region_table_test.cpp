@@ -100,6 +100,63 @@ TEST(RegionTable, OverAnArcIsTheArc) {
   }
 }
 
+/// Parabolas, conics and clothoids through three points have any curvature there: that the circle
+/// through them was taken bounds nothing.
+TEST(RegionTable, TellsNoRangesOfThreePointsOnTheCircleThroughThem) {
+  PointSeries three, straight, beside_corner;
+  three.points = {{0.0, 0.0}, {1.0, 0.2}, {2.0, 0.0}};
+  straight.points = {{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}};
+  beside_corner.points = {{0.0, 0.0}, {1.0, 0.2}, {2.0, 0.0}, {2.0, 1.0},
+                          {1.8, 2.0}, {1.3, 2.9}, {0.5, 3.6}};
+  RegionJob with_corner;
+  beside_corner.fixed.resize(beside_corner.points.size());
+  beside_corner.fixed[2].corner = true;
+  for (const auto& [series, job] : {std::pair{three, RegionJob{}}, std::pair{straight, RegionJob{}},
+                                    std::pair{beside_corner, with_corner}}) {
+    const auto table = region_table(series, job);
+    ASSERT_TRUE(table) << table.error().what;
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_FALSE(table->user.points[i].headings) << i;
+      EXPECT_FALSE(table->user.points[i].curvatures) << i;
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      const RegionRow& row = table->rows[i];
+      EXPECT_FALSE(row.kappa_start || row.kappa_end || row.width || row.lower_height) << i;
+      EXPECT_FALSE(row.apex_gap || row.tangent_gap || row.tangent_bound) << i;
+      EXPECT_TRUE(std::isfinite(row.theta_start));
+    }
+    if (series.points.size() > 3) {
+      EXPECT_TRUE(table->user.points[4].headings);
+    }
+  }
+}
+
+TEST(RegionTable, TellsNoneOfThemWhereAWidthIsAskedForEither) {
+  PointSeries series;
+  series.points = {{0.0, 0.0}, {1.0, 0.2}, {2.0, 0.0}};
+  RegionJob job;
+  job.job.tolerance = 1e-3;
+  const auto table = region_table(series, job);
+  ASSERT_TRUE(table) << table.error().what;
+  ASSERT_TRUE(table->refined);
+  for (const RegionPoint& p : table->refined->points) EXPECT_FALSE(p.headings || p.curvatures);
+  for (const RegionRow& row : table->refined->rows) EXPECT_FALSE(row.width);
+}
+
+/// A heading that is not the circle's leaves curves of one direction.
+TEST(RegionTable, TellsRangesOfThreePointsWithAHeading) {
+  PointSeries series;
+  series.points = {{0.0, 0.0}, {1.0, 0.2}, {2.0, 0.0}};
+  RegionJob job;
+  job.job.start_heading = 30.0 * std::numbers::pi / 180.0;
+  const auto table = region_table(series, job);
+  ASSERT_TRUE(table) << table.error().what;
+  ASSERT_TRUE(table->user.points[0].headings);
+  // that of the circle through the three points ends it: twice the angle over half the chord
+  EXPECT_NEAR(table->user.points[0].headings->low, 2.0 * std::atan(0.2), 1e-6);
+  EXPECT_TRUE(table->rows[0].width);
+}
+
 TEST(RegionTable, HasNoRegionWhereAVertexLiesBetweenPoints) {
   // six points on a line, then a turn: the curvature grows and falls between points 6 and 7
   PointSeries series;

@@ -34,7 +34,7 @@ RegionJob table_job(Construction construction) {
 TEST(WorksheetFigures, AnArcOfMoreThanHalfATurnStandsAsHighAsItIs) {
   constexpr double kRadius = 3.0, kTurn = 200.0 * kOneDegree;
   const auto at = [](double angle) { return kRadius * unit_at(angle); };
-  const auto table = region_table(places({at(0.0), at(kTurn), at(kTurn + 0.5)}));
+  const auto table = region_table(places({at(0.0), at(kTurn), at(kTurn + 0.5), at(kTurn + 1.0)}));
   ASSERT_TRUE(table) << table.error().what;
   ASSERT_TRUE(table->rows[0].lower_height);
   EXPECT_NEAR(*table->rows[0].lower_height, kRadius * (1.0 - std::cos(0.5 * kTurn)), 1e-12);

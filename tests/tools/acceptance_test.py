@@ -412,7 +412,7 @@ class Scans(unittest.TestCase):
     def test_the_numbers_of_what_is_left_out_are_read(self):
         text = "left out 2 points that lie off the curve of their neighbours: 128 (2.457 units), 162 (2.066 mm); the others"
         self.assertEqual(scans.LEFT_OUT.findall(text), ["128", "162"])
-        text = "left out point 65 (0.2037 mm off the curve of its neighbours); the others deviate by 0.00422 mm"
+        text = "left out point 65 (0.2037 mm off the curve of its neighbours); the others scatter by 0.004220 mm"
         self.assertEqual(scans.LEFT_OUT.findall(text), ["65"])
 
 

@@ -23,6 +23,8 @@ struct DrawnCurve {
   std::optional<double> station{};              ///< of its start, units; of alignments
   std::vector<PlacedTransition> transitions{};  ///< what clothoids stand for, in order
   std::optional<VerticalProfile> profile{};     ///< heights over its stations, units
+  std::size_t arcs_more = 0;  ///< pieces beyond those that are drawn: arcs of half a turn or more
+                              ///< are some pieces
 };
 
 /// What a file of an exchange format holds: curves, and series of points. Lengths in `units`.

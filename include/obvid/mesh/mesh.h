@@ -25,7 +25,8 @@ struct MeshVertex {
 struct Mesh {
   std::vector<MeshVertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  double deviation = 0.0;  ///< units: largest distance of a triangle from the surface, measured
+  double deviation =
+      0.0;  ///< units: largest distance from the surface that was found on a triangle
 };
 
 struct TessellationOptions {

@@ -42,7 +42,7 @@ void add_rounding_warning(PointSeries& series, const Analysis& analysis);
 struct DrawnFigures {
   std::string kind;        ///< "circle", "4 lines and 4 arcs", "spline", ...; of series points,
                            ///< route, single points, waypoints
-  std::size_t pieces = 0;  ///< of a curve; clothoids that stand for a transition are one
+  std::size_t pieces = 0;  ///< of a curve as it is drawn; what stands for a transition is one
   std::size_t points = 0;  ///< of a series; of a curve the ends of its pieces
   double length = 0.0;     ///< of a series that of its edges, units
   bool closed = false;     ///< it ends where it begins

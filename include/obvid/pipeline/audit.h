@@ -43,6 +43,7 @@ struct CurveAudit {
   std::optional<double> station;              ///< of its start, units; of alignments
   std::vector<PlacedTransition> transitions;  ///< which pieces are clothoids in their place
   std::optional<VerticalProfile> profile;     ///< of alignments whose file has heights
+  std::size_t arcs_more = 0;                  ///< as of `DrawnCurve`
   Contour contour;          ///< the pieces with joints; promises nothing (carrier `baseline`)
   Certificate certificate;  ///< proved verdict of each piece, gaps, counts
   double length = 0.0;      ///< units

@@ -117,7 +117,7 @@ struct ToolpathEntries {
 struct ToolpathReport {
   std::size_t passes = 0;       ///< stretches that cut
   double cutting_length = 0.0;  ///< passes and links, units
-  double plunge_length = 0.0;
+  double plunge_length = 0.0;   ///< ways down to passes, straight, as ramps or helices
   double rapid_length = 0.0;
   double minutes = 0.0;  ///< of the printed program from its first place on, with acceleration:
                          ///< an estimate (docs/methods/toolpath.md)

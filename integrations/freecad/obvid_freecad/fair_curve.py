@@ -94,7 +94,7 @@ def verdict_of(contour):
     c, report = contour.certificate, contour.report
     if not contour.proved:
         return f"NOT proved: {c.reason}"
-    text = f"Proved: {counted(c.vertices, 'vertex', 'vertices')}, the points force {report.vertices_lower_bound}"
+    text = f"Proved: {counted(c.vertices, 'vertex', 'vertices')}, the points force {report.vertices_lower_bound} where no curve winds between them"
     text += f"; {counted(c.inflections, 'inflection')}; {contour.continuity}"
     if c.corners:
         text += f" between {counted(c.corners, 'corner')}"

@@ -12,7 +12,8 @@ namespace obvid::dxf {
 struct Link {
   std::vector<Piece> pieces;  ///< at least one
   bool closed = false;
-  std::size_t layer = 0;  ///< only links of one layer are joined
+  std::size_t layer = 0;      ///< only links of one layer are joined
+  std::size_t arcs_more = 0;  ///< pieces beyond the arcs that are drawn
 };
 
 /// Links that belong together, in order.

@@ -149,7 +149,7 @@ void DrawingBuilder::add(Shape shape, const Source& source) {
   const auto layer = layers_.try_emplace(source.layer, layers_.size()).first->second;
   // One line may be a part of a chain; it is no list of points.
   polygon_.push_back(shape.polygon && shape.pieces.size() > 1);
-  links_.push_back({std::move(shape.pieces), shape.closed, layer});
+  links_.push_back({std::move(shape.pieces), shape.closed, layer, shape.arcs_more});
   sources_.push_back(source);
 }
 
@@ -190,6 +190,7 @@ void DrawingBuilder::take_chains() {
       }
       curve.pieces.insert(curve.pieces.end(), pieces.begin(), pieces.end());
       std::vector<Piece>().swap(pieces);
+      curve.arcs_more += links_[member.link].arcs_more;
     }
     drawing_.curves.push_back(std::move(curve));
   }

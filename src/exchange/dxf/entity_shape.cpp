@@ -138,7 +138,9 @@ class Shaper {
 
   void add_elliptic(const EllipseFrame& frame, double from, double sweep) {
     if (cross(frame.p, frame.q) == 0.0) return refuse(kNothing);
+    const std::size_t before = shape_.pieces.size();
     append_elliptic(frame, from, sweep, shape_.pieces);
+    if (is_circular(frame)) shape_.arcs_more += shape_.pieces.size() - before - 1;
     shape_.closed = sweep == kFullTurn;
     const bool point = start_point(shape_.pieces.front()) == end_point(shape_.pieces.back());
     if (point && !shape_.closed) refuse(kNothing);
@@ -178,7 +180,9 @@ class Shaper {
     shape_.polygon = false;
     const EllipseFrame unit{{}, flat(turned(map, {1, 0, 0})), flat(turned(map, {0, 1, 0}))};
     if (is_circular(unit)) {
+      const std::size_t before = shape_.pieces.size();
       append_bulge(from, to, determinant > 0.0 ? bulge : -bulge, shape_.pieces);
+      shape_.arcs_more += shape_.pieces.size() - before - 1;
       return;
     }
     const double sweep = 4.0 * std::atan(bulge);

@@ -31,6 +31,7 @@ struct Shape {
   bool closed = false;
   std::vector<Vec2> points;        ///< instead of pieces: fit points, a single point
   std::optional<Vec2> start, end;  ///< directions of the spline through fit points
+  std::size_t arcs_more = 0;       ///< pieces beyond the arcs that are drawn
   bool polygon = false;          ///< a polyline without arcs: its vertices may be points of a curve
   double low = 0.0, high = 0.0;  ///< range of heights
   Fault fault;                   ///< nothing is drawn

@@ -216,7 +216,9 @@ std::string facts(const SurfaceModel& model, const std::vector<Mesh>& meshes,
   std::string text = picture::size_text(data.size, units);
   if (meshes.size() > 1) text += " · " + grouped(meshes.size()) + " patches";
   text += " · " + grouped(triangles) + (triangles == 1 ? " triangle" : " triangles");
-  if (deviation > 0.0) text += " within " + picture::readable(deviation, 2) + " " + units;
+  if (deviation > 0.0) {
+    text += ", at most " + picture::readable(deviation, 2) + " " + units + " off where measured";
+  }
   return escaped_xml(text);
 }
 

@@ -69,4 +69,8 @@ std::string joints_claim(Carrier carrier, const Certificate& certificate) {
   return text;
 }
 
+std::string short_bound_text(int bound) {
+  return fmt::format("at least {} unless a curve winds", bound);
+}
+
 }  // namespace obvid

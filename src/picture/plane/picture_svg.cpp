@@ -102,7 +102,7 @@ std::string facts_of(const StoredContour& stored) {
   const FitReport& report = *stored.report;
   std::string text =
       counted(static_cast<std::size_t>(std::max(report.vertices, 0)), "vertex", "vertices");
-  text += " (at least " + std::to_string(report.vertices_lower_bound) + ")";
+  text += " (" + short_bound_text(report.vertices_lower_bound) + ")";
   text += " · " + counted(static_cast<std::size_t>(std::max(report.inflections, 0)), "inflection",
                           "inflections");
   if (!is_measured(stored) && has_region(stored)) text += " · " + region_fact(stored);

@@ -95,7 +95,7 @@ void draw_legend(PictureCanvas& canvas, const TradeOff& t, double y) {
     x += kLegendApart;
   };
   entry("graph up", "vertices of the contour");
-  entry("curve down", "lower bound");
+  entry("curve down", "at least, unless a curve winds");
   if (std::any_of(t.rows.begin(), t.rows.end(), [](const auto& row) { return !row.kept; })) {
     entry("limit", fmt::format("cross: no {}", kept_contour(t)).c_str());
   }

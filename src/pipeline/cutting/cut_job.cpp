@@ -250,7 +250,7 @@ Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
   out.title = job.plan.name;
   out.units = made.units;
   const CutReport& report = made.program.report;
-  out.remarks.push_back(fmt::format("{}, {} {} at feed, {} {} rapid, about {} min",
+  out.remarks.push_back(fmt::format("{}, {} {} along the cut, {} {} rapid, about {} min",
                                     counted(made.program.steps.size(), "outline", "outlines"),
                                     significant(report.cut_length, 4), unit_of_program(made),
                                     significant(report.rapid_length, 4), unit_of_program(made),

@@ -39,6 +39,7 @@
 #include "obvid/pipeline/internal/mesh_sections.h"
 #include "obvid/series/internal/order.h"
 #include "obvid/series/internal/outliers.h"
+#include "obvid/series/internal/scatter.h"
 #include "obvid/series/internal/strays.h"
 
 namespace obvid {
@@ -270,6 +271,7 @@ struct InOrder {
   PointSeries series;
   std::vector<std::size_t> numbers;  ///< of the points in the list, from 0; none: as they stand
   std::size_t strays = 0;            ///< that were left out
+  std::size_t strays_warning = 0;    ///< which warning says so
 };
 
 std::string order_text(const PointSeries& series, const CurveOrder& found) {
@@ -339,10 +341,9 @@ Result<CurveOrder> order_of(const PointSeries& series, const std::vector<std::si
     return whole;
   }
   out.strays = found->strays.points.size();
-  out.series.warnings.push_back(fmt::format(
-      "--drop-outliers: left out {} before the points were put in order; the others deviate by "
-      "{} {}",
-      strays, significant(found->strays.deviation, 3), series.units.text()));
+  out.series.warnings.push_back(
+      fmt::format("--drop-outliers: left out {} before the points were put in order", strays));
+  out.strays_warning = out.series.warnings.size() - 1;
   return std::move(found->order);
 }
 
@@ -424,8 +425,25 @@ std::string outliers_text(const PointSeries& series, const Outliers& found,
                         significant(found.points[k].off, 4), unit,
                         count == 1 ? " off the curve of its neighbours" : "");
   }
-  return text + and_more(count, kMostPointsNamed) +
-         fmt::format("; the others deviate by {} {}", significant(found.deviation, 3), unit);
+  return text + and_more(count, kMostPointsNamed);
+}
+
+/// Of points that are left, for what they are told beside. Where `--noise auto` has a scatter it is
+/// that one; elsewhere their curve shows in it. Empty where there are too few.
+std::string scatter_of_others(const PointSeries& series) {
+  constexpr int kScatterDigits = 4;  // as `--noise auto` prints
+  if (const auto seen = scatter_of(series.points)) {
+    return fmt::format(
+        "the others scatter by {} {} about cubics through four neighbours each (1.4826 times the "
+        "median residual, without the curve's part)",
+        significant(seen->deviation, kScatterDigits), series.units.text());
+  }
+  const auto seen = middle_deviation(series.points);
+  if (!seen) return {};
+  return fmt::format(
+      "the others lie {} {} off cubics through four neighbours each (1.4826 times the median "
+      "residual, the curve's part with it)",
+      significant(*seen, kScatterDigits), series.units.text());
 }
 
 /// Points that go once around, the first one not again, as far as they tell: the ends are not much
@@ -497,12 +515,18 @@ Result<PointSeries> without_outliers(Result<InOrder> ordered, const ImportOption
   }
   const auto found = outliers_around(out.points, given);
   OBVID_TRY(found);
+  std::size_t told = ordered->strays_warning;
   if (ordered->strays == 0 || !found->points.empty()) {
+    told = out.warnings.size();
     out.warnings.push_back(outliers_text(out, *found, ordered->numbers));
   }
   std::vector<bool> off(out.points.size(), false);
   for (const Outlier& one : found->points) off[one.index] = true;
   leave_out(off, out);
+  if (ordered->strays > 0 || !found->points.empty()) {
+    const std::string others = scatter_of_others(out);
+    if (!others.empty()) out.warnings[told] += "; " + others;
+  }
   return std::move(out);
 }
 

@@ -9,6 +9,7 @@
 #include "obvid/core/internal/data_table.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/io/internal/json_text.h"
+#include "obvid/picture/internal/joints_claim.h"
 
 namespace obvid {
 namespace {
@@ -19,9 +20,11 @@ SummaryCell count_cell(const char* name, std::size_t count, const char* one, con
   return {name, counted(count, one, many), std::to_string(count)};
 }
 
-/// "3 vertices (2)": the number, and what the points force.
+/// "3 vertices (at least 2 unless a curve winds)": the number, and what the points force.
 SummaryCell with_bound(const char* name, int count, int bound, const char* one, const char* many) {
-  return {name, fmt::format("{} ({})", counted(static_cast<std::size_t>(count), one, many), bound),
+  return {name,
+          fmt::format("{} ({})", counted(static_cast<std::size_t>(count), one, many),
+                      short_bound_text(bound)),
           std::to_string(count)};
 }
 

@@ -66,7 +66,10 @@ Error ConstructionSection::no_region(std::size_t k) const {
     hint = "put a point where the curvature is largest or least there, or mark a corner";
   } else if (*row(k).direction == 0) {
     what = "the points lie on one circle there: a segment has an arc, and no region";
-    hint = "use `fit` without --construction, or leave points of the circle out";
+    hint = row(k).kappa_start
+               ? "use `fit` without --construction, or leave points of the circle out"
+               : "give a heading at one of them that is not the circle's, as "
+                 "--start-heading, or use `fit` without --construction";
   }
   return error(ErrorCode::kNoSpiral, what)
       .where(segment(k))

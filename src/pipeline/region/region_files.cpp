@@ -380,11 +380,14 @@ FigureRows region_figures(const RegionPart& part, const Units& units) {
     largest = std::max(largest, row.width.value_or(0.0));
     if (!row.width) ++unknown;
   }
-  FigureRows out = {{"largest delta", significant(largest, kWidthDigits) + " " + units.text()}};
+  const bool known = unknown < part.rows.size();
+  FigureRows out = {
+      {"largest delta", known ? significant(largest, kWidthDigits) + " " + units.text() : "-"}};
   if (unknown > 0) {
     out.emplace_back("unknown",
-                     fmt::format("over {}, where a vertex or half a turn lies between points, or "
-                                 "where the headings leave no curve",
+                     fmt::format("over {}, where a vertex or half a turn lies between points, "
+                                 "where the headings leave no curve, or where no more than three "
+                                 "points say how the curve goes and one circle fits them",
                                  counted(unknown, "segment", "segments")));
   }
   const bool open = std::any_of(part.points.begin(), part.points.end(), [](const RegionPoint& p) {
@@ -454,7 +457,9 @@ RegionFile region_page(const PointSeries& series, const RegionTable& table,
   const FigureRows figures = region_figures(table.last(), series.units);
   ReportPage page;
   page.title = series.name;
-  page.verdict = "largest known width of the region " + figures.front().second;
+  const std::string& widest = figures.front().second;
+  page.verdict = widest == "-" ? "no width of the region is known"
+                               : "largest known width of the region " + widest;
   page.pictures.push_back(sketch_svg(drawing.sketch));
   if (!asked.empty()) page.figures.emplace_back("asked for", asked);
   page.figures.emplace_back("lengths in", series.units.text());

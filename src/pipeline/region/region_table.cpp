@@ -164,7 +164,7 @@ double some_curvature(const std::optional<CurvatureRange>& range) {
 class PartMaker {
  public:
   PartMaker(const Worksheet& sheet, const Analysis* analysis, Watch& watch)
-      : s_(sheet), analysis_(analysis), watch_(watch) {}
+      : s_(sheet), analysis_(analysis), watch_(watch), tells_(tells_ranges()) {}
 
   RegionPart run() {
     const Ranges ranges(s_, watch_);
@@ -178,9 +178,9 @@ class PartMaker {
       p.kappa = s_.kappa[i];
       p.theta_given = s_.given[i].theta.has_value() && (s_.kept.empty() || !s_.kept[i]);
       p.kappa_given = s_.given[i].kappa.has_value();
-      p.headings = headings[i].heading;
+      if (tells_) p.headings = headings[i].heading;
       if (p.headings) turn_to(p.theta, *p.headings);
-      p.curvatures = curvatures[i].kappa;
+      if (tells_) p.curvatures = curvatures[i].kappa;
       const bool inner = i > 0 && i + 1 < s_.points.size();
       if (analysis_ != nullptr && inner) p.adjacent_kappa = analysis_->circles[i].kappa;
       if (analysis_ != nullptr && !inner && s_.loop) p.adjacent_kappa = seam_circle();
@@ -198,6 +198,19 @@ class PartMaker {
   }
 
  private:
+  /// Two or three points lie on one circle whatever the curve is: that the one which was taken is
+  /// that circle says nothing of the others.
+  [[nodiscard]] bool tells_ranges() const {
+    if (s_.loop || s_.points.size() >= kFewestThatTell) return true;
+    const bool circle = std::any_of(s_.direction.begin(), s_.direction.end(),
+                                    [](const std::optional<int>& d) { return d == 0; });
+    bool all_given = true;  // by the user, not kept while points were inserted
+    for (std::size_t i = 0; i < s_.points.size(); ++i) {
+      all_given = all_given && s_.given[i].theta && (s_.kept.empty() || !s_.kept[i]);
+    }
+    return !circle || all_given;
+  }
+
   /// A point whose segments all leave no curve has no radii either.
   void forget_beside_nothing() {
     std::vector<bool> none(out_.points.size(), false), some = none;
@@ -363,6 +376,7 @@ class PartMaker {
   const Worksheet& s_;
   const Analysis* analysis_;
   Watch& watch_;
+  bool tells_;  ///< whether ranges are known
   RegionPart out_;
 };
 

@@ -115,8 +115,9 @@ Result<void> SurfaceExport::tessellate_once(std::vector<std::string>& remarks) {
     triangles += mesh.triangles.size();
     deviation = std::max(deviation, mesh.deviation);
   }
-  remarks.push_back(fmt::format("{} triangles within {} {} of the surface", triangles,
-                                significant_above(deviation, kDigitsOfBounds), model.units.text()));
+  remarks.push_back(fmt::format("{} triangles, at most {} {} off the surface where measured",
+                                triangles, significant_above(deviation, kDigitsOfBounds),
+                                model.units.text()));
   return {};
 }
 

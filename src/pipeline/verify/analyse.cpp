@@ -43,7 +43,7 @@ bool is_circle(const std::vector<Piece>& pieces) {
 
 /// "4 lines and 4 arcs"; what is alone has no number.
 std::string kind_of(const std::vector<Piece>& pieces, bool closed,
-                    const std::vector<PlacedTransition>& placed) {
+                    const std::vector<PlacedTransition>& placed, std::size_t arcs_more) {
   if (pieces.empty()) return "nothing";
   if (closed && is_circle(pieces)) return "circle";
   std::size_t lines = 0, arcs = 0, clothoids = 0;
@@ -53,6 +53,7 @@ std::string kind_of(const std::vector<Piece>& pieces, bool closed,
     clothoids += std::holds_alternative<ClothoidPiece>(piece) ? 1 : 0;
   }
   const std::size_t splines = pieces.size() - lines - arcs - clothoids;
+  arcs -= std::min(arcs, arcs_more);
   // clothoids that stand for other transitions are these
   std::map<Transition, std::size_t> transitions;
   for (const PlacedTransition& one : placed) {
@@ -63,7 +64,7 @@ std::string kind_of(const std::vector<Piece>& pieces, bool closed,
   std::vector<std::string> parts;
   const auto add = [&](std::size_t count, const char* one, const char* many) {
     if (count == 0) return;
-    parts.push_back(pieces.size() == 1 ? one : counted(count, one, many));
+    parts.push_back(pieces.size() == 1 + arcs_more ? one : counted(count, one, many));
   };
   add(lines, "line", "lines");
   add(arcs, "arc", "arcs");
@@ -131,8 +132,8 @@ DrawnFigures figures_of(const PointSeries& series) {
 DrawnFigures figures_of(const CurveAudit& audit) {
   const Contour& contour = audit.contour;
   DrawnFigures out;
-  out.kind = kind_of(contour.pieces, contour.closed, audit.transitions);
-  out.pieces = elements_in(contour.pieces.size(), audit.transitions);
+  out.kind = kind_of(contour.pieces, contour.closed, audit.transitions, audit.arcs_more);
+  out.pieces = elements_in(contour.pieces.size(), audit.transitions) - audit.arcs_more;
   out.points = out.pieces + (contour.closed ? 0 : 1);
   out.length = audit.length;
   out.closed = contour.closed;

@@ -62,6 +62,7 @@ class Auditor {
     out_.name = curve.name;
     out_.station = curve.station;
     out_.transitions = curve.transitions;
+    out_.arcs_more = curve.arcs_more;
     out_.profile = curve.profile;
     out_.contour.units = units;
     out_.contour.carrier = Carrier::kImported;
@@ -374,9 +375,10 @@ class Auditor {
   /// Extrema of the sampled curvature that stand out of the rounding.
   void place_vertices() {
     find_proved(out_.vertices, [this](double least) {
-      extrema(least, [this](const Sample& at) {
+      extrema(least, [this](const Level& level) {
+        const Sample& at = sample((level.first + level.last) / 2);
         if (beside_singular_end(at)) return;  // no extremum: it grows without bound
-        const Sample there = refined(at);
+        const Sample there = is_plateau(level) ? middle_of(level) : refined(at);
         out_.least_kappa = std::min(out_.least_kappa, there.kappa);
         out_.largest_kappa = std::max(out_.largest_kappa, there.kappa);
         place(AuditPlace::Kind::kVertex, there);
@@ -386,7 +388,7 @@ class Auditor {
 
   [[nodiscard]] int swings(double least) {
     int count = 0;
-    extrema(std::max(least, rounding_), [&](const Sample&) { ++count; });
+    extrema(std::max(least, rounding_), [&](const Level&) { ++count; });
     return count;
   }
 
@@ -398,8 +400,25 @@ class Auditor {
 
   [[nodiscard]] const Sample& sample(std::size_t i) const { return samples_[i % samples_.size()]; }
 
+  /// Whether the curvature stays as it is there: along a line, an arc, or for three samples.
+  [[nodiscard]] bool is_plateau(const Level& level) const {
+    const Piece& piece = out_.contour.pieces[sample((level.first + level.last) / 2).piece];
+    return level.last > level.first + 1 || std::holds_alternative<LinePiece>(piece) ||
+           std::holds_alternative<ArcPiece>(piece);
+  }
+  /// Half way along it.
+  [[nodiscard]] Sample middle_of(const Level& level) const {
+    const double length = path_->length(), from = sample(level.first).s;
+    double to = sample(level.last).s;
+    if (to < from) to += length;  // past the seam
+    double middle = 0.5 * (from + to);
+    if (middle > length) middle -= length;
+    const ContourPath::Parameter found = path_->parameter(middle);
+    return {found.piece, found.t, middle, sample((level.first + level.last) / 2).kappa};
+  }
+
   /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides:
-  /// with the middle sample where the curvature stays as it is. A closed curve is followed from its
+  /// with all samples where the curvature stays as it is. A closed curve is followed from its
   /// least curvature around to it.
   template <class Found>
   void extrema(double least, Found found) {
@@ -409,7 +428,6 @@ class Auditor {
         closed ? static_cast<std::size_t>(
                      std::min_element(samples_.begin(), samples_.end(), below) - samples_.begin())
                : 0;
-    const auto tell = [&](const Level& at) { found(sample((at.first + at.last) / 2)); };
     Level low{from, from}, high = low;
     std::optional<Level> start;  // what a closed curve comes back to
     int direction = 0;
@@ -425,12 +443,12 @@ class Auditor {
       const bool falls = direction >= 0 && now < sample(high.first).kappa - least;
       if (!falls && !(direction <= 0 && now > sample(low.first).kappa + least)) continue;
       const Level& left = falls ? high : low;
-      if (direction != 0) tell(left);
+      if (direction != 0) found(left);
       if (direction == 0) start = left;
       direction = falls ? -1 : 1;
       (falls ? low : high) = {i, i};
     }
-    if (closed && start) tell(*start);
+    if (closed && start) found(*start);
   }
 
   [[nodiscard]] bool beside_singular_end(const Sample& at) const {

@@ -41,9 +41,7 @@ std::optional<Error> broken_promise(const StoredContour& stored, const Verificat
   return stored.report ? too_wide(*stored.report) : std::nullopt;
 }
 
-std::string bound_text(int bound) {
-  return fmt::format("at least {} unless a curve winds between the points", bound);
-}
+std::string bound_text(int bound) { return short_bound_text(bound) + " between the points"; }
 
 std::string vertex_bound_text(int bound) { return "curvature extrema, " + bound_text(bound); }
 

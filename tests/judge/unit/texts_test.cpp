@@ -120,7 +120,8 @@ TEST(JudgeTexts, FindsEveryDoctoredFigureOfAPage) {
       "<!DOCTYPE html>\n<p id=\"verdict\" class=\"kept\">proved: monotone curvature on every run, "
       "G2 "
       "joints, inside the region</p>\n<svg>"
-      "<text x=\"9\" class=\"fact\" text-anchor=\"end\">0 vertices (at least 0) · 0 inflections · "
+      "<text x=\"9\" class=\"fact\" text-anchor=\"end\">0 vertices (at least 0 unless a curve "
+      "winds) · 0 inflections · "
       "region "
       "width 8.3·10⁻⁴ mm</text><text class=\"verdict good\">✓ proved</text></svg>"
       "<table id=\"figures\"><caption>Figures</caption>\n<tbody>\n";
@@ -149,7 +150,7 @@ TEST(JudgeTexts, FindsEveryDoctoredFigureOfAPage) {
     const char *what, *by;
   } kDoctored[] = {{"proved: monotone", "NOT proved: monotone"},
                    {"0 vertices (at", "1 vertex (at"},
-                   {"0) · 0 inflections", "0) · 1 inflection"},
+                   {"winds) · 0 inflections", "winds) · 1 inflection"},
                    {"8.3·10⁻⁴", "8.1·10⁻⁴"},
                    {"8.3·10⁻⁴", "8.3·10⁻³"},
                    {"✓", "✗"},

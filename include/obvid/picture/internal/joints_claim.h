@@ -13,4 +13,8 @@ namespace obvid {
 /// curvature are named where either is above 1e-9; arcs claim nothing of their curvature.
 [[nodiscard]] std::string joints_claim(Carrier carrier, const Certificate& certificate);
 
+/// Vertices or inflections that the points force, and on which curves, in a few words; reports say
+/// more (`bound_text`, docs/claims.md: `vertices_lower_bound`).
+[[nodiscard]] std::string short_bound_text(int bound);
+
 }  // namespace obvid

@@ -16,12 +16,12 @@ struct Outlier {
 };
 
 struct Outliers {
-  std::vector<Outlier> points;  ///< in order
-  double deviation = 0.0;       ///< of the other points from the cubics of their neighbours, units,
-                                ///< for the error of one point
-  double limit = 0.0;           ///< deviations beyond which a point is one
-  std::vector<Outlier> staying{};     ///< of those that are left, farther off than the limit all
-                                      ///< the same: beside corners and sharp bends, and with data
+  std::vector<Outlier> points;     ///< in order
+  double deviation = 0.0;          ///< of all points, those that go too, from the cubics of their
+                                   ///< neighbours, units, for the error of one point
+  double limit = 0.0;              ///< deviations beyond which a point is one
+  std::vector<Outlier> staying{};  ///< of those that are left, farther off than the limit all
+                                   ///< the same: beside corners and sharp bends, and with data
   std::vector<std::size_t> untold{};  ///< of those that are left, that have no such cubic
 };
 

@@ -2,6 +2,7 @@
 #pragma once  // reentrant: docs/threads.md
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -30,5 +31,9 @@ struct Scatter {
 /// motions and scaling but for rounding. Errors: E304 fewer than 20 points can be compared; E302
 /// what is seen is the curve, not scatter: the points are smooth, or too far apart.
 [[nodiscard]] Result<Scatter> scatter_of(const std::vector<Vec2>& points);
+
+/// 1.4826 times the median of the same residuals, each for the error of one point, the part of the
+/// curve with it. Nothing where fewer than 20 points can be compared.
+[[nodiscard]] std::optional<double> middle_deviation(const std::vector<Vec2>& points);
 
 }  // namespace obvid

@@ -65,8 +65,8 @@ struct PatchReport {
                                  ///< degree where there are none
   bool rational = false;
   std::size_t trims = 0;           ///< loops; 0: the whole patch is there
-  double area = 0.0;               ///< units^2, by quadrature: of whole patches good to some 1e-4
-  double area_error = 0.0;         ///< of trimmed patches: what the last step of it changed, and
+  double area = 0.0;               ///< units^2, by quadrature
+  double area_error = 0.0;         ///< what the last step of it changed, of trimmed patches also
                                    ///< what lies between the trims and what they stand for
   Extent gaussian, mean, k1, k2;   ///< as of `curvature_extents`; 1/units^2 and 1/units
   std::size_t without_normal = 0;  ///< samples where the surface has no tangent plane (poles)
@@ -83,8 +83,9 @@ struct JointReport {
   double gap = 0.0;    ///< largest distance of corresponding points, units
   double angle = 0.0;  ///< largest angle between the tangent planes, rad
   double curvature = 0.0;  ///< largest step of the normal curvature across the border, as a share
-                           ///< of the largest curvature beside it
-  int order = 0;           ///< 0 G0, 1 G1, 2 G2, by the limits named below
+                           ///< of the largest curvature beside it; neither this nor the angle is
+                           ///< looked at beside points in which the border ends (poles)
+  int order = 0;                        ///< 0 G0, 1 G1, 2 G2, by the limits named below
   Vec3 gap_at, angle_at, curvature_at;  ///< where on the first patch each of the three is largest
   std::size_t places = 0;               ///< that were looked at before the extremes were climbed to
 };
