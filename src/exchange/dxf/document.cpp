@@ -11,7 +11,7 @@
 namespace obvid::dxf {
 namespace {
 
-enum class Section { kNone, kHeader, kBlocks, kEntities, kOther };
+enum class Section { kNone, kHeader, kTables, kBlocks, kEntities, kOther };
 
 constexpr int kComment = 999;
 
@@ -83,6 +83,8 @@ class DocumentReader {
       open_ = Section::kNone;
     } else if (open_ == Section::kBlocks || open_ == Section::kEntities) {
       entity(type);
+    } else if (open_ == Section::kTables && type == "LAYER") {
+      layer();
     }
     current_.clear();
   }
@@ -94,6 +96,7 @@ class DocumentReader {
     for (const Tag& tag : current_) {
       if (tag.code == 2 && name.empty()) name = tag.text;
     }
+    if (name == "TABLES") open_ = Section::kTables;
     if (name == "BLOCKS") open_ = Section::kBlocks;
     if (name == "ENTITIES") open_ = Section::kEntities;
     if (name == "HEADER") header();
@@ -107,6 +110,21 @@ class DocumentReader {
       if (tag.code != 70) continue;
       if (variable == "$INSUNITS") document_.units = integer(tag).value_or(0);
       if (variable == "$MEASUREMENT") document_.measurement = integer(tag);
+    }
+  }
+
+  /// A frozen layer has bit 1 of its flags, one that is off a negative colour.
+  void layer() {
+    constexpr int kFrozenFlag = 1;
+    std::string_view name;
+    bool frozen = false, off = false;
+    for (const Tag& tag : current_) {
+      if (tag.code == 2) name = tag.text;
+      if (tag.code == 70) frozen = (integer(tag).value_or(0) & kFrozenFlag) != 0;
+      if (tag.code == 62) off = integer(tag).value_or(0) < 0;
+    }
+    if (frozen || off) {
+      document_.hidden_layers[name] = frozen ? LayerState::kFrozen : LayerState::kOff;
     }
   }
 

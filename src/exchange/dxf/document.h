@@ -17,6 +17,12 @@ struct Block {
   std::vector<Entity> entities;
 };
 
+/// How a layer is shown.
+enum class LayerState {
+  kOff,    ///< not what is on it
+  kFrozen  ///< nor what inserts on it bring about
+};
+
 /// What is of use in a DXF file. Texts point into the bytes that it was read from.
 struct Document {
   int units = 0;                   ///< $INSUNITS; 0: none
@@ -24,6 +30,7 @@ struct Document {
   std::string_view units_remark;   ///< what a comment of our own R12 files says instead
   std::vector<Entity> entities;
   std::map<std::string_view, Block> blocks;
+  std::map<std::string_view, LayerState> hidden_layers;
   std::vector<std::string> warnings;
 };
 

@@ -76,6 +76,7 @@ void DrawingBuilder::draw(const Entity& entity, const Affine& map, const Place& 
   // Layer 0 inside a block is the layer of its insert.
   const bool inherits = place.depth > 0 && entity.layer == "0";
   const Source source{&entity, inherits ? place.layer : entity.layer, place.block};
+  if (is_hidden(entity, source.layer)) return;
   if (entity.kind == Kind::kInsert) return insert(entity, map, {source.layer, {}, place.depth});
   Shape shape = shape_of(entity, map);
   if (shape.fault.reason != nullptr) return leave_out(shape.fault, source);
@@ -119,6 +120,18 @@ void DrawingBuilder::leave_out(const Fault& fault, const Source& source) {
   } else {
     left_out_.add(fault, label(source) + place_of(*source.entity));
   }
+}
+
+bool DrawingBuilder::is_hidden(const Entity& entity, std::string_view layer) {
+  const auto state = document_.hidden_layers.find(layer);
+  const bool layer_hides = state != document_.hidden_layers.end() &&
+                           (entity.kind != Kind::kInsert || state->second == LayerState::kFrozen);
+  if (layer_hides) {
+    ++hidden_[layer];
+  } else if (entity.invisible) {
+    ++hidden_[{}];
+  }
+  return layer_hides || entity.invisible;
 }
 
 void DrawingBuilder::see_heights(const Shape& shape, const Source& source) {
@@ -237,6 +250,17 @@ void DrawingBuilder::tell() {
   if (paper_ > 0) {
     drawing_.warnings.push_back(fmt::format("{} {} of the paper space not drawn", paper_,
                                             paper_ == 1 ? "entity was" : "entities were"));
+  }
+  for (const auto& [layer, count] : hidden_) {
+    const std::string which =
+        layer.empty()
+            ? "invisible"
+            : fmt::format(
+                  "on layer {}, which is {}", to_label(layer),
+                  document_.hidden_layers.at(layer) == LayerState::kFrozen ? "frozen" : "off");
+    drawing_.warnings.push_back(
+        fmt::format("{} {}: left out",
+                    count == 1 ? "1 entity is" : fmt::format("{} entities are", count), which));
   }
   if (others_.empty()) return;
   std::vector<std::pair<std::size_t, std::string_view>> kinds;

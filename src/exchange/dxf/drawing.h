@@ -62,6 +62,8 @@ class DrawingBuilder {
   void add_fit_points(const Shape& shape, const Source& source);
   void see_heights(const Shape& shape, const Source& source);
   void leave_out(const Fault& fault, const Source& source);
+  /// Whether the drawing does not show it; then it is counted.
+  bool is_hidden(const Entity& entity, std::string_view layer);
   void take_chains();
   void take_series(const Link& link, const Source& source, bool closed);
   void take_points();
@@ -79,6 +81,7 @@ class DrawingBuilder {
   std::vector<Vec2> points_;
   std::map<std::string_view, std::size_t> layers_;
   std::map<std::string_view, std::size_t> others_;  ///< kinds that are not drawn, how many
+  std::map<std::string_view, std::size_t> hidden_;  ///< by layer; invisible ones: ""
   std::size_t paper_ = 0;
   std::size_t work_ = 0;  ///< entities, points and knots that inserts brought about
   double low_ = 0.0, high_ = 0.0;

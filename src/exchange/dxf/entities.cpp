@@ -108,6 +108,9 @@ class EntityReader {
       case 8:
         e_.layer = tag.text;
         return true;
+      case 60:
+        e_.invisible = number(tag).value_or(0.0) != 0.0;
+        return true;
       case 67:
         e_.paper = number(tag).value_or(0.0) != 0.0;
         return true;

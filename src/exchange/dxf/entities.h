@@ -41,7 +41,8 @@ struct Entity {
   Kind kind = Kind::kOther;
   std::string_view type, handle, layer = "0", block;
   std::size_t line = 0;
-  bool paper = false;            ///< lies in the paper space
+  bool paper = false;  ///< lies in the paper space
+  bool invisible = false;
   Point3 normal{0.0, 0.0, 1.0};  ///< of the plane whose coordinates plane entities are given in
   Point3 at;      ///< start of a line, centre, insertion point, elevation of a polyline, the point
   Point3 second;  ///< end of a line, major axis of an ellipse

@@ -91,8 +91,10 @@ class Taken {
     }
     if (splines_.count > 0) {
       made_.warnings.push_back(fmt::format(
-          "{}: drawn by points alone, cut along the cubic spline through them (by the chords, "
-          "curvature 0 at ends without a direction), as CAD systems draw it: {}",
+          "{}: drawn by points alone, cut along the cubic spline through them (by the chords; "
+          "where "
+          "the last point is the first one smooth over it, else with curvature 0 at ends without a "
+          "direction; CAD systems may draw another): {}",
           drawing.name, splines_.text()));
     }
     no_outlines_ = edges_ = splines_ = {};
