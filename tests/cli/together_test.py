@@ -111,6 +111,12 @@ class Together(unittest.TestCase):
                 self.assertTrue(any(abs(one - length) <= CLOSE * length and where == layer for one, where in found),
                                 (layer, length, found))
 
+    def test_formed_contours_are_on_the_layers_of_their_points(self):
+        drawing(self.at / "d.dxf", CURVES[:5])
+        self.run_program("fit", "d.dxf", "--curve", "all", "-o", "out.dxf")
+        layers = [e.dxf.layer for e in self.dxf("out.dxf").modelspace()]
+        self.assertEqual(layers, [layer for layer, _, _ in CURVES[:5]])
+
     def test_more_layers_than_handles_of_tables(self):
         curves = [(f"L{i}", lambda m, a, i=i: m.add_line((0, i), (10, i), dxfattribs=a), 10.0) for i in range(300)]
         drawing(self.at / "d.dxf", curves)

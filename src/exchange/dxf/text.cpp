@@ -91,6 +91,13 @@ std::string layer_name(string_view label) {
   for (std::size_t count = 0; !label.empty() && count < kLongestName; ++count) {
     const auto code = take_utf8(label);
     if (!code) label.remove_prefix(1);
+    // the code page of such files; two in a row could be read as UTF-8
+    const bool alone = label.empty() || static_cast<unsigned char>(label.front()) < 0x80U;
+    const bool behind = !out.empty() && static_cast<unsigned char>(out.back()) >= 0x80U;
+    if (code && *code >= 0xA0U && *code <= 0xFFU && alone && !behind) {
+      out += static_cast<char>(*code);
+      continue;
+    }
     if (code && *code >= 0xA0U && *code < kPlane) {
       out += fmt::format("\\U+{:04X}", *code);
       continue;

@@ -15,7 +15,8 @@ namespace obvid::dxf {
 /// The longest name that DXF has, characters.
 inline constexpr std::size_t kLongestName = 255;
 
-/// A name of a layer in an R2000 file: letters beyond ASCII as \U+00E4, what may not stand in such
+/// A name of a layer in an R2000 file: letters of Latin-1 as bytes of
+/// its code page, others as \U+0416, what may not stand in such
 /// names as _ . "0" for nothing.
 [[nodiscard]] std::string layer_name(std::string_view label);
 

@@ -521,6 +521,8 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
     out = pipeline_detail::series_of(drawing.curves[chosen], options.use, options.tolerance);
     const DrawnCurve& curve = drawing.curves[chosen];
     out.label = curve.name.empty() ? curve.label : curve.name;
+    out.id = curve.id;
+    out.layer = curve.layer;
   } else {
     out = drawing.series[chosen - drawing.curves.size()];
     if (!options.list.heights) out.fixed.clear();  // of maps: heights, which alignments take
