@@ -40,7 +40,6 @@ struct CurveAudit {
   std::string label;
   std::string layer;                          ///< of the drawing, where it has layers
   std::string name;                           ///< what the file itself calls it; empty: nothing
-  std::string id;                             ///< by what the file tells it from others, likewise
   std::optional<double> station;              ///< of its start, units; of alignments
   std::vector<PlacedTransition> transitions;  ///< which pieces are clothoids in their place
   std::optional<VerticalProfile> profile;     ///< of alignments whose file has heights

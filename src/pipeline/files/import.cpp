@@ -531,6 +531,8 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
     if (edges) {
       out = pipeline_detail::series_of(edges_of(out), options.use, options.tolerance);
       out.label = drawing.series[chosen - drawing.curves.size()].name;
+      out.id = drawing.series[chosen - drawing.curves.size()].id;
+      out.layer = drawing.series[chosen - drawing.curves.size()].layer;
     }
   }
   out.name = drawing.name + (out.label.empty() ? "" : ": " + out.label);

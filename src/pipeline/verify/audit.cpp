@@ -60,7 +60,6 @@ class Auditor {
   Auditor(const DrawnCurve& curve, const Units& units, const RunContext& run) : watch_(run) {
     out_.label = curve.label;
     out_.name = curve.name;
-    out_.id = curve.id;
     out_.station = curve.station;
     out_.transitions = curve.transitions;
     out_.profile = curve.profile;
