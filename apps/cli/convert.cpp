@@ -76,8 +76,10 @@ int tell(const ConvertOptions& options, const Result<Converted>& done) {
   return 0;
 }
 
+/// One of several: its own files, and itself for those that hold all.
 Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
-                         const std::vector<std::string>& outputs) {
+                         const std::vector<std::string>& outputs,
+                         std::vector<TitledContour>* together) {
   Summary out;
   ConvertOptions options = all;
   options.input = one.input;
@@ -90,6 +92,11 @@ Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
     return error(ErrorCode::kUnsupported, "curves in space are converted one file at a time")
         .where(options.input);
   }();
+  if (contour && together != nullptr) {
+    together->push_back(*contour);
+    name_for_all(one, together->back());
+  }
+  const std::string name = contour ? contour->name : "";
   const auto done = converted(options, std::move(contour), {});
   if (!done) {
     out.error = done.error();
@@ -97,7 +104,7 @@ Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
   }
   out.warnings = done->warnings;
   out.cells = airfoil_cells(done->files);
-  out.verdict = "written " + listed(done->files);
+  out.verdict = done->files.empty() ? name : "written " + listed(done->files);
   return out;
 }
 
@@ -105,11 +112,19 @@ int convert_several(const ConvertOptions& options) {
   const bool edges = options.import.use == DrawnUse::kExact;
   const auto all = all_of_them(options.inputs, options.input, options.import, edges);
   if (!all) return report(all.error());
+  const auto outputs = several_outputs(options.outputs, options.formats);
+  if (!outputs) return report(outputs.error());
   Several several(*all, summary_form(false, false, options.quiet));
-  return several.run(options.outputs,
-                     [&](const OneOf& one, const std::vector<std::string>& outputs) {
-                       return summary_of_files(options, one, outputs);
-                     });
+  std::vector<TitledContour> contours;
+  return several.run(
+      *outputs,
+      [&](const OneOf& one, const std::vector<std::string>& files) {
+        return summary_of_files(options, one, files,
+                                outputs->together.empty() ? nullptr : &contours);
+      },
+      [&](const std::vector<Output>& files) {
+        return write_together(contours, files, options.formats);
+      });
 }
 
 }  // namespace

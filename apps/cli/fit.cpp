@@ -90,7 +90,8 @@ Result<std::vector<std::string>> write_contour(Fit& made, const std::vector<Outp
 
 /// One of several: what a line says of it.
 Summary summary_of_fit(const FitOptions& all, const OneOf& one,
-                       const std::vector<std::string>& outputs) {
+                       const std::vector<std::string>& outputs,
+                       std::vector<TitledContour>* together) {
   Summary out;
   const auto failed = [&](const Error& error) {
     out.error = error;
@@ -125,17 +126,28 @@ Summary summary_of_fit(const FitOptions& all, const OneOf& one,
   for (SummaryCell& cell : airfoil_cells(*written)) out.cells.push_back(std::move(cell));
   out.verdict = made->certificate.proved ? "proved" : "formed";
   if (!options.construction) out.error = broken_promise(*made);
+  if (together != nullptr) {
+    together->push_back(titled_contour(std::move(*made), *series, options.name()));
+    name_for_all(one, together->back());
+  }
   return out;
 }
 
 int fit_several(const FitOptions& options) {
   const auto all = all_of_them(options.inputs, options.input, options.import, true);
   if (!all) return report(all.error());
+  const auto outputs = several_outputs(options.outputs, options.formats);
+  if (!outputs) return report(outputs.error());
   Several several(*all, summary_form(options.csv, options.json, options.quiet));
-  return several.run(options.outputs,
-                     [&](const OneOf& one, const std::vector<std::string>& outputs) {
-                       return summary_of_fit(options, one, outputs);
-                     });
+  std::vector<TitledContour> contours;
+  return several.run(
+      *outputs,
+      [&](const OneOf& one, const std::vector<std::string>& files) {
+        return summary_of_fit(options, one, files, outputs->together.empty() ? nullptr : &contours);
+      },
+      [&](const std::vector<Output>& files) {
+        return write_together(contours, files, options.formats);
+      });
 }
 
 }  // namespace

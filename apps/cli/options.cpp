@@ -299,7 +299,8 @@ void add_fit(CLI::App& app, Raw& raw) {
   fit.add_option("INPUT", raw.inputs, kInputsHelp)->type_name("");
   add_output(fit, raw.fit.outputs, raw.format,
              "File to write, format by file extension: " + known_endings() +
-                 "; of several inputs 'NAME{id}.svg', {id} being the name of each");
+                 "; of several inputs 'NAME{id}.svg', {id} being the name of each, or one file of "
+                 "all: .dxf, .svg, .step, .iges, .brep");
   fit.add_option("--carrier", raw.carrier,
                  "Curve family: " + carriers_listed(true, ", ") + ", all monotone; " +
                      carriers_listed(false, " and ") + ", not promised to be monotone [spiral]")
@@ -475,14 +476,15 @@ void add_convert(CLI::App& app, Raw& raw) {
       .add_option(
           "CONTOUR", raw.inputs,
           "Contour file (.json), - for standard input, or a drawing (STEP, DXF, SVG, ...); several "
-          "with -o 'NAME{id}.dxf'")
+          "with -o 'NAME{id}.dxf', or -o NAME.dxf for one file of all")
       ->type_name("");
   add_output(convert, raw.convert.outputs, raw.format,
              "File to write, format by file extension: " + known_endings());
   convert
       .add_option("--curve", raw.formats.curve,
                   "Which curve of a drawing: its number from 1, its name, or a word of it; all: "
-                  "each in a file of its own, -o 'NAME{id}.dxf' [the longest]")
+                  "each in a file of its own, -o 'NAME{id}.json', or in one, -o NAME.dxf [the "
+                  "longest]")
       ->type_name("N|NAME|all");
   convert
       .add_option("--drawing", raw.formats.drawing,

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "obvid/core/files.h"
 #include "obvid/core/internal/name_pattern.h"
+#include "obvid/pipeline/internal/export_together.h"
 #include "terminal.h"
 #include "text.h"
 
@@ -56,10 +58,18 @@ Result<std::vector<OneOf>> all_of_them(const std::vector<std::string>& inputs,
     const auto drawing = read_drawing(name, import.planes);
     OBVID_TRY(drawing);
     const std::size_t curves = drawing->curves.size();
+    std::size_t left = 0;
     for (std::size_t i = 0; i < curves + drawing->series.size(); ++i) {
-      const bool taken =
-          i < curves || (points && drawing->series[i - curves].kind != SeriesKind::kWaypoints);
+      const bool drawn = i < curves || drawing->series[i - curves].kind != SeriesKind::kWaypoints;
+      const bool taken = i < curves || (points && drawn);
+      if (drawn && !taken) ++left;
       if (taken) out.push_back({name, i, fmt::format("{}-{}", id_of(name), i + 1)});
+    }
+    if (left > 0) {
+      warn(
+          {fmt::format("{}: {} no curve and left out: --drawing exact takes edges, `obvid fit` "
+                       "forms contours",
+                       name, counted(left, "series of points is", "series of points are"))});
     }
   }
   return out;
@@ -79,11 +89,57 @@ Result<std::vector<std::string>> outputs_for(const std::vector<std::string>& out
   return out;
 }
 
-std::optional<Error> Several::check(const std::vector<std::string>& outputs) const {
+Result<SeveralOutputs> several_outputs(const std::vector<std::string>& outputs,
+                                       const ExportOptions& options) {
+  SeveralOutputs out;
+  for (const std::string& name : outputs) {
+    if (has_place(name, kPlaceOfId)) {
+      out.each.push_back(name);
+      continue;
+    }
+    auto output = output_of(name);
+    OBVID_TRY(output);
+    if (auto able = can_export_together(output->format, options); !able) {
+      Error error = able.error();
+      if (error.where.empty()) error.where = name;
+      return fail(std::move(error));
+    }
+    out.together.push_back(std::move(*output));
+  }
+  return out;
+}
+
+void name_for_all(const OneOf& one, TitledContour& contour) {
+  if (!contour.stored.name.empty()) contour.name = contour.stored.name;
+  if (contour.name == TitledContour{}.name) contour.name = one.id;
+}
+
+Result<std::vector<std::string>> write_together(const std::vector<TitledContour>& contours,
+                                                const std::vector<Output>& outputs,
+                                                const ExportOptions& options) {
+  std::vector<std::string> lines;
+  if (contours.empty()) return lines;  // each has said why
+  std::vector<Output> files;
+  FileNotes notes;
+  for (const Output& output : outputs) {
+    auto made = named_files(output, export_together(contours, output.format, options), notes);
+    OBVID_TRY(made);
+    std::move(made->begin(), made->end(), std::back_inserter(files));
+  }
+  const auto written = write_files(files);
+  OBVID_TRY(written);
+  warn(notes.warnings);
+  lines = std::move(notes.remarks);
+  lines.push_back("written  " + listed(*written));
+  return lines;
+}
+
+std::optional<Error> Several::check(const SeveralOutputs& outputs) const {
   std::vector<std::string> inputs, names;
+  for (const Output& output : outputs.together) names.push_back(output.path);
   for (const OneOf& one : all_) {
     inputs.push_back(one.input);
-    const auto own = outputs_for(outputs, one);
+    const auto own = outputs_for(outputs.each, one);
     if (!own) return own.error();
     names.insert(names.end(), own->begin(), own->end());
   }
@@ -137,13 +193,15 @@ std::string Several::csv_lines(const std::string& name, Summary summary) {
   return out + summary_csv(name, summary);
 }
 
-int Several::end() {
+int Several::end(const std::vector<std::string>& lines) {
   std::string left = waiting_.empty() ? "" : summary_csv_head({});
   for (const auto& [name, one] : waiting_) left += summary_csv(name, one);
   if (auto done = put(left); !done) return report(done.error());
   if (form_ == SummaryForm::kText) {
+    std::string told;
+    for (const std::string& line : lines) told += line + "\n";
     const std::string all = counted(all_.size(), "input", "inputs");
-    if (auto done = put(fmt::format("{}, {} as asked\n", all, fine_)); !done) {
+    if (auto done = put(told + fmt::format("{}, {} as asked\n", all, fine_)); !done) {
       return report(done.error());
     }
   }

@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "obvid/core/result.h"
+#include "obvid/pipeline/export.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/summary.h"
+#include "obvid/pipeline/internal/titled_contour.h"
+#include "outputs.h"
 
 namespace obvid {
 
@@ -32,7 +35,8 @@ enum class SummaryForm { kText, kCsv, kJson, kNothing };
 /// Whether a command has more than one thing to do.
 [[nodiscard]] bool are_several(const std::vector<std::string>& inputs, const CurveChoice& curve);
 
-/// All of them; `points`: series of points of drawings count beside curves (waypoints never).
+/// All of them; `points`: series of points of drawings count beside curves (waypoints never), else a
+/// warning tells that they do not.
 /// Errors: those of reading a drawing whose curves are asked for.
 [[nodiscard]] Result<std::vector<OneOf>> all_of_them(const std::vector<std::string>& inputs,
                                                      const std::string& input,
@@ -42,6 +46,26 @@ enum class SummaryForm { kText, kCsv, kJson, kNothing };
 [[nodiscard]] Result<std::vector<std::string>> outputs_for(const std::vector<std::string>& outputs,
                                                            const OneOf& one);
 
+/// Outputs of several contours: a file for each, and files that hold all of them.
+struct SeveralOutputs {
+  std::vector<std::string> each;  ///< with `{id}`
+  std::vector<Output> together;
+};
+
+/// Which is which. Errors: E202; E203 a name without `{id}` of a format that holds one contour;
+/// E310.
+[[nodiscard]] Result<SeveralOutputs> several_outputs(const std::vector<std::string>& outputs,
+                                                     const ExportOptions& options);
+
+/// What a contour of no name is called among others: as its input.
+void name_for_all(const OneOf& one, TitledContour& contour);
+
+/// Writes the files that hold all; a line for each. Warnings are printed. Errors: those of
+/// `export_together`, and of writing.
+[[nodiscard]] Result<std::vector<std::string>> write_together(
+    const std::vector<TitledContour>& contours, const std::vector<Output>& outputs,
+    const ExportOptions& options);
+
 /// Does `work` for each, prints its line, then how many were fine; the exit code is that of the
 /// first that was not.
 class Several {
@@ -50,21 +74,30 @@ class Several {
 
   template <class Work>
   int run(const std::vector<std::string>& outputs, const Work& work) {
+    return run({outputs, {}}, work, [](const auto&) { return std::vector<std::string>{}; });
+  }
+
+  /// The same; `all` gets the files that hold all when each is done, and says a line for each.
+  template <class Work, class All>
+  int run(const SeveralOutputs& outputs, const Work& work, const All& all) {
     if (auto error = check(outputs)) return refused(*error);
     for (const OneOf& one : all_) {
-      const auto names = outputs_for(outputs, one);
+      const auto names = outputs_for(outputs.each, one);
       if (!names) return refused(names.error());
       if (const int code = tell(one, work(one, *names)); code != 0) return code;
     }
-    return end();
+    if (outputs.together.empty()) return end({});
+    const Result<std::vector<std::string>> lines = all(outputs.together);
+    if (!lines) return refused(lines.error());
+    return end(*lines);
   }
 
  private:
-  [[nodiscard]] std::optional<Error> check(const std::vector<std::string>& outputs) const;
+  [[nodiscard]] std::optional<Error> check(const SeveralOutputs& outputs) const;
   static int refused(const Error& error);
   int tell(const OneOf& one, Summary summary);
   std::string csv_lines(const std::string& name, Summary summary);
-  int end();
+  int end(const std::vector<std::string>& lines);
 
   std::vector<OneOf> all_;
   SummaryForm form_;

@@ -23,6 +23,7 @@
 #include "obvid/pipeline/alignment_job.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/construction_fit.h"
+#include "obvid/pipeline/internal/export_together.h"
 #include "obvid/pipeline/internal/mesh_sections.h"
 #include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/space_fit.h"
@@ -109,6 +110,9 @@ OBVID_LATER(Result<std::string> cad_text(const std::vector<CadCurve>&, const Cad
                                          const CadRun&))
 OBVID_LATER(std::string dxf_unit(const Units&))
 OBVID_LATER(Result<DxfText> dxf_text(const Contour&, const DxfOptions&, Watch*))
+OBVID_LATER(Result<void> can_export_together(FileFormat, const ExportOptions&))
+OBVID_LATER(Result<Exported> export_together(const std::vector<TitledContour>&, FileFormat,
+                                             const ExportOptions&, const RunContext&))
 OBVID_LATER(Result<GcodeText> gcode_text(const Contour&, const GcodeOptions&, Watch*))
 OBVID_LATER(std::vector<Piece> exchange::whole_arcs(const std::vector<Piece>&))
 OBVID_LATER(std::size_t elements_in(std::size_t, const std::vector<PlacedTransition>&))

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fewest_pieces.h"
@@ -30,6 +31,12 @@ double on_the_end(double station, double length) {
   return station;
 }
 
+/// Below the last digit of coordinates an offset is none: lines through points on them leave
+/// 5e-156.
+double beyond_rounding(double offset, double rounding) {
+  return std::abs(offset) <= rounding ? 0.0 : offset;
+}
+
 Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
                        const std::vector<double>& tolerance, bool closed) {
   Alignment out;
@@ -52,14 +59,19 @@ Alignment alignment_of(const Chain& chain, const std::vector<Foot>& feet,
   }
   out.end = joints.back();
   if (closed) out.end.point = joints.front().point;
-  double squares = 0.0;
+  double squares = 0.0, coordinate = 0.0;
+  for (const Element& joint : joints) {
+    coordinate = std::max({coordinate, std::abs(joint.point.x), std::abs(joint.point.y)});
+  }
+  const double rounding = std::numeric_limits<double>::epsilon() * coordinate;
   for (std::size_t i = 0; i < feet.size(); ++i) {
+    const double offset = beyond_rounding(feet[i].offset, rounding);
     double at = station[feet[i].element] + feet[i].s;
     if (closed && at >= station[0] + out.length) at -= out.length;
     if (!closed) at = on_the_end(at, out.length);
-    out.deviations.push_back({at, feet[i].offset});
-    out.largest_share = std::max(out.largest_share, std::abs(feet[i].offset) / tolerance[i]);
-    squares += feet[i].offset * feet[i].offset;
+    out.deviations.push_back({at, offset});
+    out.largest_share = std::max(out.largest_share, std::abs(offset) / tolerance[i]);
+    squares += offset * offset;
   }
   out.rms = std::sqrt(squares / static_cast<double>(feet.size()));
   return out;

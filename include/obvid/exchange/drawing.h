@@ -20,6 +20,7 @@ struct DrawnCurve {
   bool closed = false;        ///< the last piece ends where the first one starts
   std::string layer{};        ///< of the drawing, where it has layers
   std::string name{};         ///< what the file itself calls it, where it does
+  std::string id{};           ///< by what the file tells it from others, where it does: "rect7"
   std::optional<double> station{};              ///< of its start, units; of alignments
   std::vector<PlacedTransition> transitions{};  ///< what clothoids stand for, in order
   std::optional<VerticalProfile> profile{};     ///< heights over its stations, units

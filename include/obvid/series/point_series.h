@@ -67,6 +67,7 @@ struct PointSeries {
   double height_rounding = 0.0;           ///< the same of heights
   std::vector<std::string> warnings;      ///< sentences for the user, e.g. merged duplicates
   std::optional<ThroughPoints> spline{};  ///< what is drawn through them, where that is no polyline
+  std::string id{};  ///< by what its drawing tells it from others: "rect7", where it does
 };
 
 /// The unit that the user states, with a warning when the file says otherwise.

@@ -169,7 +169,7 @@ void DrawingBuilder::add(Shape shape, const Source& source) {
 void DrawingBuilder::add_fit_points(const Shape& shape, const Source& source) {
   PointSeries series;
   series.name = "fit points of " + label(source);
-  series.layer = to_label(source.layer);
+  series.layer = to_label(source.layer, kLongestName);
   series.units = drawing_.units;
   series.points = shape.points;
   if (shape.closed && series.points.back() != series.points.front()) {
@@ -194,7 +194,8 @@ void DrawingBuilder::take_chains() {
       take_series(links_[first], sources_[first], chain.closed);
       continue;
     }
-    DrawnCurve curve{label(chain), {}, chain.closed, to_label(sources_[first].layer)};
+    DrawnCurve curve{label(chain), {}, chain.closed, to_label(sources_[first].layer, kLongestName)};
+    curve.id = id_of(sources_[first]);
     for (const Chain::Member& member : chain.members) {
       std::vector<Piece>& pieces = links_[member.link].pieces;
       if (member.reversed) {
@@ -212,7 +213,8 @@ void DrawingBuilder::take_chains() {
 void DrawingBuilder::take_series(const Link& link, const Source& source, bool closed) {
   PointSeries series;
   series.name = label(source);
-  series.layer = to_label(source.layer);
+  series.id = id_of(source);
+  series.layer = to_label(source.layer, kLongestName);
   series.units = drawing_.units;
   series.points.push_back(start_point(link.pieces.front()));
   for (const Piece& piece : link.pieces) series.points.push_back(end_point(piece));
@@ -280,6 +282,11 @@ void DrawingBuilder::tell() {
 std::string DrawingBuilder::place_of(const Entity& entity) const {
   if (entity.handle.empty()) return {};  // then the label says it
   return fmt::format(" ({} {})", binary_ ? "byte" : "line", entity.line);
+}
+
+std::string DrawingBuilder::id_of(const Source& source) {
+  const Entity& e = *source.entity;
+  return e.handle.empty() ? "" : to_label(e.type) + "-" + to_label(e.handle);
 }
 
 std::string DrawingBuilder::label(const Source& source) const {

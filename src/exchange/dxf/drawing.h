@@ -68,6 +68,7 @@ class DrawingBuilder {
   void take_series(const Link& link, const Source& source, bool closed);
   void take_points();
   void tell();
+  [[nodiscard]] static std::string id_of(const Source& source);
   [[nodiscard]] std::string label(const Source& source) const;
   [[nodiscard]] std::string place_of(const Entity& entity) const;
   [[nodiscard]] std::string label(const Chain& chain) const;

@@ -52,6 +52,8 @@ CLASSES
 ENDSEC
 )";
 
+constexpr unsigned kFirstHandle = 0x80;  // free among those of the tables, up to 0xFF
+
 /// One table: head, entries, end.
 class Tables {
  public:
@@ -117,11 +119,11 @@ void add_linetypes(DxfWriter& out, Tables& tables) {
 
 void add_layers(DxfWriter& out, Tables& tables, const std::vector<DxfLayer>& more) {
   std::vector<std::pair<std::string, DxfLayer>> layers{{"10", {"0", kWhiteOrBlack}}};
-  constexpr unsigned kFirstHandle = 0x80;  // free among those of the tables
   for (const DxfLayer& layer : more) {
     if (layer.name == "0") continue;
     const auto number = static_cast<unsigned>(layers.size()) - 1;
-    layers.emplace_back(number == 0 ? "11" : fmt::format("{:X}", kFirstHandle + number), layer);
+    const std::string own = number == 0 ? "11" : fmt::format("{:X}", kFirstHandle + number);
+    layers.emplace_back(layer.handle.empty() ? own : layer.handle, layer);
   }
   tables.begin("LAYER", "2", static_cast<int>(std::max<std::size_t>(layers.size(), 2)));
   for (const auto& [handle, layer] : layers) {
@@ -194,6 +196,11 @@ void end_section(DxfWriter& out) { out.pair(0, "ENDSEC"); }
 
 }  // namespace
 
+void give_handles(std::vector<DxfLayer>& layers, DxfWriter& out) {
+  constexpr std::size_t kFew = 0x7F;
+  for (std::size_t i = kFew; i < layers.size(); ++i) layers[i].handle = out.handle();
+}
+
 std::string r2000_head(const std::vector<DxfLayer>& layers, int units, const std::string& seed,
                        Vec2 low, Vec2 high) {
   DxfWriter out;
@@ -254,7 +261,8 @@ std::string r2000_tail() {
   return out.take();
 }
 
-std::string r12_head(const std::string& layer, const std::string& units, Vec2 low, Vec2 high) {
+std::string r12_head(const std::vector<std::string>& layers, const std::string& units, Vec2 low,
+                     Vec2 high) {
   DxfWriter out;
   if (!units.empty()) out.pair(999, kUnitsComment + units);
   begin_section(out, "HEADER");
@@ -279,12 +287,14 @@ std::string r12_head(const std::string& layer, const std::string& units, Vec2 lo
   out.pair(0, "ENDTAB");
   out.pair(0, "TABLE");
   out.pair(2, "LAYER");
-  out.pair(70, 1);
-  out.pair(0, "LAYER");
-  out.pair(2, layer);
-  out.pair(70, 0);
-  out.pair(62, 7);
-  out.pair(6, "CONTINUOUS");
+  out.pair(70, static_cast<int>(layers.size()));
+  for (const std::string& layer : layers) {
+    out.pair(0, "LAYER");
+    out.pair(2, layer);
+    out.pair(70, 0);
+    out.pair(62, 7);
+    out.pair(6, "CONTINUOUS");
+  }
   out.pair(0, "ENDTAB");
   end_section(out);
   begin_section(out, "ENTITIES");

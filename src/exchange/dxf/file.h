@@ -47,7 +47,11 @@ inline constexpr int kWhiteOrBlack = 7;
 struct DxfLayer {
   std::string name;
   int color = kWhiteOrBlack;
+  std::string handle{};  ///< empty: one below those of the entities, of which there are few
 };
+
+/// Handles of their own for layers beyond the few.
+void give_handles(std::vector<DxfLayer>& layers, DxfWriter& out);
 
 /// What stands around the entities of an R2000 file: header, tables, blocks, objects.
 [[nodiscard]] std::string r2000_head(const std::vector<DxfLayer>& layers, int units,
@@ -57,8 +61,8 @@ struct DxfLayer {
 inline constexpr const char* kModelSpace = "1F";
 
 /// R12 knows no units: a comment names them, which `parse_dxf` understands.
-[[nodiscard]] std::string r12_head(const std::string& layer, const std::string& units, Vec2 low,
-                                   Vec2 high);
+[[nodiscard]] std::string r12_head(const std::vector<std::string>& layers, const std::string& units,
+                                   Vec2 low, Vec2 high);
 inline constexpr const char* kUnitsComment = "obvid: lengths in ";
 
 }  // namespace obvid::exchange

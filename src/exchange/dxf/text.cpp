@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dxf/text.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cstdint>
 #include <optional>
@@ -9,8 +11,6 @@ namespace obvid::dxf {
 namespace {
 
 using std::string_view;
-
-constexpr std::size_t kLongest = 60;  // characters of a label
 
 void append_utf8(std::uint32_t code, std::string& out) {
   const auto byte = [&](std::uint32_t value) { out += static_cast<char>(value); };
@@ -68,10 +68,10 @@ std::optional<std::uint32_t> take_escape(string_view& text) {
 
 }  // namespace
 
-std::string to_label(string_view name) {
+std::string to_label(string_view name, std::size_t longest) {
   std::string out;
   for (std::size_t count = 0; !name.empty(); ++count) {
-    if (count == kLongest) return out + "...";
+    if (count == longest) return out + "...";
     auto code = take_escape(name);
     if (!code) code = take_utf8(name);
     if (!code) {
@@ -82,6 +82,34 @@ std::string to_label(string_view name) {
     append_utf8(control ? '?' : *code, out);
   }
   return out;
+}
+
+std::string layer_name(string_view label) {
+  constexpr string_view kForbidden = "<>/\\\":;?*|,=`";
+  constexpr std::uint32_t kPlane = 0x10000U;  // letters beyond have no such escape
+  std::string out;
+  for (std::size_t count = 0; !label.empty() && count < kLongestName; ++count) {
+    const auto code = take_utf8(label);
+    if (!code) label.remove_prefix(1);
+    // the code page of such files; two in a row could be read as UTF-8
+    const bool alone = label.empty() || static_cast<unsigned char>(label.front()) < 0x80U;
+    const bool behind = !out.empty() && static_cast<unsigned char>(out.back()) >= 0x80U;
+    if (code && *code >= 0xA0U && *code <= 0xFFU && alone && !behind) {
+      out += static_cast<char>(*code);
+      continue;
+    }
+    if (code && *code >= 0xA0U && *code < kPlane) {
+      out += fmt::format("\\U+{:04X}", *code);
+      continue;
+    }
+    const bool plain = code && *code >= 0x20U && *code < 0x7FU;
+    const char c = plain ? static_cast<char>(*code) : '_';
+    out += kForbidden.find(c) == string_view::npos ? c : '_';
+  }
+  // blanks around it get lost where values are trimmed
+  const std::size_t first = out.find_first_not_of(' ');
+  if (first == std::string::npos) return "0";
+  return out.substr(first, out.find_last_not_of(' ') + 1 - first);
 }
 
 }  // namespace obvid::dxf

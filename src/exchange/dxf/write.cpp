@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/dxf/write.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "dxf/file.h"
 #include "dxf/parts.h"
+#include "dxf/text.h"
 #include "dxf/units.h"
 #include "exact_conics.h"
 #include "obvid/contour/arcs/arcs_along.h"
@@ -49,47 +55,109 @@ double within(double angle, double turn) {
   return rest < 0.0 ? rest + turn : rest;
 }
 
+/// Names of layers in the file: no two names of ours become one there. Case does not tell layers
+/// apart.
+class LayerNames {
+ public:
+  explicit LayerNames(bool r12) : r12_(r12) {}
+
+  /// The name in the file of a layer that we call `name`.
+  const std::string& of(const std::string& name) {
+    if (const auto known = names_.find(name); known != names_.end()) return known->second;
+    const std::string wanted = r12_ ? safe_name(name) : dxf::layer_name(name);
+    std::string given = wanted;
+    for (int k = 2; !taken_.insert(upper(given)).second; ++k)
+      given = wanted + fmt::format("_{}", k);
+    layers_.push_back(given);
+    return names_[name] = given;
+  }
+  [[nodiscard]] const std::vector<std::string>& all() const { return layers_; }
+  /// How many are not called as they were.
+  [[nodiscard]] std::size_t changed() const {
+    return static_cast<std::size_t>(
+        std::count_if(names_.begin(), names_.end(), [this](const auto& one) {
+          return r12_ ? one.first != one.second
+                      : dxf::to_label(one.second, one.first.size()) != one.first;
+        }));
+  }
+
+ private:
+  static std::string upper(std::string name) {
+    for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return name;
+  }
+  bool r12_;
+  std::map<std::string, std::string> names_;
+  std::set<std::string> taken_;
+  std::vector<std::string> layers_;
+};
+
 class DxfDrawer {
  public:
-  DxfDrawer(const Contour& contour, const DxfOptions& options, Watch* watch)
-      : contour_(contour), options_(options), watch_(watch), layer_(safe_name(options.layer)) {}
+  DxfDrawer(const std::vector<DxfCurve>& curves, DxfProfile profile, Watch* watch)
+      : curves_(curves),
+        profile_(profile),
+        watch_(watch),
+        layers_(profile == DxfProfile::kArcsR12) {}
+
+  /// One curve in a file of its own, each piece an entity where it can be one.
+  Result<DxfText> run(const std::string& layer) {
+    layer_ = safe_name(layer);
+    in_pieces_ = true;
+    return run();
+  }
 
   Result<DxfText> run() {
-    find_extents();
-    if (!std::isfinite(norm(box_.size()))) {
-      return error(ErrorCode::kNotFinite, "a coordinate of the contour is not finite")
-          .value(norm(box_.size()));
+    Box2 box;
+    for (const DxfCurve& curve : curves_) {
+      find_extents(curve.contour);
+      box.add(box_.low);
+      box.add(box_.high);
+      OBVID_TRY(add(curve));
+      if (is_to_end(watch_)) return fail(cancelled_error());
     }
-    Result<void> done;
-    switch (options_.profile) {
-      case DxfProfile::kExact:
-        done = exact();
-        break;
-      case DxfProfile::kArcs:
-      case DxfProfile::kArcsR12:
-        done = arcs();
-        break;
-      case DxfProfile::kCubic:
-        done = cubic();
-        break;
-    }
-    OBVID_TRY(done);
-    if (is_to_end(watch_)) return fail(cancelled_error());
-    if (options_.profile == DxfProfile::kArcsR12) {
-      result_.text = exchange::r12_head(layer_, dxf_unit(contour_.units), box_.low, box_.high) +
-                     out_.take() + "  0\nENDSEC\n  0\nEOF\n";
+    const Units& units = curves_.front().contour.units;
+    std::vector<std::string> names = in_pieces_ ? std::vector{layer_} : layers_.all();
+    result_.layers = names.size();
+    result_.renamed = layers_.changed();
+    if (profile_ == DxfProfile::kArcsR12) {
+      result_.text = exchange::r12_head(names, dxf_unit(units), box.low, box.high) + out_.take() +
+                     "  0\nENDSEC\n  0\nEOF\n";
     } else {
+      std::vector<exchange::DxfLayer> layers;
+      for (std::string& name : names) layers.push_back({std::move(name)});
+      exchange::give_handles(layers, out_);
       const std::string seed = out_.next_handle();
-      result_.text =
-          exchange::r2000_head({{layer_}}, unit_code(contour_.units), seed, box_.low, box_.high) +
-          out_.take() + exchange::r2000_tail();
+      result_.text = exchange::r2000_head(layers, unit_code(units), seed, box.low, box.high) +
+                     out_.take() + exchange::r2000_tail();
     }
     return std::move(result_);
   }
 
  private:
-  void find_extents() {
-    for (const Piece& piece : contour_.pieces) {
+  Result<void> add(const DxfCurve& curve) {
+    if (!std::isfinite(norm(box_.size()))) {
+      return error(ErrorCode::kNotFinite, "a coordinate of the contour is not finite")
+          .value(norm(box_.size()));
+    }
+    contour_ = &curve.contour;
+    tolerance_ = curve.tolerance;
+    if (!in_pieces_) layer_ = layers_.of(curve.layer);
+    switch (profile_) {
+      case DxfProfile::kExact:
+        return exact();
+      case DxfProfile::kArcs:
+      case DxfProfile::kArcsR12:
+        return arcs();
+      case DxfProfile::kCubic:
+        return cubic();
+    }
+    return {};
+  }
+
+  void find_extents(const Contour& contour) {
+    box_ = {};
+    for (const Piece& piece : contour.pieces) {
       for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         const Vec2 p = evaluate(piece, t).point;
         if (!std::isfinite(p.x) || !std::isfinite(p.y)) box_.low = p;
@@ -143,6 +211,10 @@ class DxfDrawer {
     out_.pair(220, 0.0);
     out_.pair(230, 1.0);
     out_.pair(40, one.semi_minor / one.semi_major);
+    if (std::abs(one.to - one.from) >= kFullTurn) {
+      out_.pair(41, 0.0);
+      return out_.pair(42, kFullTurn);
+    }
     out_.pair(41, within(std::min(one.from, one.to), kFullTurn));
     out_.pair(42, within(std::max(one.from, one.to), kFullTurn));
   }
@@ -189,6 +261,31 @@ class DxfDrawer {
     return out;
   }
 
+  /// Arcs of one ellipse that follow each other are one.
+  [[nodiscard]] std::vector<Ellipse> whole_ellipses(const std::vector<Ellipse>& arcs) const {
+    constexpr double kSame = 1e-12;  // of the size, and rad
+    const double near = kSame * norm(box_.size());
+    std::vector<Ellipse> out;
+    for (const Ellipse& next : arcs) {
+      Ellipse* last = out.empty() ? nullptr : &out.back();
+      const bool goes_on = last != nullptr && norm(next.centre - last->centre) <= near &&
+                           std::abs(next.semi_major - last->semi_major) <= near &&
+                           std::abs(next.semi_minor - last->semi_minor) <= near &&
+                           std::abs(next.rotation - last->rotation) <= kSame &&
+                           (next.to > next.from) == (last->to > last->from) &&
+                           std::abs(std::remainder(next.from - last->to, kFullTurn)) <= kSame;
+      if (!goes_on) {
+        out.push_back(next);
+        continue;
+      }
+      last->to += next.to - next.from;
+      if (std::abs(std::abs(last->to - last->from) - kFullTurn) <= kSame * kFullTurn) {
+        last->to = last->from + std::copysign(kFullTurn, last->to - last->from);
+      }
+    }
+    return out;
+  }
+
   /// LINE and ARC lose digits where the centre lies far away; bulges do not.
   [[nodiscard]] bool centres_are_near(const Contour& part) const {
     return std::all_of(part.pieces.begin(), part.pieces.end(), [&](const Piece& piece) {
@@ -197,10 +294,24 @@ class DxfDrawer {
     });
   }
 
+  /// Lines and arcs that are one curve among others: one entity, that they stay one.
+  bool as_one_entity() {
+    const std::vector<Piece>& pieces = contour_->pieces;
+    if (!std::all_of(pieces.begin(), pieces.end(), is_circular)) return false;
+    const std::vector<Piece> whole = whole_arcs(pieces);
+    if (whole.size() > 1 || !centres_are_near(*contour_)) {
+      lwpolyline(whole, contour_->closed);
+    } else {
+      circular(whole.front());
+    }
+    return true;
+  }
+
   Result<void> exact() {
-    const std::vector<Contour> parts = smooth_parts(contour_);
+    if (!in_pieces_ && as_one_entity()) return {};
+    const std::vector<Contour> parts = smooth_parts(*contour_);
     for (const Contour& part : parts) {
-      OBVID_TRY(exact(part, contour_.closed && parts.size() == 1));
+      OBVID_TRY(exact(part, contour_->closed && parts.size() == 1));
     }
     return {};
   }
@@ -215,10 +326,10 @@ class DxfDrawer {
       return {};
     }
     if (const auto conics = ellipses(part)) {
-      for (const Ellipse& one : *conics) ellipse(one);
+      for (const Ellipse& one : in_pieces_ ? *conics : whole_ellipses(*conics)) ellipse(one);
       return {};
     }
-    auto made = nurbs_of(part, {true, options_.tolerance}, watch_);
+    auto made = nurbs_of(part, {true, tolerance_}, watch_);
     if (!made && made.error().code == ErrorCode::kNotProved) {
       // the contour may be proved: it is this format that does not hold such a spline
       Error error = made.error();
@@ -266,15 +377,15 @@ class DxfDrawer {
   }
 
   Result<void> cubic() {
-    const std::vector<Contour> parts = smooth_parts(contour_);
+    const std::vector<Contour> parts = smooth_parts(*contour_);
     for (const Contour& part : parts) {
-      OBVID_TRY(cubic(part, contour_.closed && parts.size() == 1));
+      OBVID_TRY(cubic(part, contour_->closed && parts.size() == 1));
     }
     return {};
   }
 
   Result<void> cubic(const Contour& part, bool closed) {
-    const auto along = cubic_along(part, options_.tolerance, watch_);
+    const auto along = cubic_along(part, tolerance_, watch_);
     OBVID_TRY(along);
     result_.deviation = std::max(result_.deviation, along->deviation);
     spline(as_nurbs(along->spline), closed);
@@ -282,13 +393,13 @@ class DxfDrawer {
   }
 
   Result<void> arcs() {
-    auto along = arcs_along(contour_, options_.tolerance, watch_);
+    auto along = arcs_along(*contour_, tolerance_, watch_);
     OBVID_TRY(along);
-    result_.deviation = along->deviation;
-    if (options_.profile == DxfProfile::kArcsR12) {
+    result_.deviation = std::max(result_.deviation, along->deviation);
+    if (profile_ == DxfProfile::kArcsR12) {
       polyline(along->pieces);
     } else {
-      lwpolyline(along->pieces, contour_.closed);
+      lwpolyline(along->pieces, contour_->closed);
     }
     return {};
   }
@@ -309,8 +420,8 @@ class DxfDrawer {
     out_.pair(8, layer_);
     out_.pair(66, 1);
     out_.point3(10, {0.0, 0.0});
-    out_.pair(70, contour_.closed ? 1 : 0);
-    for (const auto& vertex : exchange::bulge_vertices(pieces, contour_.closed)) {
+    out_.pair(70, contour_->closed ? 1 : 0);
+    for (const auto& vertex : exchange::bulge_vertices(pieces, contour_->closed)) {
       out_.pair(0, "VERTEX");
       out_.pair(8, layer_);
       out_.point3(10, vertex.at);
@@ -321,28 +432,49 @@ class DxfDrawer {
     ++result_.entities;
   }
 
-  const Contour& contour_;
-  const DxfOptions& options_;
+  const std::vector<DxfCurve>& curves_;
+  DxfProfile profile_;
   Watch* watch_;
-  std::string layer_;
+  LayerNames layers_;
+  bool in_pieces_ = false;
+  const Contour* contour_ = nullptr;  ///< that is drawn
+  double tolerance_ = 0.0;            ///< of it
+  std::string layer_;                 ///< of it, as in the file
   DxfWriter out_;
   DxfText result_;
   Box2 box_;
 };
 
+Result<void> can_be_drawn(const DxfCurve& curve) {
+  if (!(curve.tolerance > 0.0)) {
+    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0")
+        .value(curve.tolerance);
+  }
+  if (curve.contour.pieces.empty() || curve.contour.joints.empty()) {
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string dxf_unit(const Units& units) { return unit_code(units) != 0 ? units.name : ""; }
 
+Result<DxfText> dxf_text(const std::vector<DxfCurve>& curves, DxfProfile profile, Watch* watch) {
+  if (curves.empty()) return error(ErrorCode::kNothingThere, "there are no curves to write");
+  for (const DxfCurve& curve : curves) {
+    OBVID_TRY(can_be_drawn(curve));
+    if (curve.contour.units.name != curves.front().contour.units.name) {
+      return error(ErrorCode::kBadOption, "a DXF file has one unit for all of its curves");
+    }
+  }
+  return DxfDrawer(curves, profile, watch).run();
+}
+
 Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options, Watch* watch) {
-  if (!(options.tolerance > 0.0)) {
-    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0")
-        .value(options.tolerance);
-  }
-  if (contour.pieces.empty() || contour.joints.empty()) {
-    return error(ErrorCode::kNothingThere, "the contour has no pieces");
-  }
-  return DxfDrawer(contour, options, watch).run();
+  const std::vector<DxfCurve> one{{contour, options.layer, options.tolerance}};
+  OBVID_TRY(can_be_drawn(one.front()));
+  return DxfDrawer(one, options.profile, watch).run(options.layer);
 }
 
 }  // namespace obvid

@@ -7,8 +7,11 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,13 +28,20 @@ constexpr double kOfCubicTolerance = 0.95;
 /// A flag of SVG's arcs cannot tell half a turn from its complement: arcs are cut below it.
 constexpr double kMostArcTurn = 3.0;
 
+/// A contour as a path.
+struct SvgPath {
+  std::string data;
+  Box2 box;
+  double deviation = 0.0;  ///< units
+  std::size_t curves = 0;
+};
+
 class SvgDrawer {
  public:
-  SvgDrawer(const Contour& contour, const SvgDrawingOptions& options, double millimetres,
-            double within, Watch* watch)
-      : contour_(contour), options_(options), within_(within), mm_(millimetres), watch_(watch) {}
+  SvgDrawer(const Contour& contour, double tolerance, double within, Watch* watch)
+      : contour_(contour), tolerance_(tolerance), within_(within), watch_(watch) {}
 
-  Result<SvgDrawing> run() {
+  Result<SvgPath> run() {
     move(start_point(contour_.pieces.front()));
     for (std::size_t i = 0; i < contour_.pieces.size(); ++i) {
       if (is_to_end(watch_)) return fail(cancelled_error());
@@ -40,13 +50,14 @@ class SvgDrawer {
             .where("piece " + std::to_string(i + 1))
             .hint("allow a larger tolerance")
             .point(i)
-            .value(options_.tolerance);
+            .value(tolerance_);
       }
     }
     if (contour_.closed) path_ += "Z";
     if (inexact_) result_.deviation = path_distance(contour_.pieces, drawn_, watch_);
     if (has_ended(watch_)) return fail(cancelled_error());
-    result_.text = sheet();
+    result_.data = std::move(path_);
+    result_.box = box_;
     return std::move(result_);
   }
 
@@ -182,57 +193,140 @@ class SvgDrawer {
     return most;
   }
 
-  [[nodiscard]] std::string sheet() const {
-    const double margin = options_.margin / mm_;
-    const Vec2 low = box_.low - Vec2{margin, margin}, size = box_.high + Vec2{margin, margin} - low;
-    // y is turned around the box: the path keeps the contour's own coordinates
-    return fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" height=\"{}mm\" "
-        "viewBox=\"{} {} {} {}\">\n"
-        "<g transform=\"matrix(1 0 0 -1 0 {})\" fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" "
-        "stroke-linejoin=\"round\">\n<path d=\"{}\"/>\n</g>\n</svg>\n",
-        size.x * mm_, size.y * mm_, low.x, low.y, size.x, size.y, low.y + low.y + size.y,
-        options_.stroke_width / mm_, path_);
-  }
-
   const Contour& contour_;
-  const SvgDrawingOptions& options_;
+  double tolerance_;
   double within_;  ///< of places of a piece from their cubic
-  double mm_;
   Watch* watch_;
   std::string path_;
   std::vector<Piece> drawn_;
   bool inexact_ = false;
   Box2 box_;
-  SvgDrawing result_;
+  SvgPath result_;
+};
+
+Result<SvgPath> svg_path(const Contour& contour, double tolerance, Watch* watch) {
+  if (!(tolerance > 0.0)) {
+    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0").value(tolerance);
+  }
+  if (contour.pieces.empty()) {
+    return error(ErrorCode::kNothingThere, "the contour has no pieces");
+  }
+  constexpr int kTrials = 3;
+  double within = kOfCubicTolerance * tolerance;
+  for (int trial = 0;; ++trial) {
+    auto made = SvgDrawer(contour, tolerance, within, watch).run();
+    if (!made || made->deviation <= tolerance) return made;
+    if (trial == kTrials) {
+      return error(ErrorCode::kToleranceNotReached, "the drawing is not near enough")
+          .hint("allow a larger tolerance")
+          .value(made->deviation);
+    }
+    within *= kOfCubicTolerance * tolerance / made->deviation;
+  }
+}
+
+/// `paths`: lines of markup. y is turned around the box: paths keep the contours' own coordinates.
+std::string sheet(const Box2& box, double mm, const SvgDrawingOptions& options,
+                  const char* namespaces, const std::string& paths) {
+  const double margin = options.margin / mm;
+  const Vec2 low = box.low - Vec2{margin, margin}, size = box.high + Vec2{margin, margin} - low;
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\"{} width=\"{}mm\" height=\"{}mm\" "
+      "viewBox=\"{} {} {} {}\">\n"
+      "<g transform=\"matrix(1 0 0 -1 0 {})\" fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" "
+      "stroke-linejoin=\"round\">\n{}</g>\n</svg>\n",
+      namespaces, size.x * mm, size.y * mm, low.x, low.y, size.x, size.y, low.y + low.y + size.y,
+      options.stroke_width / mm, paths);
+}
+
+/// As the value of an attribute; what XML 1.0 has no sign for becomes _ .
+std::string quoted(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += static_cast<unsigned char>(c) < 0x20U ? '_' : c;
+    }
+  }
+  return out;
+}
+
+/// Ids of a file, each of them once.
+class SvgIds {
+ public:
+  /// `wanted`, what no id may hold as _ ; where it is taken with a number behind it.
+  std::string of(std::string wanted) {
+    for (char& c : wanted) {
+      if (c == ' ' || static_cast<unsigned char>(c) < 0x20U) c = '_';
+    }
+    if (wanted.empty()) wanted = "curve";
+    std::string given = wanted;
+    for (int k = 2; !taken_.insert(given).second; ++k) given = fmt::format("{}-{}", wanted, k);
+    return quoted(given);
+  }
+
+ private:
+  std::set<std::string> taken_;
 };
 
 }  // namespace
 
 Result<SvgDrawing> svg_drawing(const Contour& contour, const SvgDrawingOptions& options,
                                Watch* watch) {
-  if (!(options.tolerance > 0.0)) {
-    return error(ErrorCode::kBadOption, "the tolerance must be greater than 0")
-        .value(options.tolerance);
-  }
-  if (contour.pieces.empty()) {
-    return error(ErrorCode::kNothingThere, "the contour has no pieces");
-  }
   const auto millimetres = unit_ratio(contour.units, "mm", "drawings in true scale");
   OBVID_TRY(millimetres);
-  constexpr int kTrials = 3;
-  double within = kOfCubicTolerance * options.tolerance;
-  for (int trial = 0;; ++trial) {
-    auto made = SvgDrawer(contour, options, *millimetres, within, watch).run();
-    if (!made || made->deviation <= options.tolerance) return made;
-    if (trial == kTrials) {
-      return error(ErrorCode::kToleranceNotReached, "the drawing is not near enough")
-          .hint("allow a larger tolerance")
-          .value(made->deviation);
+  const auto path = svg_path(contour, options.tolerance, watch);
+  OBVID_TRY(path);
+  const std::string markup = fmt::format("<path d=\"{}\"/>\n", path->data);
+  return SvgDrawing{sheet(path->box, *millimetres, options, "", markup), path->deviation,
+                    path->curves};
+}
+
+Result<SvgDrawing> svg_drawing(const std::vector<SvgCurve>& curves,
+                               const SvgDrawingOptions& options, Watch* watch) {
+  if (curves.empty()) return error(ErrorCode::kNothingThere, "there are no curves to write");
+  const Units& units = curves.front().contour.units;
+  const auto millimetres = unit_ratio(units, "mm", "drawings in true scale");
+  OBVID_TRY(millimetres);
+  SvgDrawing out;
+  Box2 box;
+  std::vector<std::string> layers;
+  std::map<std::string, std::string> markup;
+  SvgIds ids;
+  for (const SvgCurve& curve : curves) {
+    if (curve.contour.units.name != units.name) {
+      return error(ErrorCode::kBadOption, "a drawing has one unit for all of its curves");
     }
-    within *= kOfCubicTolerance * options.tolerance / made->deviation;
+    const auto path = svg_path(curve.contour, curve.tolerance, watch);
+    OBVID_TRY(path);
+    box.add(path->box.low);
+    box.add(path->box.high);
+    out.deviation = std::max(out.deviation, path->deviation);
+    out.curves += path->curves;
+    if (markup.find(curve.layer) == markup.end()) layers.push_back(curve.layer);
+    markup[curve.layer] +=
+        fmt::format("<path id=\"{}\" d=\"{}\"/>\n", ids.of(curve.id), path->data);
   }
+  std::string all;
+  for (const std::string& layer : layers) {
+    if (layer.empty()) {
+      all += markup[layer];
+      continue;
+    }
+    all += fmt::format("<g id=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n{}</g>\n",
+                       ids.of("layer-" + layer), quoted(layer), markup[layer]);
+  }
+  const bool layered = layers.size() > 1 || !layers.front().empty();
+  constexpr const char* kInkscape =
+      " xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"";
+  out.text = sheet(box, *millimetres, options, layered ? kInkscape : "", all);
+  return out;
 }
 
 }  // namespace obvid

@@ -240,9 +240,13 @@ class SvgReader {
     if (is_sampled(drawn.points())) {
       series(drawn.points(), state.to_sheet, label);
       drawing_.series.back().layer = state.layer;
+      drawing_.series.back().id = id;
       return;
     }
-    for (DrawnCurve& curve : curves) curve.layer = state.layer;
+    for (DrawnCurve& curve : curves) {
+      curve.layer = state.layer;
+      curve.id = id;
+    }
     std::move(curves.begin(), curves.end(), std::back_inserter(drawing_.curves));
   }
 

@@ -29,6 +29,9 @@ Result<TitledContour> drawn_contour(Drawing drawing, const ImportOptions& option
   OBVID_TRY(made);
   CurveAudit& audited = *made;
   out.name = audited.name.empty() ? audited.label : audited.name;
+  const bool drawn = *chosen < curves;
+  out.id = drawn ? drawing.curves[*chosen].id : drawing.series[*chosen - curves].id;
+  out.layer = drawn ? drawing.curves[*chosen].layer : drawing.series[*chosen - curves].layer;
   out.first_station = audited.station.value_or(0.0);
   out.transitions = std::move(audited.transitions);
   out.profile = std::move(audited.profile);

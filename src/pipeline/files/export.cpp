@@ -89,37 +89,24 @@ bool only_lines_and_arcs(const ContourExport& e) {
   });
 }
 
-Result<NurbsCurve> one_curve(const ContourExport& e, Exported& out) {
-  auto made = nurbs_of(e.contour, {true, e.tolerance}, e.watch);
+Result<Exported> cad_file(const ContourExport& e, CadFormat format) {
+  const auto held = kernel_holds(e.size, e.contour.units, format == CadFormat::kBrep, "write .dxf");
+  OBVID_TRY(held);
+  Exported out;
+  auto made = cad_curve(e);
   OBVID_TRY(made);
+  CadCurve& curve = made->curve;
   if (made->deviation > 0.0) {
     out.remarks.push_back(
         fmt::format("clothoids are no NURBS curves: a C2 cubic follows them within {:.3g} {}",
                     at_most(made->deviation), e.contour.units.text()));
   }
-  return std::move(made->curve);
-}
-
-Result<Exported> cad_file(const ContourExport& e, CadFormat format) {
-  const auto held = kernel_holds(e.size, e.contour.units, format == CadFormat::kBrep, "write .dxf");
-  OBVID_TRY(held);
-  Exported out;
-  CadCurve curve{e.options.name, NurbsCurve{}};
-  if (only_lines_and_arcs(e)) {
-    curve.geometry = e.contour.pieces;
-  } else {
-    auto joined = one_curve(e, out);
-    if (joined) {
-      out.remarks.push_back(fmt::format("one NURBS curve of degree {}, {} control points",
-                                        joined->degree, joined->points.size()));
-      curve.geometry = std::move(*joined);
-    } else if (joined.error().code == ErrorCode::kNotProved) {
-      out.remarks.push_back(
-          fmt::format("no one NURBS curve, as {}: written piece by piece", joined.error().what));
-      curve.geometry = e.contour.pieces;
-    } else {
-      return fail(joined.error());
-    }
+  if (const auto* joined = std::get_if<NurbsCurve>(&curve.geometry)) {
+    out.remarks.push_back(fmt::format("one NURBS curve of degree {}, {} control points",
+                                      joined->degree, joined->points.size()));
+  } else if (!made->in_pieces.empty()) {
+    out.remarks.push_back(
+        fmt::format("no one NURBS curve, as {}: written piece by piece", made->in_pieces));
   }
   if (std::holds_alternative<std::vector<Piece>>(curve.geometry)) {
     if (auto remark =
@@ -455,6 +442,32 @@ Result<void> can_plot(const ContourExport& e) {
           "they may deviate by: --plot deviations:LENGTH");
 }
 
+Result<MadeCadCurve> cad_curve(const ContourExport& e) {
+  MadeCadCurve out{{e.options.name, e.contour.pieces}};
+  if (only_lines_and_arcs(e)) return out;
+  auto made = nurbs_of(e.contour, {true, e.tolerance}, e.watch);
+  if (!made && made.error().code == ErrorCode::kNotProved) {
+    out.in_pieces = made.error().what;
+    return out;
+  }
+  OBVID_TRY(made);
+  out.deviation = made->deviation;
+  out.curve.geometry = std::move(made->curve);
+  return out;
+}
+
+ContourExport contour_export(const StoredContour& stored, const ExportOptions& options,
+                             Watch* watch) {
+  const double size = bounding_diagonal(places_of(stored.contour));
+  return {stored,
+          stored.contour,
+          options,
+          size,
+          options.tolerance.value_or(kExportTolerance * size),
+          options.tolerance.value_or(kDefaultForArcs * size),
+          watch};
+}
+
 Result<Exported> contour_as_json(const ContourExport& e) {
   StoredContour stored = e.stored;
   if (is_named(e.options)) stored.name = e.options.name;
@@ -579,11 +592,8 @@ Result<Exported> export_contour(const StoredContour& stored, FileFormat format,
   OBVID_TRY(may_go_on(run));
   OBVID_TRY(can_write_curves(format));
   Watch watch(run);
-  const double size = bounding_diagonal(places_of(stored.contour));
   const ExportOptions options = with_stored(asked, stored);
-  auto made = contour_writer_of(format)(
-      {stored, stored.contour, options, size, options.tolerance.value_or(kExportTolerance * size),
-       options.tolerance.value_or(kDefaultForArcs * size), &watch});
+  auto made = contour_writer_of(format)(contour_export(stored, options, &watch));
   if (watch.was_cancelled()) return fail(cancelled_error());
   const bool has_heights = format == FileFormat::kLandXml || format == FileFormat::kOpenDrive ||
                            format == FileFormat::kContour;

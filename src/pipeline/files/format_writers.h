@@ -25,6 +25,18 @@ struct ContourExport {
   Watch* watch = nullptr;
 };
 
+/// With its tolerances, as `options` say or as they are.
+[[nodiscard]] ContourExport contour_export(const StoredContour& stored,
+                                           const ExportOptions& options, Watch* watch);
+
+/// A contour for STEP, IGES and BREP, as `export_contour` says.
+struct MadeCadCurve {
+  CadCurve curve;
+  double deviation = 0.0;   ///< of clothoids that a spline follows, units
+  std::string in_pieces{};  ///< why it is no one NURBS curve, though not of lines and arcs alone
+};
+[[nodiscard]] Result<MadeCadCurve> cad_curve(const ContourExport& e);
+
 /// A surface that is written; what several files need is made once.
 struct SurfaceExport {
   const SurfaceModel& model;

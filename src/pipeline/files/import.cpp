@@ -545,6 +545,8 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
     out = pipeline_detail::series_of(drawing.curves[chosen], options.use, options.tolerance);
     const DrawnCurve& curve = drawing.curves[chosen];
     out.label = curve.name.empty() ? curve.label : curve.name;
+    out.id = curve.id;
+    out.layer = curve.layer;
   } else {
     out = drawing.series[chosen - drawing.curves.size()];
     if (!options.list.heights) out.fixed.clear();  // of maps: heights, which alignments take
@@ -553,6 +555,8 @@ Result<PointSeries> points_of_drawing(const Drawing& drawing, const ImportOption
     if (edges) {
       out = pipeline_detail::series_of(edges_of(out), options.use, options.tolerance);
       out.label = drawing.series[chosen - drawing.curves.size()].name;
+      out.id = drawing.series[chosen - drawing.curves.size()].id;
+      out.layer = drawing.series[chosen - drawing.curves.size()].layer;
     }
   }
   out.name = drawing.name + (out.label.empty() ? "" : ": " + out.label);

@@ -17,6 +17,8 @@ TitledContour titled_contour(Fit made, const PointSeries& series, const std::str
   TitledContour out;
   out.stored = {std::move(made.contour), std::move(made.report), std::move(made.certificate)};
   out.name = curve_name(series, input);
+  out.id = series.id;
+  out.layer = series.layer;
   out.source = input;
   out.picture.name = series.name;
   out.warnings = std::move(made.warnings);

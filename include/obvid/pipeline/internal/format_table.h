@@ -18,6 +18,7 @@ struct FormatRow {
   FileFormat format{};
   const char* endings = "";    ///< ".step .stp"
   const char* contour = "";    ///< of a contour,
+  const char* several = "";    ///< several contours in one file,
   const char* surface = "";    ///< a surface,
   const char* space = "";      ///< a curve in space,
   const char* toolpath = "";   ///< a tool path,

@@ -17,6 +17,8 @@ namespace obvid {
 struct TitledContour {
   StoredContour stored;
   std::string name = "contour";                 ///< of the curve, where a format has a place for it
+  std::string id{};                             ///< by what its file tells it from others
+  std::string layer{};                          ///< of its drawing, where that has layers
   std::string source;                           ///< what it was read from, as it was named
   double first_station = 0.0;                   ///< of its start, units
   std::vector<PlacedTransition> transitions{};  ///< which pieces are clothoids in their place

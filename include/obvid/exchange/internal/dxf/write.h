@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
@@ -29,6 +30,15 @@ struct DxfText {
   std::string text;
   std::size_t entities = 0;
   double deviation = 0.0;  ///< units, as measured; 0: exact to rounding
+  std::size_t layers = 0;
+  std::size_t renamed = 0;  ///< layers whose names DXF does not take as they are
+};
+
+/// One of several curves of a file.
+struct DxfCurve {
+  const Contour& contour;
+  std::string layer;        ///< its name, UTF-8
+  double tolerance = 0.01;  ///< as in `DxfOptions`
 };
 
 /// The unit that a DXF file states for lengths in `units`: none (empty) when it is merely assumed,
@@ -42,6 +52,14 @@ struct DxfText {
 /// that is not greater than 0; E303 a coordinate that is not finite; E311 no pieces; those of
 /// `arcs_along`, `cubic_along`, `nurbs_of`; E103 where `watch` ends it.
 [[nodiscard]] Result<DxfText> dxf_text(const Contour& contour, const DxfOptions& options = {},
+                                       Watch* watch = nullptr);
+
+/// The same of several curves, each on its layer. Lines and arcs of one curve are one entity (LINE,
+/// ARC, CIRCLE, else an LWPOLYLINE with bulges), so that curves which touch stay apart. Layers keep
+/// their names but for what DXF forbids in them, which becomes _ ; R12 has letters, digits, - and _
+/// alone. Two layers do not become one: _2, _3 are put behind. Errors: as above; E203 curves of
+/// different units.
+[[nodiscard]] Result<DxfText> dxf_text(const std::vector<DxfCurve>& curves, DxfProfile profile,
                                        Watch* watch = nullptr);
 
 }  // namespace obvid

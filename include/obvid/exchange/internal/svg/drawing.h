@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "obvid/core/internal/watch.h"
 #include "obvid/core/result.h"
@@ -30,6 +31,20 @@ struct SvgDrawing {
 /// tolerance that is not greater than 0, a unit without a length in metres; E311 no pieces; E502
 /// not reached; E103 where `watch` ends it.
 [[nodiscard]] Result<SvgDrawing> svg_drawing(const Contour& contour,
+                                             const SvgDrawingOptions& options = {},
+                                             Watch* watch = nullptr);
+
+/// One of several curves of a drawing.
+struct SvgCurve {
+  const Contour& contour;
+  std::string id;           ///< of its path; in the file each is there once
+  std::string layer;        ///< empty: none
+  double tolerance = 0.01;  ///< as in `SvgDrawingOptions`
+};
+
+/// The same of several curves: a path each, those of one layer in a group that Inkscape shows as
+/// one, in the order of the first of them. Errors: as above; E203 curves of different units.
+[[nodiscard]] Result<SvgDrawing> svg_drawing(const std::vector<SvgCurve>& curves,
                                              const SvgDrawingOptions& options = {},
                                              Watch* watch = nullptr);
 
