@@ -786,8 +786,7 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
 std::vector<double> levels(const FairAcross& wanted, double reach) {
   const double last = std::min(wanted.tolerance, reach);
   std::vector<double> out;
-  double level = wanted.fine * wanted.tolerance / wanted.forced.tolerance;
-  for (; level < last; level *= kLevel) {
+  for (double level = wanted.fine; level < last; level *= kLevel) {
     if (level >= kLeastLevel * last) out.push_back(level);
   }
   out.push_back(last);
@@ -810,7 +809,9 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
     const auto part = [&](std::size_t k) {
       return from + (to - from) * static_cast<double>(k) / static_cast<double>(tolerances.size());
     };
-    const double bulge = tolerances[n] / wanted.tolerance * wanted.forced.tolerance;
+    // the whole tolerance, of which something may be kept for what comes after
+    const bool whole = tolerances[n] >= wanted.tolerance;
+    const double bulge = whole ? wanted.forced.tolerance : tolerances[n];
     const auto forced = forced_across(stretch.surface, stretch.breaks, wanted.v, bulge, run);
     OBVID_TRY(forced);
     FairAcross level{wanted.fine, tolerances[n], wanted.v,     wanted.across,
