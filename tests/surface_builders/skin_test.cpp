@@ -393,8 +393,8 @@ TEST(SkinFairAcross, ALargerToleranceHasNoMoreChanges) {
   EXPECT_LE(10 * before, given);
 }
 
-/// A short section among long ones holds what it may not leave: the string does, too.
-TEST(SkinFairAcross, SectionsThatMoveLessHoldTheOthers) {
+/// A short section among long ones moves by a hundredth of its length, and the others are fair.
+TEST(SkinFairAcross, AShortSectionMovesByAHundredthOfItsLength) {
   std::vector<SkinSection> sections = scattered(2e-3);
   sections.front() = section_of(clothoid(0.1, 0.8, 0.02), at_height(0));
   const auto fair = skin(sections, fair_options(1e-5, 4e-3));
