@@ -26,7 +26,7 @@ struct Along {
   std::size_t points, rounds, run_places;
   double soft_runs;
 };
-constexpr std::array<Along, 2> kAlong = {Along{16, 2, 1000, 1e4}, Along{24, 1, 300, 1e3}};
+constexpr std::array<Along, 2> kAlong = {Along{16, 2, 1000, 1e4}, Along{24, 2, 300, 1e3}};
 /// Waves beyond the forced ones, of those: few enough to end, and not to try the second.
 constexpr double kFew = 0.01, kFewForMore = 0.06;
 /// Of the lines: shallow waves that are worth moving sections for, where no high ones are.
