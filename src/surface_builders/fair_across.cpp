@@ -32,7 +32,7 @@ constexpr double kFew = 0.01, kFewForMore = 0.06;
 /// Of the lines: shallow waves that are worth moving sections for, where no high ones are.
 constexpr double kMany = 0.1;
 /// Between the tolerances that are tried: half a decade; and the least of them, of the largest.
-constexpr double kLevel = 3.1622776601683795, kLeastLevel = 1e-3;
+constexpr double kToleranceStep = 3.1622776601683795, kLeastTolerance = 1e-3;
 /// Half widths of the boxes: normal, along, across. Their corners lie in the ball of 1.
 constexpr std::array<double, 3> kBox = {0.98, 0.1, 0.1}, kEvenBox = {0.55, 0.55, 0.55};
 /// The string keeps away from the bounds by what smoothness needs.
@@ -786,8 +786,8 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
 std::vector<double> levels(const FairAcross& wanted, double reach) {
   const double last = std::min(wanted.tolerance, reach);
   std::vector<double> out;
-  for (double level = wanted.fine; level < last; level *= kLevel) {
-    if (level >= kLeastLevel * last) out.push_back(level);
+  for (double level = wanted.fine; level < last; level *= kToleranceStep) {
+    if (level >= kLeastTolerance * last) out.push_back(level);
   }
   out.push_back(last);
   return out;
