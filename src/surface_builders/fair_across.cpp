@@ -781,15 +781,15 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
   return begun > 0.0;
 }
 
-/// Tolerances to try, the smallest first: those of the shallowest bulges that count and more by
-/// steps, whatever is wanted, and then that; none above what any section may move by.
+/// Tolerances to try: what is wanted, or what any section may move by where that is less; and where
+/// too much is left then, those of the shallowest bulges that count and more by steps, the smallest
+/// first.
 std::vector<double> levels(const FairAcross& wanted, double reach) {
   const double last = std::min(wanted.tolerance, reach);
-  std::vector<double> out;
+  std::vector<double> out{last};
   for (double level = wanted.fine; level < last; level *= kToleranceStep) {
     if (level >= kLeastTolerance * last) out.push_back(level);
   }
-  out.push_back(last);
   return out;
 }
 
@@ -819,6 +819,11 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
     const auto any = improve_within(stretch, level, *kept, run, part(n), part(n + 1), best);
     OBVID_TRY(any);
     best.enough = best.enough || *any;
+    if (n > 0) continue;
+    const auto left = waves_of(stretch, best.surface, level, run);
+    OBVID_TRY(left);
+    const bool may_be_whole = wanted.tolerance <= best.reach;
+    if (may_be_whole && best.correction && left->high_ones_few(kFewForMore)) break;
   }
   return best;
 }
