@@ -126,7 +126,11 @@ void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& 
     facts.add("light",
               light_text(*skin.light, units) + (skin.fair ? ", made after it was fair" : ""));
   }
-  if (skin.fair) facts.add("fair across", fair_text(*skin.fair, skin.across, units));
+  if (skin.fair) {
+    std::string fair = fair_text(*skin.fair, skin.across, units);
+    if (const auto remark = fair_remark(skin, units)) fair += "; " + *remark;
+    facts.add("fair across", fair);
+  }
   if (const auto lost = runs_lost(skin)) {
     facts.add("runs lost", *lost);
   } else if (skin.light || skin.fair) {

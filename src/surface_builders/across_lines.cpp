@@ -122,6 +122,11 @@ std::array<std::size_t, 2> waves_found(const Isoline& line, const AcrossPlaces& 
 }
 
 DevelopedLine developed(const Isoline& line, const AcrossPlaces& places, double tolerance) {
+  return developed(line, places, std::vector<double>(places.sections.size(), tolerance));
+}
+
+DevelopedLine developed(const Isoline& line, const AcrossPlaces& places,
+                        const std::vector<double>& tolerance) {
   DevelopedLine out;
   Tube& tube = out.tube;
   std::vector<double> height;
@@ -150,8 +155,8 @@ DevelopedLine developed(const Isoline& line, const AcrossPlaces& places, double 
   const double mean = height.size() > 1 ? height.back() / tube.at.back() : 0.0;
   for (std::size_t i = 0; i < height.size(); ++i) {
     const double h = height[i] - mean * tube.at[i];
-    tube.low.push_back(h - tolerance);
-    tube.high.push_back(h + tolerance);
+    tube.low.push_back(h - tolerance[out.section[i]]);
+    tube.high.push_back(h + tolerance[out.section[i]]);
   }
   return out;
 }

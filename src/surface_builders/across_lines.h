@@ -60,5 +60,8 @@ struct DevelopedLine {
 /// same count once; without a normal the one before goes on.
 [[nodiscard]] DevelopedLine developed(const Isoline& line, const AcrossPlaces& places,
                                       double tolerance);
+/// With a tolerance of each section.
+[[nodiscard]] DevelopedLine developed(const Isoline& line, const AcrossPlaces& places,
+                                      const std::vector<double>& tolerance);
 
 }  // namespace obvid

@@ -26,11 +26,13 @@ struct Along {
   std::size_t points, rounds, run_places;
   double soft_runs;
 };
-constexpr std::array<Along, 2> kAlong = {Along{16, 2, 1000, 1e4}, Along{24, 1, 300, 1e3}};
+constexpr std::array<Along, 2> kAlong = {Along{16, 2, 1000, 1e4}, Along{24, 2, 300, 1e3}};
 /// Waves beyond the forced ones, of those: few enough to end, and not to try the second.
 constexpr double kFew = 0.01, kFewForMore = 0.06;
 /// Of the lines: shallow waves that are worth moving sections for, where no high ones are.
 constexpr double kMany = 0.1;
+/// Between the tolerances that are tried: half a decade; and the least of them, of the largest.
+constexpr double kToleranceStep = 3.1622776601683795, kLeastTolerance = 1e-3;
 /// Half widths of the boxes: normal, along, across. Their corners lie in the ball of 1.
 constexpr std::array<double, 3> kBox = {0.98, 0.1, 0.1}, kEvenBox = {0.55, 0.55, 0.55};
 /// The string keeps away from the bounds by what smoothness needs.
@@ -129,6 +131,13 @@ NurbsSurface with_knots_of(const NurbsSurface& surface, const NurbsSurface& othe
   return with_knots_u(surface, missing);
 }
 
+/// How far a section may move: one so short that the tolerance would be all of it moves less, a
+/// point stays.
+double most_of(const SectionCurve& section, double tolerance) {
+  if (section.is_point()) return 0.0;
+  return std::min(tolerance, kMostOfLength * (section.length_at(1.0).s - section.length_at(0.0).s));
+}
+
 class Correction {
  public:
   Correction(const SkinStretch& stretch, const FairAcross& wanted, const Along& along)
@@ -203,15 +212,11 @@ class Correction {
     return {basis.first, share(basis, derivative, factor), {}, {}, {}};
   }
 
-  /// Sections so short that the tolerance would be all of them move less; points stay.
   void limit_sections() {
     for (std::size_t k = 0; k < box_.size(); ++k) {
       const SectionCurve& section = stretch_.sections[k];
-      still_.push_back(section.is_point());
-      if (section.is_point()) continue;
-      const double length = section.length_at(1.0).s - section.length_at(0.0).s;
-      box_[k] = std::min(1.0, kMostOfLength * length / how_.tolerance);
-      if (!(box_[k] > kHeld)) still_[k] = true;
+      if (!section.is_point()) box_[k] = most_of(section, how_.tolerance) / how_.tolerance;
+      still_.push_back(section.is_point() || !(box_[k] > kHeld));
     }
   }
 
@@ -379,6 +384,8 @@ class Correction {
     for (std::size_t q = 0; q < places; ++q)
       groups.push_back(group(at_places_[q], 2, weight_of(q)));
     const AcrossPlaces at = places_across(given_, how_.v);
+    std::vector<double> string;  // sections that may move by less hold it by less
+    for (const double box : box_) string.push_back(kStringShare * box * how_.tolerance);
     for (std::size_t l = 0; l < lines_.size(); ++l) {
       const Isoline now(current_, line_at_[l]);
       std::vector<Vec3> normal;
@@ -388,8 +395,7 @@ class Correction {
         normal.push_back(unit(cross(here.du, here.dv)));
         bend.push_back(dot(normal.back(), here.dvv));
       }
-      const std::vector<int> sign =
-          signs(developed(lines_[l], at, kStringShare * how_.tolerance), bend);
+      const std::vector<int> sign = signs(developed(lines_[l], at, string), bend);
       for (std::size_t q = 0; q < places; ++q) {
         if (sign[q] == 0 || !(norm(normal[q]) > 0.5)) continue;
         const Vec3 n = static_cast<double>(sign[q]) * normal[q];
@@ -682,7 +688,7 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
 
 /// Waves that need not be: high ones, and shallow ones with them; and how many are forced.
 struct Waves {
-  std::size_t beyond = 0, all_beyond = 0, forced = 0, lines = 0;
+  std::size_t found = 0, beyond = 0, all = 0, all_beyond = 0, forced = 0, lines = 0;
   [[nodiscard]] bool high_ones_few(double share = kFew) const {
     return static_cast<double>(beyond) <= share * static_cast<double>(forced);
   }
@@ -699,7 +705,8 @@ Result<Waves> waves_of(const SkinStretch& stretch, const NurbsSurface& surface,
                        const FairAcross& how, const RunContext& run) {
   AcrossReport report;
   OBVID_TRY(add_across_report(surface, stretch.breaks, how.v, how.forced, how.fine, run, report));
-  return Waves{report.beyond, report.all_beyond, report.forced, report.isolines};
+  return Waves{report.found,      report.beyond, report.all,
+               report.all_beyond, report.forced, report.isolines};
 }
 
 }  // namespace
@@ -712,27 +719,41 @@ NurbsSurface sum_of(const NurbsSurface& surface, const NurbsSurface& added) {
   return out;
 }
 
-Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross& wanted,
-                                    const RunContext& run, double from, double to) {
-  const std::size_t sections = wanted.v.size();
-  FairedStretch best{stretch.surface, std::nullopt, std::vector<double>(sections, 0.0)};
-  if (stretch.surface.degree_v < 2 || stretch.breaks.size() < 2) return best;
-  const std::vector<double> at = meter_places(stretch.breaks);
-  std::vector<RunPlaces> runs(sections);
-  std::vector<double> allowed(sections);
-  OBVID_TRY(in_parallel(sections, run, [&](std::size_t k) {
-    runs[k] = run_places(stretch, k, wanted.v[k], at);
+namespace {
+
+/// What levels have in common: where runs are measured, of the given surface, and what each section
+/// may lose of its run.
+struct GivenRuns {
+  std::vector<double> at;
+  std::vector<RunPlaces> runs;
+  std::vector<double> allowed;
+};
+
+Result<GivenRuns> given_runs(const SkinStretch& stretch, const std::vector<double>& v,
+                             const RunContext& run) {
+  GivenRuns out{meter_places(stretch.breaks), std::vector<RunPlaces>(v.size()),
+                std::vector<double>(v.size())};
+  OBVID_TRY(in_parallel(v.size(), run, [&](std::size_t k) {
+    out.runs[k] = run_places(stretch, k, v[k], out.at);
     RippleMeter meter;
-    for (std::size_t i = 0; i < runs[k].wanted.size(); ++i) {
-      meter.add(runs[k].wanted[i], curvature_of(runs[k].d1[i], runs[k].d2[i]));
+    for (std::size_t i = 0; i < out.runs[k].wanted.size(); ++i) {
+      meter.add(out.runs[k].wanted[i], curvature_of(out.runs[k].d1[i], out.runs[k].d2[i]));
     }
-    allowed[k] = std::max(meter.ripple(), kMostAgainstRun);
+    out.allowed[k] = std::max(meter.ripple(), kMostAgainstRun);
   }));
-  const auto given = waves_of(stretch, best.surface, wanted, run);
-  OBVID_TRY(given);
-  Waves least = *given;
+  return out;
+}
+
+/// Puts the best of the rounds within one tolerance in the place of the best so far, of those that
+/// have no more changes than that has, of high bulges or of all; whether there was any to try.
+Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted,
+                            const GivenRuns& kept, const RunContext& run, double from, double to,
+                            FairedStretch& best) {
+  const auto before = waves_of(stretch, best.surface, wanted, run);
+  OBVID_TRY(before);
+  Waves least = *before;
   constexpr double kParts = kAlong[0].rounds + kAlong[1].rounds;
-  const bool high_ones = !given->high_ones_few();
+  const bool high_ones = !before->high_ones_few();
   const auto goes_on = [&] {
     return high_ones ? !least.high_ones_few() : least.shallow_ones_many();
   };
@@ -743,14 +764,66 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
     for (std::size_t round = 0; round < kAlong[n].rounds && goes_on(); ++round) {
       const double start = from + (to - from) * begun / kParts;
       begun += 1.0;
-      OBVID_TRY(correction.improve(runs, at, allowed, run, start, start + (to - from) / kParts));
+      OBVID_TRY(correction.improve(kept.runs, kept.at, kept.allowed, run, start,
+                                   start + (to - from) / kParts));
       const auto left = waves_of(stretch, correction.surface(), wanted, run);
       OBVID_TRY(left);
       // shallow waves are waves, too
-      if (left->all_beyond > given->all_beyond || !left->less_than(least)) continue;
+      if (left->found > before->found || left->all > before->all || !left->less_than(least)) {
+        continue;
+      }
       least = *left;
-      best = {correction.surface(), correction.alone(), correction.moved()};
+      best.surface = correction.surface();
+      best.correction = correction.alone();
+      best.moved = correction.moved();
     }
+  }
+  return begun > 0.0;
+}
+
+/// Tolerances to try: what is wanted, or what any section may move by where that is less; and where
+/// too much is left then, those of the shallowest bulges that count and more by steps, the smallest
+/// first.
+std::vector<double> levels(const FairAcross& wanted, double reach) {
+  const double last = std::min(wanted.tolerance, reach);
+  std::vector<double> out{last};
+  for (double level = wanted.fine; level < last; level *= kToleranceStep) {
+    if (level >= kLeastTolerance * last) out.push_back(level);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross& wanted,
+                                    const RunContext& run, double from, double to) {
+  FairedStretch best{stretch.surface, std::nullopt, std::vector<double>(wanted.v.size(), 0.0)};
+  for (const SectionCurve& section : stretch.sections) {
+    best.reach = std::max(best.reach, most_of(section, wanted.tolerance));
+  }
+  if (stretch.surface.degree_v < 2 || stretch.breaks.size() < 2 || !(best.reach > 0.0)) return best;
+  const auto kept = given_runs(stretch, wanted.v, run);
+  OBVID_TRY(kept);
+  const std::vector<double> tolerances = levels(wanted, best.reach);
+  for (std::size_t n = 0; n < tolerances.size(); ++n) {
+    const auto part = [&](std::size_t k) {
+      return from + (to - from) * static_cast<double>(k) / static_cast<double>(tolerances.size());
+    };
+    // the whole tolerance, of which something may be kept for what comes after
+    const bool whole = tolerances[n] >= wanted.tolerance;
+    const double bulge = whole ? wanted.forced.tolerance : tolerances[n];
+    const auto forced = forced_across(stretch.surface, stretch.breaks, wanted.v, bulge, run);
+    OBVID_TRY(forced);
+    FairAcross level{wanted.fine, tolerances[n], wanted.v,     wanted.across,
+                     *forced,     wanted.fixed,  wanted.smooth};
+    const auto any = improve_within(stretch, level, *kept, run, part(n), part(n + 1), best);
+    OBVID_TRY(any);
+    best.enough = best.enough || *any;
+    if (n > 0) continue;
+    const auto left = waves_of(stretch, best.surface, level, run);
+    OBVID_TRY(left);
+    const bool may_be_whole = wanted.tolerance <= best.reach;
+    if (may_be_whole && best.correction && left->high_ones_few(kFewForMore)) break;
   }
   return best;
 }

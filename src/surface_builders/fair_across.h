@@ -29,6 +29,9 @@ struct FairedStretch {
   /// Bound of the distance of each section of the surface from where it was, at the same
   /// parameter, units: of the control points of the difference, by the convex hull.
   std::vector<double> moved;
+  double reach = 0.0;   ///< how far any section may move, units: the tolerance, or a share of the
+                        ///< longest one's length where that is less
+  bool enough = false;  ///< there were changes enough to move sections for
 };
 
 /// The sum of two polynomial surfaces with the same degrees and the same knots across, on the knots
@@ -37,9 +40,10 @@ struct FairedStretch {
 
 /// The surface of a stretch with a correction that keeps every section within the tolerance of
 /// where it was, such that lines across change their bending seldom and curvature along the
-/// sections keeps to the runs of the contours: docs/methods/skin.md. The net keeps its knots. Where
-/// no correction makes less waves than the given surface has, that stays. `from`, `to`: part of the
-/// work that is told. Error: E103.
+/// sections keeps to the runs of the contours: docs/methods/skin.md. The net keeps its knots.
+/// Smaller tolerances are tried as well, and a larger one is taken only where it has no more
+/// changes than they. Where no correction makes less waves than the given surface has, that stays.
+/// `from`, `to`: part of the work that is told. Error: E103.
 [[nodiscard]] Result<FairedStretch> faired_across(const SkinStretch& stretch,
                                                   const FairAcross& wanted, const RunContext& run,
                                                   double from, double to);

@@ -367,6 +367,7 @@ Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretche
                                               FairAcrossReport& report,
                                               std::vector<std::optional<NurbsSurface>>& added) {
   std::vector<ForcedAcross> forced;
+  double reach = 0.0;
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const auto part = [&](std::size_t k) {
       return static_cast<double>(k) / static_cast<double>(stretches.size());
@@ -385,10 +386,13 @@ Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretche
     auto fair = faired_across(stretch, how, run, part(n), part(n + 1));
     OBVID_TRY(fair);
     for (const double by : fair->moved) report.moved = std::max(report.moved, by);
+    report.enough = report.enough || fair->enough;
+    reach = std::max(reach, fair->reach);
     stretch.surface = std::move(fair->surface);
     added.push_back(std::move(fair->correction));
     forced.push_back(std::move(*least));
   }
+  if (reach < report.tolerance - kept) report.reach = reach;
   return forced;
 }
 

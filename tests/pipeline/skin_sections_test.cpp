@@ -181,6 +181,49 @@ TEST(SkinSections, TellsInHowManySectionsRunsAreLostAndByHowMuch) {
   EXPECT_NE(runs_lost(skin)->find("at most 46 %"), std::string::npos) << *runs_lost(skin);
 }
 
+TEST(SkinSections, TellsWhyNothingMovedAcross) {
+  Skin skin;
+  EXPECT_FALSE(fair_remark(skin, "m"));
+  FairAcrossReport& fair = skin.fair.emplace();
+  fair.tolerance = 0.25;
+  fair.before.beyond = 1;
+  fair.before.all_beyond = 3;
+  fair.before.isolines = 40;
+  ASSERT_TRUE(fair_remark(skin, "m"));
+  EXPECT_NE(fair_remark(skin, "m")->find("too few to move sections for, 1, and 3 with bulges"),
+            std::string::npos)
+      << *fair_remark(skin, "m");
+  fair.enough = true;
+  EXPECT_NE(fair_remark(skin, "m")->find("nothing moved across: no correction that was found "
+                                         "within 0.250 m or less"),
+            std::string::npos)
+      << *fair_remark(skin, "m");
+  fair.moved = 0.2;
+  EXPECT_FALSE(fair_remark(skin, "m"));
+  fair.reach = 0.0436;
+  EXPECT_NE(fair_remark(skin, "m")->find("1 % of their length, 0.0436 m at most, not by 0.250"),
+            std::string::npos)
+      << *fair_remark(skin, "m");
+}
+
+/// Stations that are fair stay, and nobody is warned; a tolerance that sections cannot use is told.
+TEST(SkinSections, WarnsOfATolerancePastWhatSectionsMayMove) {
+  SkinJob job;
+  job.fair_across = 1e-3;
+  const auto stays = fit_skin(wigley(), job);
+  ASSERT_TRUE(stays) << stays.error().what;
+  EXPECT_TRUE(stays->warnings.empty());
+  ASSERT_TRUE(fair_remark(stays->skin, "m"));
+  EXPECT_NE(fair_remark(stays->skin, "m")->find("nothing moved across"), std::string::npos);
+  job.fair_across = 2.0;
+  const auto far = fit_skin(wigley(), job);
+  ASSERT_TRUE(far) << far.error().what;
+  // the longest station is no longer than half the beam and the depth together
+  EXPECT_LE(far->skin.fair->reach.value_or(2.0), 0.01 * (0.5 + 0.625));
+  ASSERT_EQ(far->warnings.size(), 1u);
+  EXPECT_NE(far->warnings[0].find("sections may move by 1 % of their length"), std::string::npos);
+}
+
 TEST(SkinSections, WarnsWhereAnExactSkinLosesRunsAndOnlyThere) {
   const auto even = fit_skin(spirals(false), {}), uneven = fit_skin(spirals(true), {});
   ASSERT_TRUE(even && uneven) << uneven.error().what;
@@ -218,9 +261,8 @@ TEST(SkinSections, FairAcrossLeavesFewChangesBeyondTheForcedOnes) {
     std::optional<double> noise;
     double eps, most;
   };
-  for (const Body& body :
-       {Body{"hulls_grids/Series60Offset_x.dat", {}, 3.182e-3, 0.05},
-        Body{"turbomachinery_nasa/rotor37geometry.dat", 1e-4, 9.853e-4, 0.08}}) {
+  for (const Body& body : {Body{"hulls_grids/Series60Offset_x.dat", {}, 3.182e-3, 0.05},
+                           Body{"turbomachinery_nasa/rotor37geometry.dat", 1e-4, 9.853e-4, 0.08}}) {
     const auto sections = read_sections({(shared_data() / body.file).string()});
     ASSERT_TRUE(sections) << body.file;
     SkinJob job;

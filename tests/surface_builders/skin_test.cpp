@@ -369,6 +369,47 @@ TEST(SkinFairAcross, IsTheSameInOtherUnitsAndEachTime) {
   }
 }
 
+/// A larger tolerance never has more changes than a smaller one: neither by tens, nor where it is
+/// more than a hundredth of the sections, which is as far as these move.
+TEST(SkinFairAcross, ALargerToleranceHasNoMoreChanges) {
+  constexpr double kShift = 2e-3;
+  std::size_t before = std::numeric_limits<std::size_t>::max(), given = 0;
+  for (const double eps : {1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1e3}) {
+    const auto fair = skin(scattered(kShift), fair_options(1e-5, eps));
+    ASSERT_TRUE(fair) << fair.error().what;
+    EXPECT_LE(fair->across.all, before) << eps;
+    EXPECT_LE(fair->fair->moved, eps);
+    before = fair->across.all;
+    given = fair->fair->before.all;
+    // sections 2 long: 0.02 at most
+    ASSERT_EQ(fair->fair->reach.has_value(), eps > 0.02) << eps;
+    if (fair->fair->reach) {
+      EXPECT_NEAR(*fair->fair->reach, 0.02, 1e-9);
+      EXPECT_LE(fair->fair->moved, 0.02);
+      EXPECT_GT(fair->fair->moved, kShift / 2);  // shifts to and fro by as much as kShift are gone
+    }
+  }
+  EXPECT_GT(given, 0u);
+  EXPECT_LE(10 * before, given);
+}
+
+/// A short section among long ones moves by a hundredth of its length, and the others are fair.
+TEST(SkinFairAcross, AShortSectionMovesByAHundredthOfItsLength) {
+  std::vector<SkinSection> sections = scattered(2e-3);
+  sections.front() = section_of(clothoid(0.1, 0.8, 0.02), at_height(0));
+  const auto fair = skin(sections, fair_options(1e-5, 4e-3));
+  ASSERT_TRUE(fair) << fair.error().what;
+  EXPECT_TRUE(fair->fair->enough);
+  EXPECT_LT(fair->across.all, fair->fair->before.all);
+  const auto exact = skin(sections, {1e-5});
+  ASSERT_TRUE(exact);
+  for (int i = 0; i <= 100; ++i) {  // 1 % of its length
+    const Vec3 a = evaluate(exact->patches[0].surface, i / 100.0, 0.0).point,
+               b = evaluate(fair->patches[0].surface, i / 100.0, 0.0).point;
+    EXPECT_LE(norm(a - b), 2e-4);
+  }
+}
+
 /// An open arc about the origin of its plane from -1 to 1 rad, with a point of its own at `at`.
 Contour arc_with_point(double radius, double at) {
   Contour contour;

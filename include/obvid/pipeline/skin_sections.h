@@ -37,6 +37,10 @@ struct SkinJob {
 /// worst, as a sentence; nothing: there are none.
 [[nodiscard]] std::optional<std::string> runs_lost(const Skin& skin);
 
+/// What there is to say of a skin that was to be fair across: that no section moved, and why; that
+/// sections may not move as far as the tolerance. Nothing: they moved, and might that far.
+[[nodiscard]] std::optional<std::string> fair_remark(const Skin& skin, const std::string& units);
+
 struct FittedSkin {
   Skin skin;
   std::size_t proved = 0;  ///< sections whose contour is proved

@@ -154,6 +154,36 @@ std::optional<std::string> runs_lost(const Skin& skin) {
       lost, skin.sections.size(), significant(100.0 * worst, 2));
 }
 
+std::optional<std::string> fair_remark(const Skin& skin, const std::string& units) {
+  if (!skin.fair) return std::nullopt;
+  const FairAcrossReport& fair = *skin.fair;
+  const double light = skin.light ? skin.light->moved : 0.0;
+  std::string text;
+  if (!(fair.moved > light)) {
+    text = "nothing moved across: ";
+    if (fair.enough) {
+      text += fmt::format(
+          "no correction that was found within {} {} or less, and keeps the runs of curvature "
+          "along "
+          "the sections, has fewer changes of bending",
+          significant(fair.reach.value_or(fair.tolerance), 3), units);
+    } else {
+      text += fmt::format(
+          "the changes of bending beyond those forced are too few to move sections for, {}, and {} "
+          "with bulges of {} {} on {} isolines",
+          fair.before.beyond, fair.before.all_beyond, significant(fair.before.fine, 3), units,
+          fair.before.isolines);
+    }
+  }
+  if (fair.reach) {
+    if (!text.empty()) text += "; ";
+    text += fmt::format("sections may move by 1 % of their length, {} {} at most, not by {}",
+                        significant(*fair.reach, 3), units, significant(fair.tolerance, 3));
+  }
+  if (text.empty()) return std::nullopt;
+  return text;
+}
+
 Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob& job,
                             const RunContext& run) {
   FittedSkin result;
@@ -235,6 +265,13 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   // who asks for few control points knows that they cost runs; an exact skin is asked to keep them
   if (const auto lost = runs_lost(result.skin); lost && !result.skin.light) {
     result.warnings.push_back(*lost);
+  }
+  // who asked for what was fair already has it
+  const auto& fair = result.skin.fair;
+  if (fair && (fair->enough || fair->reach)) {
+    if (const auto remark = fair_remark(result.skin, job.units.text())) {
+      result.warnings.push_back(*remark);
+    }
   }
   return result;
 }

@@ -65,6 +65,12 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
   if (const auto& fair = fitted.skin.fair) {
     json.key("fair_across").begin_object().pair("tolerance", fair->tolerance);
     json.pair("moved", fair->moved);
+    json.pair("enough", fair->enough);
+    if (fair->reach) {
+      json.pair("reach", *fair->reach);
+    } else {
+      json.key("reach").null();
+    }
     json.key("tried").begin_array();
     for (const MatchingTrial& trial : fair->tried) {
       json.begin_object().pair("matched_by", matching_name(trial.matching));

@@ -106,7 +106,11 @@ struct FairAcrossReport {
   double tolerance = 0.0;  ///< as it was asked for, units
   double moved = 0.0;   ///< bound of the distance of any section from where the exact skin has it,
                         ///< units: of control points, by the convex hull; <= tolerance
-  AcrossReport before;  ///< of the exact (or light) skin, by this tolerance
+  bool enough = false;  ///< there were changes enough to move sections for
+  /// How far any section may move, units, where that is less than the tolerance: 1 % of the length
+  /// of the longest.
+  std::optional<double> reach;
+  AcrossReport before;               ///< of the exact (or light) skin, by this tolerance
   std::vector<MatchingTrial> tried;  ///< with `SkinMatching::kAutomatic`: the one used, then others
 };
 
