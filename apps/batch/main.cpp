@@ -129,6 +129,7 @@ void say_begin(const Store& store, const Share& share, std::size_t missing) {
 
 int run_batch(Asked& asked) {
   const Names names = names_of(asked.out);
+  if (auto named = check_table_name(asked.out); !named) return report(named.error());
   const auto share = share_of(asked.shard);
   if (!share) return report(share.error());
   if (asked.merge) return merge_only(asked, names);

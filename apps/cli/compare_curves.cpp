@@ -247,6 +247,9 @@ int compare_several(const CompareOptions& options) {
     return compare_curves(std::move(curves), options.curves, context);
   }();
   bar.clear();
+  if (compared) {
+    for (std::string& told : comparison_warnings(*compared)) warnings.push_back(std::move(told));
+  }
   warn(warnings);
   if (!compared) return report(compared.error());
   std::vector<Output> outputs;

@@ -13,6 +13,7 @@
 
 #include "hdf5_file.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/file_ending.h"
 
 namespace obvid::batch {
 namespace {
@@ -130,6 +131,16 @@ Names names_of(const std::string& out) {
   const fs::path path(out);
   const std::string stem = (path.parent_path() / path.stem()).string();
   return {out, stem + ".seconds.h5", stem + ".sqlite", stem + ".svg", out + ".parts"};
+}
+
+Result<void> check_table_name(const std::string& out) {
+  if (has_ending(out, ".h5 .hdf5") || fs::path(out).extension().empty()) return {};
+  return error(ErrorCode::kUnknownFormat,
+               "the table of a batch is HDF5: its name ends with .h5 or .hdf5")
+      .where(out)
+      .hint(
+          "`obvid batch query OUT.h5 --csv` prints the table of a batch as CSV; --each writes "
+          "files of every item");
 }
 
 Result<Store> Store::open(const Names& names, const Manifest& manifest) {

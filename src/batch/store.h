@@ -44,6 +44,8 @@ struct Names {
   std::string folder;   ///< out.h5.parts
 };
 [[nodiscard]] Names names_of(const std::string& out);
+/// The table is HDF5: a name that says otherwise would lie. Error: E202.
+[[nodiscard]] Result<void> check_table_name(const std::string& out);
 
 /// The folder of the shards while a batch is at work. Several processes, also of several machines,
 /// may fill it: a shard appears whole or not at all.

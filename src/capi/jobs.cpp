@@ -527,6 +527,7 @@ int obvid_compare_curves(const obvid_input* const* inputs, size_t count, const c
         const std::string& of = names[i].empty() ? made->curves[i].name : names[i];
         for (const std::string& one : warnings[i]) out->remarks.push_back(of + ": " + one);
       }
+      for (std::string& one : comparison_warnings(*made)) out->remarks.push_back(std::move(one));
       for (std::string& note : comparison_notes(*made)) out->remarks.push_back(std::move(note));
     }
     hand_out_text(told, report);

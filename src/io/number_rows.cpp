@@ -151,8 +151,10 @@ Result<NumberRows> number_rows(string_view text, string_view name) {
 }
 
 int column_named(const NumberRows& rows, string_view name) {
-  for (std::size_t i = 0; i < rows.columns.size(); ++i) {
-    if (rows.columns[i].name == name) return static_cast<int>(i);
+  std::vector<ColumnName> names = rows.columns;
+  name_places(names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].name == name) return static_cast<int>(i);
   }
   return -1;
 }

@@ -32,6 +32,7 @@ Result<ColumnTable> parse_columns(std::string_view text, std::string_view name) 
   auto rows = number_rows(without_empty_end(text), name);
   OBVID_TRY(rows);
   ColumnTable out;
+  if (const int z = column_named(*rows, "z"); z >= 0) out.heights = static_cast<std::size_t>(z);
   for (ColumnName& one : rows->columns) out.names.push_back(std::move(one.name));
   for (NumberRow& row : rows->rows) {
     out.rows.push_back(std::move(row.values));

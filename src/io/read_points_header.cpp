@@ -20,6 +20,60 @@ using std::string_view;
 constexpr std::array<string_view, 9> kToleranceNames{
     "tol", "tolerance", "u95", "ci95", "uncertainty", "unc", "+-", "+/-", "\xC2\xB1"};
 
+/// What surveys call x and y. The two stand in either order: points are listed as P, N, E, Z, D in
+/// some countries and as nr, E, N, H in others.
+struct PlaceNames {
+  string_view x, y;
+  bool degrees = false;
+};
+constexpr std::array<PlaceNames, 12> kPlaceNames{{{"easting", "northing"},
+                                                  {"eastings", "northings"},
+                                                  {"east", "north"},
+                                                  {"e", "n"},
+                                                  {"rechtswert", "hochwert"},
+                                                  {"rechts", "hoch"},
+                                                  {"ostwert", "nordwert"},
+                                                  {"ost", "nord"},
+                                                  {"longitude", "latitude", true},
+                                                  {"lon", "lat", true},
+                                                  {"long", "lat", true},
+                                                  {"lng", "lat", true}}};
+
+// Heights beside them; the first of these that a file has. The umlaut as UTF-8, small and large,
+// and as Latin-1.
+constexpr std::array<string_view, 12> kHeightNames{
+    "z",   "elevation",   "elev",        "elev.",   "height", "hoehe",
+    "ele", "h\xC3\xB6he", "h\xC3\x96he", "h\xF6he", "h",      "altitude"};
+
+// What a list of measured points has beside its places: not worth a warning.
+constexpr std::array<string_view, 24> kRemarkNames{
+    "point",       "points", "pt",    "pnt",         "p",      "nr",   "nr.",   "no",
+    "no.",         "number", "num",   "id",          "name",   "code", "punkt", "pkt",
+    "punktnummer", "desc",   "desc.", "description", "remark", "d",    "art",   "punktnr"};
+
+std::optional<std::size_t> place_of(const std::vector<ColumnName>& names, string_view name) {
+  const auto at = std::find_if(names.begin(), names.end(),
+                               [&](const ColumnName& one) { return one.name == name; });
+  if (at == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - names.begin());
+}
+
+/// The pair of names that these columns have for x and y; null when they have none, or x and y.
+const PlaceNames* survey_names(const std::vector<ColumnName>& names) {
+  if (place_of(names, "x") && place_of(names, "y")) return nullptr;
+  const auto* const at = std::find_if(
+      kPlaceNames.begin(), kPlaceNames.end(),
+      [&](const PlaceNames& one) { return place_of(names, one.x) && place_of(names, one.y); });
+  return at == kPlaceNames.end() ? nullptr : at;
+}
+
+std::optional<std::size_t> survey_height(const std::vector<ColumnName>& names) {
+  for (const string_view name : kHeightNames) {
+    if (const auto at = place_of(names, name)) return at;
+  }
+  return std::nullopt;
+}
+
 /// Names of columns without a meaning.
 std::vector<std::string> unused_names(const std::vector<ColumnName>& names, const Columns& used) {
   std::vector<std::string> out;
@@ -30,7 +84,9 @@ std::vector<std::string> unused_names(const std::vector<ColumnName>& names, cons
                        used.corner == here || used.heading_min == here ||
                        used.heading_max == here || used.radius_min == here ||
                        used.radius_max == here || used.kappa_min == here || used.kappa_max == here;
-    if (!means && !names[i].name.empty()) out.push_back(names[i].name);
+    const bool remark = used.of_survey && std::find(kRemarkNames.begin(), kRemarkNames.end(),
+                                                    names[i].name) != kRemarkNames.end();
+    if (!means && !remark && !names[i].name.empty()) out.push_back(names[i].name);
   }
   return out;
 }
@@ -160,8 +216,23 @@ std::vector<ColumnName> column_names(string_view line) {
   return names;
 }
 
+bool name_places(std::vector<ColumnName>& names) {
+  const PlaceNames* const survey = survey_names(names);
+  if (survey == nullptr) return false;
+  const auto x = place_of(names, survey->x), y = place_of(names, survey->y);
+  const auto z = survey_height(names);
+  for (ColumnName& other : names) {
+    if (other.name == "x" || other.name == "y") other.name.clear();
+  }
+  names[*x].name = "x";
+  names[*y].name = "y";
+  if (z) names[*z].name = "z";
+  return true;
+}
+
 string_view known_columns() {
-  return "x, y, z, heading_deg, radius, kappa, corner, heading_min, heading_max, radius_min, "
+  return "x, y, z (easting, northing, elevation and what else surveys call them), heading_deg, "
+         "radius, kappa, corner, heading_min, heading_max, radius_min, "
          "radius_max, kappa_min, kappa_max, and tol, tolerance, u95, ci95, "
          "uncertainty, unc, +-, +/- or \xC2\xB1";
 }
@@ -181,17 +252,18 @@ void Columns::choose(std::size_t chosen_x, std::size_t chosen_y) {
 }
 
 std::optional<Columns> read_header(string_view line) {
-  const std::vector<ColumnName> names = column_names(line);
-  const auto find = [&](string_view name) -> std::optional<std::size_t> {
-    const auto at = std::find_if(names.begin(), names.end(),
-                                 [&](const ColumnName& one) { return one.name == name; });
-    if (at == names.end()) return std::nullopt;
-    return static_cast<std::size_t>(at - names.begin());
-  };
+  std::vector<ColumnName> names = column_names(line);
+  Columns columns;
+  if (const PlaceNames* const survey = survey_names(names)) {
+    columns.of_survey = true;
+    columns.degrees = survey->degrees;
+    if (const auto z = survey_height(names)) columns.z_name = names[*z].name;
+    name_places(names);
+  }
+  const auto find = [&](string_view name) { return place_of(names, name); };
   const auto x = find("x");
   const auto y = find("y");
   if (!x || !y) return std::nullopt;
-  Columns columns;
   columns.count = names.size();
   columns.x = *x;
   columns.y = *y;

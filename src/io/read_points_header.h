@@ -37,6 +37,9 @@ struct Columns {
   std::string no_unit;              ///< in brackets behind x or y, and none that is known
   bool tab_separated = false;       ///< header with tabs: a tab ends a cell, cells may be empty
   bool our_samples = false;         ///< columns of `samples_csv`: headings show corners
+  bool of_survey = false;           ///< x and y are called easting and northing, or like them
+  bool degrees = false;             ///< they are called longitude and latitude
+  std::string z_name = "z";         ///< what the column z is called
 
   [[nodiscard]] bool has_fixed_data() const {
     return heading_deg || radius || kappa || tolerance || corner || heading_min || heading_max ||
@@ -46,6 +49,10 @@ struct Columns {
   /// Takes x and y from these columns, whatever they are called.
   void choose(std::size_t chosen_x, std::size_t chosen_y);
 };
+
+/// Of surveys: names of places (easting, northing, elevation and their like) become x, y and z
+/// where no columns are called x and y. Whether there are such.
+bool name_places(std::vector<ColumnName>& names);
 
 /// The names that mean something, for messages.
 [[nodiscard]] std::string_view known_columns();

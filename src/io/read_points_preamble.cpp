@@ -115,11 +115,34 @@ bool RowReader::is_first_row(string_view body) {
   raw_.columns = leading;
   // "Inf wing" may be a title, "nan 1.5" is a row.
   const bool row = leading >= 2 && (finite || leading == fields_.count);
-  if (row && commented_ && commented_->count == leading) {
+  const bool named_all =
+      commented_ && (commented_->count == leading ||
+                     (commented_->of_survey && commented_->count == fields_.count));
+  if (row && named_all) {
     layout_ = *commented_;
     raw_.named = true;
   }
   return row;
+}
+
+// "Road from east to north" is a title: words of surveys name columns only where the rows have as
+// many.
+bool RowReader::rows_have(const Columns& columns, string_view header) const {
+  if (!columns.of_survey) return true;
+  text::LineCursor ahead(cursor_.rest());
+  ahead.skip(header);
+  text::Fields fields;
+  while (!ahead.at_end()) {
+    const string_view line = ahead.peek();
+    ahead.skip(line);
+    if (text::is_comment(line) || text::trim(line).empty()) continue;
+    const string_view body = text::without_comment(line);
+    const Separator separator = text::detect_separator(body);
+    text::split(body, separator, fields);
+    const std::size_t needed = std::max(columns.x, columns.y) + 1;
+    return fields.count >= (separator == Separator::kWhite ? columns.count : needed);
+  }
+  return false;
 }
 
 Result<void> RowReader::take_count(string_view line, double count) {
@@ -166,7 +189,7 @@ Result<void> RowReader::take_text(string_view line) {
     return fail(error(ErrorCode::kBadNumber, shown(fields_.cell[0]) + " is not a number",
                       {line, fields_.cell[0].data()}));
   }
-  if (const auto columns = read_header(line)) {
+  if (const auto columns = read_header(line); columns && rows_have(*columns, line)) {
     layout_ = *columns;
     raw_.named = true;
     return {};
@@ -186,6 +209,7 @@ Result<void> RowReader::take_text(string_view line) {
 
 // "length,curvature": names, but not x and y. No title of a drawing, and worth a warning.
 void RowReader::take_unknown_names() {
+  degrees_named_ = layout_.degrees;
   for (const ColumnName& column : column_names(raw_.title)) {
     constexpr std::array<string_view, 5> kDegrees{"lon", "lat", "lng", "longitude", "latitude"};
     degrees_named_ = degrees_named_ ||

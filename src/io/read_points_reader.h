@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +36,7 @@ class RowReader {
   Result<void> take_count(std::string_view line, double count);
   Result<void> take_text(std::string_view line);
   bool is_first_row(std::string_view body);
+  [[nodiscard]] bool rows_have(const Columns& columns, std::string_view header) const;
   void skip_lines();
   void take_chosen_columns();
   Result<void> take_vsp(std::string_view line, const text::ParsedNumber& number);
@@ -66,6 +68,8 @@ class RowReader {
   bool drop_grid_bounds(std::size_t count);
   void watch_third(double value);
   void watch_length(const std::array<double, 3>& row);
+  [[nodiscard]] bool first_counts() const;
+  [[nodiscard]] Result<void> refuse_numbers() const;
   void warn_about_meaning();
   void warn_about_names();
   void warn_about_level();
@@ -93,6 +97,9 @@ class RowReader {
   bool degrees_named_ = false;   ///< columns called lon and lat
   bool first_is_length_ = true;  ///< so far the first column grows by the distance of the others
   std::size_t length_rows_ = 0;
+  bool first_counts_ = true;  ///< so far whole numbers, each larger by 1 than the one before
+  bool second_changes_ = false;
+  double least_of_others_ = HUGE_VAL;  ///< magnitude in the second and third column
   std::optional<double> third_;
   bool third_changes_ = false;
   bool title_seen_ = false;

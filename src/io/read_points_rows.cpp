@@ -40,6 +40,7 @@ Result<RawPoints> RowReader::read() {
   raw_.white = separator_ == Separator::kWhite;
   raw_.our_samples = raw_.named && layout_.our_samples;
   OBVID_TRY(take_unit());
+  OBVID_TRY(refuse_numbers());
   warn_about_meaning();
   return std::move(raw_);
 }
@@ -168,7 +169,10 @@ Result<void> RowReader::read_unnamed_row(Place place) {
     const auto number = text::parse_number(fields_.cell[count], separator_ != Separator::kComma);
     if (number.kind == NumberKind::kNotNumber) break;
     if (count == 2) watch_third(number.value);
-    if (count == 2) watch_length({xy[0], xy[1], number.value});
+    if (count > 2) continue;
+    const string_view first = fields_.cell[0];
+    first_counts_ = first_counts_ && first.find_first_not_of("0123456789") == first.npos;
+    watch_length({xy[0], xy[1], number.value});
   }
   OBVID_TRY(check_columns(place, count));
   push({xy[0], xy[1]}, text::digits_of(fields_.cell[0]), text::digits_of(fields_.cell[1]));
@@ -204,19 +208,51 @@ bool RowReader::drop_grid_bounds(std::size_t count) {
 void RowReader::watch_length(const std::array<double, 3>& row) {
   constexpr double kSame =
       0.02;  // of a step: a chord is that much shorter when it turns by 40 degrees
-  if (row_before_ && first_is_length_) {
+  if (row_before_ && (first_is_length_ || first_counts_)) {
     const std::array<double, 3>& before = *row_before_;
     const double step = row[0] - before[0];
     const double chord = std::hypot(row[1] - before[1], row[2] - before[2]);
-    first_is_length_ = step > 0.0 && std::abs(chord - step) <= kSame * step;
+    first_is_length_ = first_is_length_ && step > 0.0 && std::abs(chord - step) <= kSame * step;
+    first_counts_ = first_counts_ && step == 1.0;
+    second_changes_ = second_changes_ || row[1] != before[1];
     ++length_rows_;
   }
+  least_of_others_ = std::min({least_of_others_, std::abs(row[1]), std::abs(row[2])});
   row_before_ = row;
+}
+
+// Whole numbers that rise by 1 beside two columns that change: points with their numbers.
+bool RowReader::first_counts() const {
+  constexpr std::size_t kFewestSteps = 3;
+  return !raw_.named && first_counts_ && length_rows_ >= kFewestSteps && second_changes_ &&
+         third_changes_;
+}
+
+// Numbers of points are refused as x where the other two columns lie as far out as places on a grid
+// of a country do: nobody draws a height of millions over a count. Elsewhere, in a list of heights
+// over a grid, say, the first column may be x all the same, and a warning has to do.
+Result<void> RowReader::refuse_numbers() const {
+  constexpr double kGrid = 1e4;  // units; false eastings are 100 km and more
+  if (!first_counts() || least_of_others_ < kGrid) return {};
+  return obvid::error(ErrorCode::kUnsupported,
+                      "the first column looks like point numbers, the next two like eastings and "
+                      "northings, in one order or the other")
+      .where(std::string(name_))
+      .hint(
+          "--columns 2,3 where eastings come first, --columns 3,2 where northings do; or a first "
+          "line that names the columns: `point,northing,easting,elevation,description`");
 }
 
 // Numbers that are probably not what they are taken for.
 void RowReader::warn_about_meaning() {
   constexpr std::size_t kFewestRows = 4;
+  if (!(first_is_length_ && length_rows_ >= kFewestRows) && first_counts()) {
+    raw_.warnings.emplace_back(
+        "The first column rises by 1 from row to row: it looks like point numbers, but is taken as "
+        "x. --columns 2,3 takes the other two (3,2 where northings come first), and so does a "
+        "first "
+        "line `point x y`.");
+  }
   if (first_is_length_ && length_rows_ >= kFewestRows) {
     raw_.warnings.emplace_back(
         "The first column grows by the distance of the points in the second and third: it looks "
@@ -266,7 +302,7 @@ void RowReader::warn_about_names() {
 // Heights that are all the same are left out as well.
 void RowReader::warn_about_level() {
   if (!raw_.named || third_changes_ || third_.value_or(0.0) == 0.0) return;
-  raw_.warnings.push_back("The column z is " + fmt::format("{}", *third_) +
+  raw_.warnings.push_back("The column " + layout_.z_name + " is " + fmt::format("{}", *third_) +
                           " at every point: the contour is formed and written in x and y, at z 0.");
 }
 
@@ -275,7 +311,7 @@ void RowReader::watch_third(double value) {
   if (!third_) third_ = value;
   if (third_changes_ || value == *third_) return;
   third_changes_ = true;
-  raw_.warnings.push_back(std::string(raw_.named ? "The column z" : "The third column") +
+  raw_.warnings.push_back((raw_.named ? "The column " + layout_.z_name : "The third column") +
                           " is not used although it changes, first in line " +
                           std::to_string(cursor_.line_number()) +
                           ": the contour lies in the plane of x and y. `obvid fit` forms points "

@@ -175,6 +175,14 @@ class Batch(unittest.TestCase):
         rows = self.rows(self.at / "in.h5", "--item-timeout", "0.02", "--jobs", 1)
         self.assertEqual(rows["code"][1], 103)
 
+    def test_a_table_whose_name_says_that_it_is_no_HDF5_is_refused(self):
+        folder = self.hostile_folder()
+        for name in ("b.csv", "b.json", "b.sqlite", "b.svg"):
+            said = batch(folder, "-o", self.at / name, code=2)
+            self.assertIn("E202", said)
+            self.assertIn("query OUT.h5 --csv", said)
+        self.assertEqual([p.name for p in self.at.iterdir()], ["in"])
+
     def test_options_that_no_item_could_bear_stop_the_batch_at_once(self):
         folder = self.hostile_folder()
         said = batch(folder, "-o", self.out, "--carrier", "spagetti", code=2)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -55,6 +56,97 @@ TEST(ReadPoints, AByteOrderMarkIsNoPartOfTheData) {
 TEST(ReadPoints, CommentsMayStandAnywhere) {
   EXPECT_EQ(points_of("# a\n; b\n! c\n// d\n1.5 2.5 # e\n\n3 -4 ! f\n0.5 600 // g\n# end"), kThree);
   EXPECT_EQ(points_of("# x_m,y_m\n1.5,2.5\n3,-4\n0.5,600\n"), kThree);
+}
+
+// ---- lists of surveys --------------------------------------------------------------------------
+
+const Points kSurvey{{512344.998, 4213456.001}, {512349.6, 4213457.949}, {512354.214, 4213459.893}};
+
+TEST(ReadPoints, EastingAndNorthingAreXAndYWhereverTheyStand) {
+  const std::string rows =
+      "101,4213456.001,512344.998,45.0,CL\n102,4213457.949,512349.600,45.1,CL\n"
+      "103,4213459.893,512354.214,45.2,CL left\n";
+  for (const char* header :
+       {"Point,Northing,Easting,Elevation,Description", "P,N,E,Z,D", "NR,NORTH,EAST,H,Code",
+        "pt,northing_m,easting_m,elev_m,", "Point Number,Northing [m],Easting [m],Height [m],x",
+        "# Point,Northing,Easting,Elevation,Description", "Nr;Hochwert;Rechtswert;Hoehe;Art"}) {
+    std::string text = std::string(header) + "\n" + rows;
+    if (text.find(';') != text.npos) std::replace(text.begin(), text.end(), ',', ';');
+    const auto series = parse_points(text, "f");
+    ASSERT_TRUE(series) << header << to_line(series.error());
+    EXPECT_EQ(series->points, kSurvey) << header;
+    PointListOptions with_heights;
+    with_heights.heights = true;
+    const auto road = parse_points(text, "f", with_heights);
+    ASSERT_TRUE(road && road->fixed.size() == 3) << header;
+    EXPECT_EQ(road->fixed[1].height, 45.1) << header;
+    EXPECT_TRUE(road->warnings.empty()) << header << ": " << road->warnings.front();
+  }
+  EXPECT_EQ(points_of("x,easting,northing\n9,1.5,2.5\n9,3,-4\n9,0.5,600\n"), kThree);
+  EXPECT_EQ(points_of("Easting Northing\n1.5 2.5\n3 -4\n0.5 600\n"), kThree);
+  EXPECT_EQ(points_of("Nr;Rechtswert;Hochwert\nA1;1,5;2,5\nA2;3;-4\nA3;0,5;600\n"), kThree);
+}
+
+TEST(ReadPoints, UnitsBesideEastingAndNorthingHold) {
+  const auto series = parse_points("northing_usft,easting_usft,elevation_ft\n2,1,3\n5,4,6\n7,9,8\n",
+                                   "f", {.heights = true});
+  ASSERT_TRUE(series) << to_line(series.error());
+  EXPECT_EQ(series->units.text(), "usft");
+  EXPECT_EQ(series->points, (Points{{1, 2}, {4, 5}, {9, 7}}));
+  // by definition a foot is 0.3048 m, a survey foot 1200/3937 m
+  EXPECT_NEAR(series->fixed[0].height.value_or(0.0), 3 * 0.3048 * 3937.0 / 1200.0, 1e-14);
+  const auto mixed = parse_points("easting_m,northing_ft\n1,2\n4,5\n9,7\n", "f");
+  ASSERT_FALSE(mixed);
+  EXPECT_EQ(mixed.error().code, ErrorCode::kUnsupported);
+}
+
+TEST(ReadPoints, LongitudeIsXAndDegreesAreTold) {
+  const auto series = parse_points("lat,lon\n10,1\n11,4\n12,9\n", "f");
+  ASSERT_TRUE(series) << to_line(series.error());
+  EXPECT_EQ(series->points, (Points{{1, 10}, {4, 11}, {9, 12}}));
+  ASSERT_EQ(series->warnings.size(), 1u);
+  EXPECT_NE(series->warnings[0].find("longitude and latitude"), std::string::npos);
+}
+
+TEST(ReadPoints, WordsOfSurveysAreNoNamesWhereXAndYOrATitleStand) {
+  EXPECT_EQ(points_of("easting,northing,x,y\n9,9,1.5,2.5\n9,9,3,-4\n9,9,0.5,600\n"), kThree);
+  const auto title = parse_points("From north to east\n1.5 2.5\n3 -4\n0.5 600\n", "f");
+  ASSERT_TRUE(title) << to_line(title.error());
+  EXPECT_EQ(title->name, "From north to east");
+  EXPECT_EQ(title->points, kThree);
+}
+
+TEST(ReadPoints, NumbersOfPointsAreNoCoordinates) {
+  const std::string far =
+      "101 5501234.1 4213455.9 123.4 TOP\n102 5501236.1 4213456.9 123.6 TOP\n"
+      "103 5501238.0 4213458.2 123.9 TOP\n104 5501239.8 4213459.7 124.1 TOP\n";
+  const auto refused = parse_points(far, "f");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(refused.error().hint.find("--columns 2,3"), std::string::npos);
+  PointListOptions chosen;
+  chosen.columns = {2, 1};
+  const auto read = parse_points(far, "f", chosen);
+  ASSERT_TRUE(read) << to_line(read.error());
+  EXPECT_EQ(read->points.front(), (Vec2{4213455.9, 5501234.1}));
+  EXPECT_TRUE(read->warnings.empty());
+
+  const auto warned = [](const char* text) {
+    const auto series = parse_points(text, "f");
+    EXPECT_TRUE(series) << text;
+    if (!series) return false;
+    for (const std::string& told : series->warnings) {
+      if (told.find("looks like point numbers") != told.npos) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(warned("1 10.5 20.5\n2 11.5 20.9\n3 12.6 21.5\n4 13.4 22.2\n"));
+  EXPECT_TRUE(warned("Punkt,A,B\n1,10.5,20.5\n2,11.5,20.9\n3,12.6,21.5\n4,13.4,22.2\n"));
+  EXPECT_FALSE(warned("1 10.5 20.5\n2 11.5 20.9\n3 12.6 21.5\n5 13.4 22.2\n"));       // a gap
+  EXPECT_FALSE(warned("1.0 10.5 20.5\n2.0 11.5 20.9\n3.0 12.6 21.5\n4.0 13.4 2\n"));  // decimals
+  EXPECT_FALSE(warned("1 10.5 0\n2 11.5 0\n3 12.6 0\n4 13.4 0\n"));  // x y at z = 0
+  EXPECT_FALSE(warned("1 10.5\n2 11.5\n3 12.6\n4 13.4\n"));
+  EXPECT_FALSE(warned("x,y,z\n1,10.5,20.5\n2,11.5,20.9\n3,12.6,21.5\n4,13.4,22.2\n"));
 }
 
 TEST(ReadPoints, ExponentsAreReadInEachNotation) {

@@ -74,6 +74,9 @@ void name_curves(const std::vector<std::string>& files, std::vector<ComparedCurv
 /// chords that differ.
 [[nodiscard]] std::vector<std::string> comparison_notes(const CurveComparison& compared);
 
+/// Of airfoils one side of which ends before the other one: what the ends say is of two places.
+[[nodiscard]] std::vector<std::string> comparison_warnings(const CurveComparison& compared);
+
 /// One row for each place: where it is, and how far each other curve is from it.
 [[nodiscard]] DataTable curves_rows(const CurveComparison& compared);
 /// Figures of all curves and deviations; docs/formats.md.

@@ -47,4 +47,22 @@ std::vector<SummaryCell> airfoil_cells(const std::vector<std::string>& files) {
            csv_cell(f->trailing_thickness)}};
 }
 
+std::string side_ends_text(const std::string& side, double gap) {
+  constexpr double kBeside = 5e-4;  // chords
+  if (!(gap > kBeside)) return "";
+  return fmt::format(
+      "{} side ends {:.3f} % of the chord before the other one, as where a file lacks its last "
+      "point",
+      side, 100.0 * gap);
+}
+
+std::vector<Vec2> airfoil_points_around(const Contour& contour, const AirfoilFigures& f) {
+  std::vector<Vec2> out = contour.points;
+  if (!contour.closed || out.empty()) return out;
+  const double x = dot(out.front() - f.leading_edge, unit_at(f.turn)) / f.chord;
+  constexpr double kAftOf = 0.5;
+  if (x > kAftOf) out.push_back(out.front());
+  return out;
+}
+
 }  // namespace obvid

@@ -244,16 +244,11 @@ std::string nose_text(const AirfoilFigures& f) {
 
 /// What a trailing edge has whose sides do not end beside each other; empty for others.
 std::string trailing_text(const AirfoilText& made, const std::optional<double>& wanted) {
-  constexpr double kBeside = 5e-4;  // chords
   const double gap = made.closed ? made.closed->gap : made.figures.trailing_gap;
-  if (!(gap > kBeside)) return "";
-  std::string out = fmt::format(
-      "{} side ends {:.3f} % of the chord before the other one, as where a file lacks its last "
-      "point: ",
-      !made.closed         ? "one"
-      : made.closed->upper ? "the upper"
-                           : "the lower",
-      100.0 * gap);
+  const char* const side = !made.closed ? "one" : made.closed->upper ? "the upper" : "the lower";
+  std::string out = side_ends_text(side, gap);
+  if (out.empty()) return out;
+  out += ": ";
   if (made.closed && made.closed->left_open.empty()) {
     return out + fmt::format("it goes on straight by {:.3f} %", 100.0 * made.closed->gone_on);
   }
@@ -269,17 +264,6 @@ std::string closed_text(const ClosedEdge& edge) {
       "trailing edge of the file closed: both sides end at one point, each end moved {:.5f} chords "
       "to it, and what lies before it by that times (x/chord)^2",
       edge.moved);
-}
-
-/// The input's points from trailing edge to trailing edge: where a closed contour begins there, its
-/// first point ends the list, too.
-std::vector<Vec2> points_around(const Contour& contour, const AirfoilFigures& f) {
-  std::vector<Vec2> out = contour.points;
-  if (!contour.closed || out.empty()) return out;
-  const double x = dot(out.front() - f.leading_edge, unit_at(f.turn)) / f.chord;
-  constexpr double kAftOf = 0.5;
-  if (x > kAftOf) out.push_back(out.front());
-  return out;
 }
 
 /// What the input says without a curve, beside the figures of the contour.
@@ -368,7 +352,7 @@ Result<Exported> airfoil_file(const ContourExport& e) {
   if (auto told = trailing_text(*made, write.trailing_thickness); !told.empty()) {
     out.warnings.push_back(std::move(told));
   }
-  if (const auto input = airfoil_point_figures(points_around(e.contour, f), f)) {
+  if (const auto input = airfoil_point_figures(airfoil_points_around(e.contour, f), f)) {
     out.remarks.push_back(points_text(*input));
   }
   return out;

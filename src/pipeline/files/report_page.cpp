@@ -6,14 +6,18 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "files/file_units.h"
 #include "files/format_writers.h"
+#include "obvid/core/internal/data_table.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/core/units.h"
+#include "obvid/exchange/internal/points/airfoil.h"
 #include "obvid/geom/internal/angle.h"
+#include "obvid/pipeline/internal/airfoil_file.h"
 #include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/pipeline/internal/page_text.h"
@@ -99,6 +103,40 @@ std::string lines_and_arcs_table(const Contour& contour) {
   return out + "</tbody></table>\n";
 }
 
+/// Of an airfoil: the contour beside straight lines between the points that it was formed through.
+std::string airfoil_table(const Contour& contour) {
+  // chords; what is thicker is a loop that runs there and back, no airfoil
+  constexpr double kThickest = 0.4;
+  const auto f = airfoil_figures(contour);
+  if (!f || f->thickness > kThickest) return {};
+  const auto input = airfoil_point_figures(airfoil_points_around(contour, *f), *f);
+  DataTable out{{"% of the chord", "contour", "points", "difference"}};
+  const auto add = [&](const char* name, double made, std::optional<double> given) {
+    DataRow row{name, fmt::format("{:.3f}", 100.0 * made)};
+    if (given) {
+      row.emplace_back(fmt::format("{:.3f}", 100.0 * *given));
+      row.emplace_back(fmt::format("{:.3f}", 100.0 * (made - *given)));
+    }
+    out.rows.push_back(std::move(row));
+  };
+  const auto of_points = [&](double AirfoilPointFigures::*figure) {
+    return input ? std::optional((*input).*figure) : std::nullopt;
+  };
+  using Points = AirfoilPointFigures;
+  add("thickness", f->thickness, of_points(&Points::thickness));
+  add("thickness, at", f->thickness_at, of_points(&Points::thickness_at));
+  add("camber", f->camber, of_points(&Points::camber));
+  add("camber, at", f->camber_at, of_points(&Points::camber_at));
+  add("leading edge radius", f->nose_radius, of_points(&Points::nose_radius));
+  add(f->trailing_round ? "trailing edge, diameter" : "trailing edge", f->trailing_thickness,
+      of_points(&Points::trailing_thickness));
+  return table_of_page("airfoil",
+                       fmt::format("Airfoil, chord {:.6g} {}; points: straight lines between them, "
+                                   "circle through the three at the nose",
+                                   f->chord, contour.units.text()),
+                       out);
+}
+
 Figures figures_of_stored(const StoredContour& stored, const std::string& asked) {
   Figures out;
   if (!asked.empty()) out.emplace_back("asked for", asked);
@@ -135,6 +173,7 @@ std::string report_page(const ContourExport& e, const std::string& picture, cons
   page.warnings.insert(page.warnings.end(), notes.warnings.begin(), notes.warnings.end());
   page.notes = e.options.told.remarks;
   page.notes.insert(page.notes.end(), notes.remarks.begin(), notes.remarks.end());
+  page.tables.push_back(airfoil_table(e.stored.contour));
   page.tables.push_back(lines_and_arcs_table(e.stored.contour));
   if (e.stored.report) page.tables.push_back(segments_table(*e.stored.report));
   return page_text(page);

@@ -42,7 +42,7 @@ Result<std::optional<SpaceSeries>> parse_space_series(const std::string& whole,
   const std::string_view text = behind_lines(whole, import.list.skip);
   const auto table = parse_columns(text, name);
   const bool named = table && !table->names.empty();
-  if (named ? !table->column({"z"}) : !any_third) return std::nullopt;
+  if (named ? !table->heights : !any_third) return std::nullopt;
   auto parsed = parse_sections(text, name);
   if (!parsed || parsed->flat || parsed->sections.size() != 1) return std::nullopt;
   SpaceSeries& series = parsed->sections.front();

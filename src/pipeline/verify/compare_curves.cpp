@@ -15,6 +15,7 @@
 #include "obvid/curve/internal/contour_path.h"
 #include "obvid/exchange/internal/points/airfoil.h"
 #include "obvid/io/internal/file_kind.h"
+#include "obvid/pipeline/internal/airfoil_file.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
 #include "obvid/pipeline/stored.h"
 #include "verify/curve_deviation.h"
@@ -209,6 +210,18 @@ std::vector<std::string> comparison_notes(const CurveComparison& compared) {
     out.push_back(
         fmt::format("the chord of {} is {} times that of {}; --align chord compares the shapes",
                     curve.name, significant(ratio, 4), compared.curves.front().name));
+  }
+  return out;
+}
+
+std::vector<std::string> comparison_warnings(const CurveComparison& compared) {
+  std::vector<std::string> out;
+  if (!compared.airfoils) return out;
+  for (const ComparedCurve& curve : compared.curves) {
+    const std::string told = side_ends_text("one", curve.airfoil->trailing_gap);
+    if (told.empty()) continue;
+    out.push_back(curve.name + ": " + told +
+                  ": the thickness of the trailing edge is across the chord alone; add that point");
   }
   return out;
 }

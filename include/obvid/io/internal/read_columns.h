@@ -16,7 +16,8 @@ namespace obvid {
 struct ColumnTable {
   std::vector<std::string> names;  ///< lower case, without units; empty when there is no header
   std::vector<std::vector<double>> rows;
-  std::vector<std::size_t> lines;  ///< of each row in the file, from 1
+  std::vector<std::size_t> lines;        ///< of each row in the file, from 1
+  std::optional<std::size_t> heights{};  ///< column z, or what surveys call it beside x and y
 
   /// Place of a column by one of its names.
   [[nodiscard]] std::optional<std::size_t> column(

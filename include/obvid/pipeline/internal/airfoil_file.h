@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "obvid/curve/contour.h"
 #include "obvid/pipeline/internal/summary.h"
 #include "obvid/report/airfoil_figures.h"
 
@@ -17,5 +18,14 @@ namespace obvid {
 /// The same of the first .dat among files that were written, for the line of one input of several;
 /// empty where there is none among them.
 [[nodiscard]] std::vector<SummaryCell> airfoil_cells(const std::vector<std::string>& files);
+
+/// "one side ends 5.127 % of the chord before the other one, as where a file lacks its last point";
+/// empty where both sides end beside each other. `side` says which one, `gap` how far, chords.
+[[nodiscard]] std::string side_ends_text(const std::string& side, double gap);
+
+/// Points of an airfoil from trailing edge to trailing edge: where a closed contour begins there,
+/// its first point ends the list, too.
+[[nodiscard]] std::vector<Vec2> airfoil_points_around(const Contour& contour,
+                                                      const AirfoilFigures& figures);
 
 }  // namespace obvid
