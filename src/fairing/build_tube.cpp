@@ -196,7 +196,9 @@ class Builder {
   void set_primitives() {
     std::vector<std::size_t> order = points_in_order();
     SmoothPoints smooth = smooth_points(order);
-    std::vector<Primitive> found = find_primitives(smooth, watch_);
+    std::vector<Primitive> found = series_.meant.empty()
+                                       ? find_primitives(smooth, watch_)
+                                       : fitted_primitives(smooth, meant_primitives(), watch_);
     if (found.empty()) return;
     if (series_.closed && found.front().first == 0 && found.front().last + 1 == order.size()) {
       const double turn =
@@ -230,6 +232,24 @@ class Builder {
     }
     inside_ = smooth_knots();
     if (!inside_) trouble_ = farthest_outside();
+  }
+
+  /// What is meant, by places in the order, which begins at the first node.
+  [[nodiscard]] std::vector<Primitive> meant_primitives() const {
+    const std::size_t n = series_.points.size();
+    std::vector<Primitive> out;
+    for (const MeantPiece& m : series_.meant) {
+      Primitive p;
+      p.first = (m.first + n - source_.front()) % n;
+      p.last = p.first + (m.last - m.first);
+      p.anchor = m.middle.point - tube_.origin;
+      p.theta = m.middle.theta;
+      p.kappa = m.middle.kappa;
+      out.push_back(p);
+    }
+    std::sort(out.begin(), out.end(),
+              [](const Primitive& a, const Primitive& b) { return a.first < b.first; });
+    return out;
   }
 
   /// Rotates the order so that it begins with the first primitive, where that has points from over
