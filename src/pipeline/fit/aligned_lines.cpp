@@ -14,7 +14,7 @@ namespace {
 /// More points are searched with every second one, third one ...: the search takes the square of
 /// their number.
 constexpr std::size_t kMostSearched = 500;
-constexpr std::size_t kFewestOfPiece = 4;  ///< points
+constexpr std::size_t kFewestOnPiece = 4;  ///< points
 /// Of the tolerance: what is searched within at least, and the least scatter.
 constexpr double kLeastShare = 0.2, kLeastScatter = 0.05;
 /// Offsets from curves that are not what the points mean have their errors on top: of the scatter,
@@ -87,7 +87,7 @@ class AlignedLines {
     for (std::size_t k = 1; s_.closed && k < on.size(); ++k) {
       if (on.front() == 0 && on.back() + 1 == points_.size() && on[k] > on[k - 1] + 1) seam = k;
     }
-    if ((on.size() - std::min(on.size(), std::size_t{1})) * step_ + 1 < kFewestOfPiece) {
+    if ((on.size() - std::min(on.size(), std::size_t{1})) * step_ + 1 < kFewestOnPiece) {
       return std::nullopt;
     }
     MeantPiece out;
