@@ -4,6 +4,7 @@
 #include "audit_report.h"
 #include "commands.h"
 #include "files/format_writers.h"
+#include "fit/aligned_lines.h"
 #include "obvid/alignment/profile.h"
 #include "obvid/alignment/transition.h"
 #include "obvid/cad/internal/cad.h"
@@ -72,6 +73,8 @@ OBVID_LATER(std::string table_of_page(std::string_view, std::string_view, const 
 namespace pipeline_detail {
 OBVID_LATER(Result<Exported> contour_as_report(const ContourExport&))
 OBVID_LATER(void add_false_claim(JsonText&, const Error*))
+OBVID_LATER(std::vector<MeantPiece> aligned_lines(const MeasuredSeries&, std::optional<double>,
+                                                  Watch&))
 }  // namespace pipeline_detail
 
 // ---- constructions, points in space -----------------------------------------------------------

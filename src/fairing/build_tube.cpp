@@ -8,6 +8,7 @@
 
 #include "find_primitives.h"
 #include "heading_ranges.h"
+#include "node_ends.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/series/analysis.h"
 #include "tube_ends.h"
@@ -35,6 +36,10 @@ constexpr std::size_t kFewestOnLoop = 3;    ///< nodes of a closed tube
 constexpr double kModelShare = 0.995;
 /// Where many points with noise up to their reach lie between nodes, no curve keeps that much room.
 constexpr double kTightShare = 0.998;
+
+/// Of the tolerance: how much farther than from the circle of least squares points may be from one
+/// that is meant. Two that touch are moved apart by a fifth.
+constexpr double kRoomOfMeant = 0.2;
 
 /// Size that the tolerance can hide, over (tolerance / chord).
 constexpr double kHiddenSize = 0.05;
@@ -196,7 +201,9 @@ class Builder {
   void set_primitives() {
     std::vector<std::size_t> order = points_in_order();
     SmoothPoints smooth = smooth_points(order);
-    std::vector<Primitive> found = find_primitives(smooth, watch_);
+    std::vector<Primitive> found = series_.meant.empty()
+                                       ? find_primitives(smooth, watch_)
+                                       : fitted_primitives(smooth, meant_primitives(), watch_);
     if (found.empty()) return;
     if (series_.closed && found.front().first == 0 && found.front().last + 1 == order.size()) {
       const double turn =
@@ -230,6 +237,24 @@ class Builder {
     }
     inside_ = smooth_knots();
     if (!inside_) trouble_ = farthest_outside();
+  }
+
+  /// What is meant, by places in the order, which begins at the first node.
+  [[nodiscard]] std::vector<Primitive> meant_primitives() const {
+    const std::size_t n = series_.points.size();
+    std::vector<Primitive> out;
+    for (const MeantPiece& m : series_.meant) {
+      Primitive p;
+      p.first = (m.first + n - source_.front()) % n;
+      p.last = p.first + (m.last - m.first);
+      p.anchor = m.middle.point - tube_.origin;
+      p.theta = m.middle.theta;
+      p.kappa = m.middle.kappa;
+      out.push_back(p);
+    }
+    std::sort(out.begin(), out.end(),
+              [](const Primitive& a, const Primitive& b) { return a.first < b.first; });
+    return out;
   }
 
   /// Rotates the order so that it begins with the first primitive, where that has points from over
@@ -337,9 +362,16 @@ class Builder {
     node.first_on = tube_.on_primitives.size();
     const std::size_t n = series_.points.size();
     const std::size_t to = knot.last >= knot.first ? knot.last : knot.last + n;
+    const Vec3 none{};
+    const PlacedNode fitted = place(node, none.data());
     for (std::size_t i = knot.first; i <= to; ++i) {
-      tube_.on_primitives.push_back({local(i % n), series_.reach[i % n]});
-      node.reach = std::max(node.reach, series_.reach[i % n]);
+      double reach = series_.reach[i % n];
+      node.reach = std::max(node.reach, reach);
+      if (!series_.meant.empty()) {  // near the least squares
+        const double off = circle_distance(node, fitted, local(i % n)).value;
+        reach = std::min(reach, std::abs(off) + kRoomOfMeant * reach);
+      }
+      tube_.on_primitives.push_back({local(i % n), reach});
     }
     node.last_on = tube_.on_primitives.size();
     return node;

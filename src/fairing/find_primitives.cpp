@@ -81,7 +81,48 @@ class Finder {
     return kept;
   }
 
+  std::vector<Primitive> fitted(std::vector<Primitive> known) {
+    std::vector<Primitive> out;
+    for (Primitive& p : known) {
+      if (keep_free(p) && fit_known(p)) out.push_back(p);
+    }
+    join(out);
+    return out;
+  }
+
  private:
+  /// Leaves points of `p` that are not free, and those between them and the nearer end. False: too
+  /// few are left.
+  [[nodiscard]] bool keep_free(Primitive& p) const {
+    const std::size_t middle = p.first + (p.last - p.first) / 2;
+    std::size_t first = p.first, last = p.last;
+    for (std::size_t i = p.first; i <= p.last; ++i) {
+      if (s_.free[wrapped(i)] && s_.reach[wrapped(i)] > 0.0) continue;
+      if (i <= middle) first = i + 1;
+      if (i > middle) last = std::min(last, i - 1);
+    }
+    p.first = first;
+    p.last = last;
+    return last + 1 >= first + kFewestPoints;
+  }
+
+  /// By least squares, with its ends at the feet of its first and last point. False: that does not
+  /// pass its points.
+  [[nodiscard]] bool fit_known(Primitive& p) const {
+    const auto lay_ends = [&] {
+      const double middle = 0.5 * norm(point(p.last) - point(p.first));
+      p.before = -foot_near_by(p, point(p.first), -middle);
+      p.after = foot_near_by(p, point(p.last), middle);
+      return p.before > 0.0 && p.after > 0.0;
+    };
+    if (!lay_ends()) return false;
+    refit(p);
+    for (std::size_t i = p.first; i <= p.last; ++i) {
+      if (!lies_within(p, i)) return false;
+    }
+    return lay_ends();
+  }
+
   [[nodiscard]] double length(const Primitive& p) const { return s_.at[p.last] - s_.at[p.first]; }
   [[nodiscard]] double common_length(const Primitive& p, const Primitive& q) const {
     const std::size_t first = std::max(p.first, q.first), last = std::min(p.last, q.last);
@@ -248,7 +289,10 @@ class Finder {
   /// Of a point, from the anchor; feet beyond half a turn look as if they lay on its other side,
   /// and of some turns that one counts which is nearest to the way along the points.
   [[nodiscard]] double foot_near(const Primitive& p, std::size_t i, double along) const {
-    const double foot = foot_on(p, s_.points[i]);
+    return foot_near_by(p, s_.points[i], along);
+  }
+  [[nodiscard]] static double foot_near_by(const Primitive& p, Vec2 point, double along) {
+    const double foot = foot_on(p, point);
     if (p.kappa == 0.0) return foot;
     const double turn = kFullTurn / std::abs(p.kappa);
     return foot + turn * std::round((along - foot) / turn);
@@ -385,7 +429,10 @@ class Finder {
   }
 
   [[nodiscard]] bool may_take(const Primitive& p, std::size_t i) const {
-    if (!s_.free[wrapped(i)]) return false;
+    return s_.free[wrapped(i)] && lies_within(p, i);
+  }
+
+  [[nodiscard]] bool lies_within(const Primitive& p, std::size_t i) const {
     CircleFit fit;
     fit.node.point = p.anchor;
     fit.node.theta = p.theta;
@@ -433,6 +480,11 @@ class Finder {
 
 std::vector<Primitive> find_primitives(const SmoothPoints& series, Watch& watch) {
   return Finder(series, watch).run();
+}
+
+std::vector<Primitive> fitted_primitives(const SmoothPoints& series, std::vector<Primitive> known,
+                                         Watch& watch) {
+  return Finder(series, watch).fitted(std::move(known));
 }
 
 }  // namespace obvid::fairing_detail

@@ -40,4 +40,10 @@ struct Primitive {
 /// without common points. Cost O(n) fits.
 [[nodiscard]] std::vector<Primitive> find_primitives(const SmoothPoints& series, Watch& watch);
 
+/// Primitives of which points, anchor, heading and curvature are known nearly: with least squares,
+/// without points at their ends that are not free, and cut where neighbours touch. Those that
+/// nothing is left of are left out. `last` may count on over the seam of a closed series.
+[[nodiscard]] std::vector<Primitive> fitted_primitives(const SmoothPoints& series,
+                                                       std::vector<Primitive> known, Watch& watch);
+
 }  // namespace obvid::fairing_detail

@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <utility>
 
 #include "middle_residual.h"
+#include "obvid/series/internal/strays.h"
 #include "outlier_rules.h"
 
 namespace obvid {
@@ -52,6 +54,7 @@ class Search {
             .value(static_cast<double>(out_.points.size()));
       }
     }
+    drop_at_ends();
     std::sort(out_.points.begin(), out_.points.end(),
               [](const Outlier& a, const Outlier& b) { return a.index < b.index; });
     out_.limit = limit_;
@@ -95,6 +98,34 @@ class Search {
     return {};
   }
   static std::ptrdiff_t at(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
+
+  /// Cubics pass over the ends of a row: points there are told from what is left behind them.
+  void drop_at_ends() {
+    std::vector<std::size_t> left;
+    std::vector<Vec2> row;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (gone_[i]) continue;
+      left.push_back(i);
+      row.push_back(points_[i]);
+    }
+    CurveOrder as_it_is;
+    as_it_is.order.resize(row.size());
+    std::iota(as_it_is.order.begin(), as_it_is.order.end(), std::size_t{0});
+    as_it_is.gap = norm(row.back() - row.front());
+    const auto shorter = without_end_strays(row, as_it_is);
+    if (!shorter) return;
+    const auto& strays = shorter->strays.points;
+    if (!std::all_of(strays.begin(), strays.end(),
+                     [&](const Outlier& one) { return may_go(left[one.index]); })) {
+      return;
+    }
+    for (const Outlier& one : strays) {
+      gone_[left[one.index]] = true;
+      out_.points.push_back({left[one.index], one.off});
+    }
+    before_[left[shorter->order.order.front()]] = points_.size();
+    behind_[left[shorter->order.order.back()]] = points_.size();
+  }
 
   /// Of a point among those that are left.
   [[nodiscard]] std::optional<MiddleResidual> residual(std::size_t i) const {

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "fit/aligned_lines.h"
 #include "fit/edge_chain.h"
 #include "fit/form.h"
 #include "fit/given.h"
@@ -21,6 +22,8 @@
 #include "obvid/fairing/internal/fairing.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/series/analysis.h"
+#include "obvid/series/internal/outliers.h"
+#include "obvid/series/internal/scatter.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -619,37 +622,74 @@ class SectionChooser {
     give_nodes(measured, whole, series_.convex);
     if (auto circle = whole_circle(measured)) return std::move(*circle);
     FairedSeries faired;
-    if (auto chain = follow_runs(measured, faired)) {
-      if (bends_without_need(*chain)) {
-        give_nodes(measured, whole, true);
-        FairedSeries one_way;
-        auto convex = follow_runs(measured, one_way);
-        if (convex && runs_of(*convex) <= runs_of(*chain) &&
-            one_way.primitives >= faired.primitives) {
-          chain = std::move(convex);
-          faired = std::move(one_way);
-        }
-      }
-      if (measured.primitives) tell_primitives(faired);
+    auto chain = runs_of_least_bends(measured, whole, faired);
+    std::vector<MeantPiece> meant;
+    if (measured.primitives && !(chain && is_all_primitives(faired))) {
+      meant = keep_meant(measured, whole, chain, faired);
+    }
+    if (chain) {
+      if (measured.primitives) tell_primitives(faired, meant);
       return std::move(*chain);
     }
     if (measured.primitives) {
-      out_.warnings.emplace_back(
+      out_.warnings.push_back(
           "no contour was found that keeps the lines and arcs among the points: it is formed "
-          "without "
-          "them");
+          "without them" +
+          strays_text());
     }
     const bool searched = is_node_each(faired, measured.points.size());
     measured.primitives = false;
     measured.thin = false;
     if (!searched) {
-      if (auto chain = follow_runs(measured, faired)) return std::move(*chain);
+      if (auto thick = follow_runs(measured, faired)) return std::move(*thick);
     }
     if (goes_on_) return around_loop();
     out_.warnings.emplace_back(
         "the points were moved within their tolerances onto a smooth curve, but runs of monotone "
         "curvature along it were not found; the contour runs through the moved points");
     return through_moved(faired);
+  }
+
+  /// `follow_runs`, with bends one way only where that takes no more runs.
+  std::optional<SeriesChain> runs_of_least_bends(MeasuredSeries measured,
+                                                 const std::vector<std::size_t>& whole,
+                                                 FairedSeries& faired) {
+    auto chain = follow_runs(measured, faired);
+    if (!chain || !bends_without_need(*chain)) return chain;
+    give_nodes(measured, whole, true);
+    FairedSeries one_way;
+    auto convex = follow_runs(measured, one_way);
+    if (convex && runs_of(*convex) <= runs_of(*chain) && one_way.primitives >= faired.primitives) {
+      chain = std::move(convex);
+      faired = std::move(one_way);
+    }
+    return chain;
+  }
+
+  /// Whether there are lines and arcs, with one transition between neighbours and nothing else.
+  [[nodiscard]] bool is_all_primitives(const FairedSeries& faired) const {
+    const auto between = std::count_if(faired.direction.begin(), faired.direction.end(),
+                                       [](int d) { return d != 0; });
+    return faired.given_up == 0 && faired.primitives > 0 &&
+           between <= faired.primitives - (loop_ ? 0 : 1);
+  }
+
+  /// Where the points mean lines and arcs alone and `chain` has fewer of them, the one that keeps
+  /// these takes its place. What they mean, if that is more than was found.
+  std::vector<MeantPiece> keep_meant(MeasuredSeries measured, const std::vector<std::size_t>& whole,
+                                     std::optional<SeriesChain>& chain, FairedSeries& faired) {
+    if (goes_on_) return {};
+    const auto had = static_cast<std::size_t>(chain ? faired.primitives : 0);
+    measured.loose.clear();
+    measured.meant = aligned_lines(measured, middle_deviation(series_.points), watch_);
+    if (measured.meant.size() <= had) return {};
+    FairedSeries more;
+    auto other = runs_of_least_bends(measured, whole, more);
+    if (other && static_cast<std::size_t>(more.primitives) > had) {
+      chain = std::move(other);
+      faired = std::move(more);
+    }
+    return measured.meant;
   }
 
   /// Of a loop whose points lie within their tolerances of one circle, which has no vertex.
@@ -690,20 +730,88 @@ class SectionChooser {
     return true;
   }
 
-  void tell_primitives(const FairedSeries& faired) {
-    if (faired.given_up > 0) {
+  void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {
+    if (meant.size() > static_cast<std::size_t>(faired.primitives)) {
+      out_.warnings.push_back(missing_text(faired, meant) + strays_text());
+    } else if (meant.empty() && faired.given_up > 0) {
       const auto all = static_cast<std::size_t>(faired.primitives + faired.given_up);
       out_.warnings.push_back(fmt::format(
           "the points mean {}, of which {} kept: beside the others no transition was found that "
-          "stays within the tolerance",
+          "stays within the tolerance{}",
           counted(all, "line or arc", "lines and arcs"),
           faired.primitives == 0   ? "none is"
           : faired.primitives == 1 ? "1 is"
-                                   : fmt::format("{} are", faired.primitives)));
+                                   : fmt::format("{} are", faired.primitives),
+          strays_text()));
     } else if (faired.primitives == 0) {
       out_.is_bare = series_.split.sections.size() > 1;
-      if (!out_.is_bare) out_.warnings.push_back(no_primitives_text());
+      if (!out_.is_bare) out_.warnings.push_back(no_primitives_text() + strays_text());
+    } else if (!is_all_primitives(faired)) {
+      if (const std::string strays = strays_text(); !strays.empty()) {
+        out_.warnings.push_back("lines and arcs do not follow one another everywhere" + strays);
+      }
     }
+  }
+
+  /// Single points that break rows of a line or an arc, and what to do about them; empty: none.
+  [[nodiscard]] std::string strays_text() const {
+    constexpr std::size_t kMostNamed = 5;
+    const auto strays = outliers_of(points_);
+    if (!strays || strays->points.empty()) return {};
+    const auto& all = strays->points;
+    std::string named;
+    for (std::size_t k = 0; k < std::min(all.size(), kMostNamed); ++k) {
+      named += fmt::format("{}{}", k > 0 ? ", " : "", index_[all[k].index] + 1);
+    }
+    const bool one = all.size() == 1;
+    return fmt::format("; {} {}{} off the curve of {} neighbours: --drop-outliers leaves {} out",
+                       one ? "point" : "points", named,
+                       one                        ? " lies"
+                       : all.size() <= kMostNamed ? " lie"
+                                                  : " and more lie",
+                       one ? "its" : "their", one ? "it" : "them");
+  }
+
+  /// Names what the points mean and the contour does not have.
+  [[nodiscard]] std::string missing_text(const FairedSeries& faired,
+                                         const std::vector<MeantPiece>& meant) const {
+    std::string missing;
+    const std::size_t n = points_.size();
+    for (const MeantPiece& m : meant) {
+      if (is_on_primitive(faired, (m.first + (m.last - m.first) / 2) % n)) continue;
+      missing += fmt::format("{}{} (points {}-{})", missing.empty() ? "" : ", ",
+                             m.middle.kappa == 0.0 ? std::string("a line")
+                                                   : fmt::format("an arc of radius {:.4g}",
+                                                                 std::abs(1.0 / m.middle.kappa)),
+                             index_[m.first % n] + 1, index_[m.last % n] + 1);
+    }
+    return fmt::format(
+        "the points mean {}, of which the contour does not keep {}: no transitions beside them "
+        "were "
+        "found that stay within the tolerance; `obvid alignment` has them, with steps of the "
+        "curvature",
+        counted(meant.size(), "line or arc", "lines and arcs"),
+        missing.empty() ? std::string("all") : missing);
+  }
+
+  /// Whether point i lies between the first and last point of a line or arc of the contour.
+  [[nodiscard]] bool is_on_primitive(const FairedSeries& faired, std::size_t i) const {
+    const std::size_t n = points_.size(), elements = faired.source.size();
+    std::size_t first = n;  // none
+    // twice around: a run of exact pieces may begin before the first element of a loop
+    for (std::size_t k = 0; k < 2 * faired.direction.size(); ++k) {
+      if (faired.direction[k % faired.direction.size()] != 0) {
+        first = n;
+        continue;
+      }
+      const auto& from = faired.source[k % elements];
+      const auto& to = faired.source[(k + 1) % elements];
+      if (from && first == n) first = *from;
+      if (!to || first == n) continue;
+      const std::size_t behind = (*to + n - first) % n;
+      if ((i + n - first) % n <= behind) return true;
+    }
+    return false;
   }
 
   /// Whether the points, none of which need move then, lie on one circle or line that has what is

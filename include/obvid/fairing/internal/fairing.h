@@ -11,6 +11,12 @@
 
 namespace obvid {
 
+/// A line or an arc that points mean, as somebody else found it.
+struct MeantPiece {
+  std::size_t first = 0, last = 0;  ///< its points; `last` counts on over the seam of a loop
+  Element middle;                   ///< of it; curvature 0: a line
+};
+
 /// Measured points with the circles in which the true points may lie.
 struct MeasuredSeries {
   std::vector<Vec2> points;        ///< no two neighbours equal
@@ -18,6 +24,7 @@ struct MeasuredSeries {
   std::vector<NodeData> nodes;     ///< empty, or what is given at each point
   bool closed = false;             ///< the last point is followed by the first
   bool primitives = false;         ///< stretches that mean a line or circle become exactly that
+  std::vector<MeantPiece> meant;   ///< these are the primitives; empty: they are searched
   std::vector<std::size_t> loose;  ///< points that take no part in primitives
   bool thin = true;  ///< only as many nodes as the tolerances can tell apart; else every point
 };

@@ -33,10 +33,12 @@ struct Outliers {
 /// the lengths of their chords instead, which go around a nose. A corner is no outlier: what is
 /// beside it stays off without it.
 ///
-/// Not looked at are the two points at each end, points whose neighbours do not advance along their
-/// chord, and those with `kept`. A point that is not between its neighbours along their chord is as
-/// far off as from the line between them. Cost O(n log n) for few outliers. Errors: E304 fewer than
-/// 20 points can be compared; E311 more than a tenth of the points would be outliers.
+/// The two points at each end have no such cubic: up to three there are outliers where
+/// `without_end_strays` says so of what is left. Not looked at are points whose neighbours do not
+/// advance along their chord, and those with `kept`. A point that is not between its neighbours
+/// along their chord is as far off as from the line between them. Cost O(n log n) for few outliers.
+/// Errors: E304 fewer than 20 points can be compared; E311 more than a tenth of the points would be
+/// outliers.
 [[nodiscard]] Result<Outliers> outliers_of(const std::vector<Vec2>& points,
                                            const std::vector<bool>& kept = {});
 

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/aligned_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "obvid/alignment/alignment.h"
+#include "obvid/series/internal/scatter.h"
+
+namespace obvid::pipeline_detail {
+namespace {
+
+/// More points are searched with every second one, third one ...: the search takes the square of
+/// their number.
+constexpr std::size_t kMostSearched = 500;
+constexpr std::size_t kFewestOnPiece = 4;  ///< points
+/// Of the tolerance: what is searched within at least, and the least scatter.
+constexpr double kLeastShare = 0.2, kLeastScatter = 0.05;
+/// Offsets from curves that are not what the points mean have their errors on top: of the scatter,
+/// the most that a root of the mean square may be.
+constexpr double kMostScatter = 1.3;
+/// Of the bound of the scatter, what is searched within first; and that bound, in deviations, where
+/// points show none.
+constexpr double kRoom = 1.1, kRoughBound = 4.0;
+/// Times that the search may ask whether it goes on.
+constexpr int kMostAsked = 100000;
+
+class AlignedLines {
+ public:
+  AlignedLines(const MeasuredSeries& series, std::optional<double> scatter, Watch& watch)
+      : s_(series), scatter_(scatter), watch_(watch) {
+    step_ = (s_.points.size() + kMostSearched - 1) / kMostSearched;
+    for (std::size_t i = 0; i < s_.points.size(); i += step_) points_.push_back(s_.points[i]);
+  }
+
+  std::vector<MeantPiece> run() {
+    const auto own = middle_deviation(points_), scatter = own ? own : scatter_;
+    if (!scatter) return {};
+    const auto known = scatter_of(points_);
+    const double bound = kRoom * (known ? known->bound : kRoughBound * *scatter);
+    std::vector<double> all, narrow;
+    for (std::size_t i = 0; i < s_.points.size(); i += step_) all.push_back(s_.reach[i]);
+    double least = *std::max_element(all.begin(), all.end());
+    for (const double reach : all) least = reach > 0.0 ? std::min(least, reach) : least;
+    if (!(least > 0.0)) return {};
+    for (double& reach : all) {
+      if (!(reach > 0.0)) reach = least;  // corners, which stay where they are
+      narrow.push_back(std::min(reach, std::max(bound, kLeastShare * reach)));
+    }
+    const double most = kMostScatter * std::max(*scatter, kLeastScatter * least);
+    auto out = within(narrow, most);
+    if (out.empty() && narrow != all && !took_too_long_) out = within(all, most);
+    return out;
+  }
+
+ private:
+  std::vector<MeantPiece> within(const std::vector<double>& tolerance, double most) {
+    int asked = 0;
+    RunContext run;
+    run.cancelled = [&] { return ++asked > kMostAsked || watch_.cancelled(); };
+    AlignmentOptions options;
+    options.closed = s_.closed;
+    const auto found = fit_alignment(points_, tolerance, options, run);
+    took_too_long_ = asked > kMostAsked;
+    if (!found || (s_.closed && found->elements.size() < 2) || !(found->rms <= most)) return {};
+    std::vector<MeantPiece> out;
+    for (const AlignmentElement& e : found->elements) {
+      if (e.kind != AlignmentKind::kLine && e.kind != AlignmentKind::kArc) return {};
+      if (const auto piece = piece_of(e, *found)) out.push_back(*piece);
+    }
+    return out;
+  }
+
+  /// With the points whose feet it has.
+  [[nodiscard]] std::optional<MeantPiece> piece_of(const AlignmentElement& e,
+                                                   const Alignment& all) const {
+    const double begin = all.elements.front().station;
+    std::vector<std::size_t> on;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      double s = all.deviations[i].station;
+      if (s_.closed && s >= begin + all.length) s -= all.length;
+      if (s >= e.station && s <= e.station + e.length) on.push_back(i);
+    }
+    // around the seam of a loop: from behind the gap on
+    std::size_t seam = 0;
+    for (std::size_t k = 1; s_.closed && k < on.size(); ++k) {
+      if (on.front() == 0 && on.back() + 1 == points_.size() && on[k] > on[k - 1] + 1) seam = k;
+    }
+    if ((on.size() - std::min(on.size(), std::size_t{1})) * step_ + 1 < kFewestOnPiece) {
+      return std::nullopt;
+    }
+    MeantPiece out;
+    out.first = on[seam] * step_;
+    out.last = on[(seam + on.size() - 1) % on.size()] * step_;
+    if (seam > 0) out.last += s_.points.size();
+    const double half = 0.5 * e.length, turn = 0.5 * e.start.kappa * half;
+    const double chord = turn == 0.0 ? half : half * std::sin(turn) / turn;
+    out.middle = {e.start.point + chord * unit_at(e.start.theta + turn), e.start.theta + 2.0 * turn,
+                  e.kind == AlignmentKind::kLine ? 0.0 : e.start.kappa};
+    return out;
+  }
+
+  const MeasuredSeries& s_;
+  std::optional<double> scatter_;
+  Watch& watch_;
+  std::vector<Vec2> points_;
+  std::size_t step_ = 1;
+  bool took_too_long_ = false;
+};
+
+}  // namespace
+
+std::vector<MeantPiece> aligned_lines(const MeasuredSeries& series, std::optional<double> scatter,
+                                      Watch& watch) {
+  return AlignedLines(series, scatter, watch).run();
+}
+
+}  // namespace obvid::pipeline_detail
