@@ -782,8 +782,8 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
 }
 
 /// Tolerances to try: what is wanted, or what any section may move by where that is less; and where
-/// too much is left then, those of the shallowest bulges that count and more by steps, the smallest
-/// first.
+/// that is less or moves nothing, those of the shallowest bulges that count and more by steps, the
+/// smallest first.
 std::vector<double> levels(const FairAcross& wanted, double reach) {
   const double last = std::min(wanted.tolerance, reach);
   std::vector<double> out{last};
@@ -819,11 +819,7 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
     const auto any = improve_within(stretch, level, *kept, run, part(n), part(n + 1), best);
     OBVID_TRY(any);
     best.enough = best.enough || *any;
-    if (n > 0) continue;
-    const auto left = waves_of(stretch, best.surface, level, run);
-    OBVID_TRY(left);
-    const bool may_be_whole = wanted.tolerance <= best.reach;
-    if (may_be_whole && best.correction && left->high_ones_few(kFewForMore)) break;
+    if (n == 0 && best.correction && wanted.tolerance <= best.reach) break;
   }
   return best;
 }
