@@ -101,7 +101,6 @@ struct AtJoint {
   double gap = 0.0;
   double angle = std::nan(""), step = std::nan("");
   double largest = 0.0;  ///< of the curvatures beside it
-  double area = 0.0;     ///< of du x dv, on the side where it is less
   Vec3 point;
 };
 
@@ -110,13 +109,17 @@ struct AtJoint {
 /// planes are those of rounding: they are left out.
 constexpr double kBesidePoint = 1e-3;
 
+/// Of du x dv, on the side where it is less.
+double lesser_area(const SurfaceJet& a, const SurfaceJet& b) {
+  return std::min(norm(cross(a.du, a.dv)), norm(cross(b.du, b.dv)));
+}
+
 AtJoint at_joint(const EdgePair& pair, PatchSide side, double part, double least_area) {
   const auto [a, b] = pair.at(part);
   AtJoint out;
   out.gap = norm(a.point - b.point);
   out.point = a.point;
-  out.area = std::min(norm(cross(a.du, a.dv)), norm(cross(b.du, b.dv)));
-  if (out.area < least_area) return out;
+  if (lesser_area(a, b) < least_area) return out;
   const SurfaceCurvature ka = curvature(a), kb = curvature(b);
   if (ka.normal == Vec3{} || kb.normal == Vec3{}) return out;
   const double sign = dot(ka.normal, kb.normal) < 0.0 ? -1.0 : 1.0;
@@ -204,8 +207,8 @@ Result<JointReport> joint_of(const SurfaceModel& model, const EdgeUse& one, cons
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (c % kCellsUnasked == 0) OBVID_TRY(may_go_on(run));
     for (const double place : cells[c]) {
-      const double area = at_joint(pair, one.side, place, 0.0).area;
-      least_area = std::max(least_area, kBesidePoint * area);
+      const auto [a, b] = pair.at(place);
+      least_area = std::max(least_area, kBesidePoint * lesser_area(a, b));
     }
   }
   const auto measure = [&](double part) { return at_joint(pair, one.side, part, least_area); };

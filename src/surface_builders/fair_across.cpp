@@ -811,11 +811,12 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
     };
     // the whole tolerance, of which something may be kept for what comes after
     const bool whole = tolerances[n] >= wanted.tolerance;
-    const double bulge = whole ? wanted.forced.tolerance : tolerances[n];
-    const auto forced = forced_across(stretch.surface, stretch.breaks, wanted.v, bulge, run);
+    const auto forced =
+        whole ? Result<ForcedAcross>(wanted.forced)
+              : forced_across(stretch.surface, stretch.breaks, wanted.v, tolerances[n], run);
     OBVID_TRY(forced);
-    FairAcross level{wanted.fine, tolerances[n], wanted.v,     wanted.across,
-                     *forced,     wanted.fixed,  wanted.smooth};
+    const FairAcross level{wanted.fine, tolerances[n], wanted.v,     wanted.across,
+                           *forced,     wanted.fixed,  wanted.smooth};
     const auto any = improve_within(stretch, level, *kept, run, part(n), part(n + 1), best);
     OBVID_TRY(any);
     best.enough = best.enough || *any;

@@ -203,23 +203,19 @@ Result<void> measure(const SurfaceModel& model, const SurfaceCutJob& job, const 
   }
   auto found = displaced(model, {*job.draught, job.half}, run);
   OBVID_TRY(found);
-  const auto place = [&](Vec3 p) {
-    return fmt::format("{}, {}, {} {}", significant(p.x), significant(p.y), significant(p.z),
-                       made.units.text());
-  };
   if (!(found->volume.value > 0.0)) {
     made.warnings.push_back("nothing of the surface encloses water below the draught");
   }
   if (found->open_width > made.tolerance) {
-    made.warnings.push_back(
-        fmt::format("the surface is open below the draught, {} {} wide at {}: upright walls from "
-                    "its borders to "
-                    "the draught close it in these figures; closed level, to {}, the volume would "
-                    "be another by "
-                    "some {} {}^3",
-                    significant(found->open_width, 3), made.units.text(), place(found->open_at),
-                    job.half ? "y = 0" : "other borders or one plane",
-                    significant(found->open_volume, 3), made.units.text()));
+    const std::string unit = made.units.text();
+    const Vec3 at = found->open_at;
+    made.warnings.push_back(fmt::format(
+        "the surface is open below the draught, {} {} wide at {}, {}, {} {}: upright walls from "
+        "its borders to the draught close it in these figures; closed level, to {}, the volume "
+        "would be another by some {} {}^3",
+        significant(found->open_width, 3), unit, significant(at.x), significant(at.y),
+        significant(at.z), unit, job.half ? "y = 0" : "other borders or one plane",
+        significant(found->open_volume, 3), unit));
   }
   if (found->parts > 1) {
     made.warnings.push_back(
