@@ -174,6 +174,10 @@ class Fitter {
   Fitted run() {
     Fitted out;
     find_feet(chain_, points_, feet_);  // those given may belong to what the chain was before
+    if (chain_.plane == Plane::kMap && turning(chain_, feet_) > most_turning(points_.size())) {
+      out.squares = out.largest = std::numeric_limits<double>::infinity();
+      return out;
+    }
     improve(2.0);
     out.squares = objective(2.0);
     out.largest = largest();
@@ -560,16 +564,15 @@ class Fitter {
     if (is_cancelled()) return false;
     assemble(power);
     const std::size_t wound = winding(chain_, feet_);
-    // once around between two points each, which is more than a winding
-    const double most_turning =
-        std::max(turning(chain_), kFullTurn * static_cast<double>(points_.size() + wound));
+    const double most = std::max(turning(chain_, feet_), most_turning(wound));
     for (; damping < kDampingMost; damping *= 10.0) {
       const auto move = step_within_limits(damping);
       if (!move) continue;
       Chain next = moved(*move);
-      if (turning(next) > most_turning) continue;
       std::vector<Foot> feet = feet_;
+      if (turning(next, {}) > most) continue;
       find_feet(next, points_, feet);
+      if (turning(next, feet) > most) continue;
       if (winding(next, feet) > wound) continue;
       const double gap = gap_of(next);
       std::swap(chain_, next);
@@ -585,14 +588,29 @@ class Fitter {
     return false;
   }
 
-  /// rad, of all elements together, either way.
-  [[nodiscard]] static double turning(const Chain& chain) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < chain.size(); ++k) {
-      sum += chain.length[k] *
-             std::max(std::abs(chain.curvature(k, 0)), std::abs(chain.curvature(k, 1)));
+  /// rad: once around between two points each, which is more than a winding, and `wound` times
+  /// more.
+  [[nodiscard]] double most_turning(std::size_t wound) const {
+    return kFullTurn * static_cast<double>(points_.size() + wound);
+  }
+
+  /// rad, of all elements together, either way, and of what they are extended by to the farthest
+  /// foot.
+  [[nodiscard]] static double turning(const Chain& chain, const std::vector<Foot>& feet) {
+    double sum = 0.0, extended = 0.0;
+    const auto sharper = [&](std::size_t k) {
+      return std::max(std::abs(chain.curvature(k, 0)), std::abs(chain.curvature(k, 1)));
+    };
+    for (std::size_t k = 0; k < chain.size(); ++k) sum += chain.length[k] * sharper(k);
+    for (const Foot& foot : feet) {
+      const double length = chain.length[foot.element];
+      const double beyond = std::max(-foot.s, foot.s - length);
+      if (!(beyond > 0.0)) continue;
+      const double change = chain.curvature(foot.element, 1) - chain.curvature(foot.element, 0);
+      extended = std::max(extended,
+                          beyond * (sharper(foot.element) + std::abs(change) * (beyond / length)));
     }
-    return sum;
+    return sum + extended;
   }
 
   [[nodiscard]] std::size_t winding(const Chain& chain, const std::vector<Foot>& feet) const {

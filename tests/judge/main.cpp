@@ -214,7 +214,10 @@ class Ledger {
     ++outcomes_[name_of(trial.outcome)];
     program_ += trial.program_seconds;
     judge_ += trial.judge_seconds;
-    slowest_ = std::max(slowest_, trial.slowest);
+    if (trial.slowest > slowest_) {
+      slowest_ = trial.slowest;
+      slowest_index_ = trial.index;
+    }
     trials_.push_back(std::move(trial));
   }
 
@@ -226,8 +229,10 @@ class Ledger {
     print_table(all);
     fmt::print("\n");
     for (const auto& [name, count] : outcomes_) fmt::print("{:<24}{:>8}\n", name, count);
-    fmt::print("program {:.1f} s, judge {:.1f} s ({:.2f} ms a series), slowest run {:.2f} s\n",
-               program_, judge_, 1e3 * judge_ / static_cast<double>(trials_.size()), slowest_);
+    fmt::print(
+        "program {:.1f} s, judge {:.1f} s ({:.2f} ms a series), slowest run {:.2f} s (#{})\n",
+        program_, judge_, 1e3 * judge_ / static_cast<double>(trials_.size()), slowest_,
+        slowest_index_);
     examples(Finding::Kind::kFalse, "false");
     examples(Finding::Kind::kUnjudged, "not judged");
     if (!settings_.json.empty()) write_file(settings_.json, json(all));
@@ -290,6 +295,7 @@ class Ledger {
   std::vector<Trial> trials_;
   std::map<std::string, long> outcomes_;
   double program_ = 0.0, judge_ = 0.0, slowest_ = 0.0;
+  std::uint64_t slowest_index_ = 0;
 };
 
 void keep_files(const Settings& settings, const Trial& trial, const std::string& folder) {

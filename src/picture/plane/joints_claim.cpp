@@ -22,10 +22,11 @@ struct JointKind {
 /// Joints that are no corners, the most continuous first.
 std::array<JointKind, 3> joint_kinds(Carrier carrier, const Certificate& certificate) {
   const int smooth = certificate.smooth_joints();
-  const int stepped = certificate.curvature_steps;
+  const bool all_step = steps_at_joints(carrier);  // also where a seam says that it does
+  const int stepped = all_step ? 0 : certificate.curvature_steps;
   const int others = certificate.joints - certificate.corners - stepped - smooth;
   return {{{smooth, "G3 joints", ""},
-           {others, steps_at_joints(carrier) ? "G1 joints" : "G2 joints", "G2"},
+           {others, all_step ? "G1 joints" : "G2 joints", "G2"},
            {stepped, "G1 joints with steps of the curvature", "G1 with a step of the curvature"}}};
 }
 

@@ -23,8 +23,9 @@ constexpr double kMostScatter = 1.3;
 /// Of the bound of the scatter, what is searched within first; and that bound, in deviations, where
 /// points show none.
 constexpr double kRoom = 1.1, kRoughBound = 4.0;
-/// Times that the search may ask whether it goes on.
-constexpr int kMostAsked = 100000;
+/// Times that the search may ask whether it goes on, for each point: lines and arcs that are there
+/// take some 50.
+constexpr int kMostAskedEach = 150;
 
 class AlignedLines {
  public:
@@ -56,13 +57,14 @@ class AlignedLines {
 
  private:
   std::vector<MeantPiece> within(const std::vector<double>& tolerance, double most) {
+    const int most_asked = kMostAskedEach * static_cast<int>(points_.size());
     int asked = 0;
     RunContext run;
-    run.cancelled = [&] { return ++asked > kMostAsked || watch_.cancelled(); };
+    run.cancelled = [&] { return ++asked > most_asked || watch_.cancelled(); };
     AlignmentOptions options;
     options.closed = s_.closed;
     const auto found = fit_alignment(points_, tolerance, options, run);
-    took_too_long_ = asked > kMostAsked;
+    took_too_long_ = asked > most_asked;
     if (!found || (s_.closed && found->elements.size() < 2) || !(found->rms <= most)) return {};
     std::vector<MeantPiece> out;
     for (const AlignmentElement& e : found->elements) {
