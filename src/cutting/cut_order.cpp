@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "obvid/exchange/internal/gcode/path.h"
+#include "short_tour.h"
 
 namespace obvid::cutting {
 namespace {
 
-/// Visits that are moved about; more would take long.
-constexpr std::size_t kMostMoved = 120;
+/// Places where tracks begin change with the order of visits, which changes with them: so often.
+constexpr int kMostRounds = 6;
 /// Quarters of circles lead in and out.
 constexpr double kLeadTurn = 0.5 * std::numbers::pi;
 /// Places on a lead that are looked at: of the tool's radius, how far apart.
@@ -61,18 +62,29 @@ class Ordering {
   std::vector<Visit> run() {
     if (watch_.was_cancelled()) return {};
     nearest_first();
-    if (turns_.size() <= kMostMoved) shorten();
+    shorten();
     std::vector<Visit> out;
-    Vec2 at{};
-    for (const std::size_t i : turns_) {
-      out.push_back(visit_of(i, moved_along(i, nearest(i, at), at)));
-      at = end_of(out.back());
-    }
+    for (const Planned& planned : tour_) out.push_back(visit_of(planned));
     return out;
   }
 
  private:
-  using Turns = std::vector<std::size_t>;
+  /// A track that is visited, and where it begins.
+  struct Planned {
+    std::size_t track = 0;
+    Start start;
+  };
+  using Tour = std::vector<Planned>;
+
+  /// What a start is to be near to: the way to it, and from its end on where anything follows.
+  struct Wish {
+    Vec2 from;
+    std::optional<Vec2> next;
+
+    [[nodiscard]] double way(const Start& start) const {
+      return norm(start.begin - from) + (next ? norm(*next - start.end) : 0.0);
+    }
+  };
 
   [[nodiscard]] bool wants_lead(const Track& track) const {
     return rules_.lead_radius > 0.0 && track.side != CutSide::kOn && track.axis.closed;
@@ -135,17 +147,24 @@ class Ordering {
     return true;
   }
 
-  [[nodiscard]] Vec2 wish(std::size_t i, Vec2 at) const {
-    return tracks_[i].axis.closed ? rules_.near.value_or(at) : at;
+  [[nodiscard]] Wish wish(std::size_t i, const Wish& way) const {
+    return tracks_[i].axis.closed && rules_.near ? Wish{*rules_.near, {}} : way;
   }
 
-  [[nodiscard]] Start nearest(std::size_t i, Vec2 at) const {
-    const Vec2 near = wish(i, at);
-    if (starts_[i].empty()) return nearest_of_all(i, near);
-    return *std::min_element(starts_[i].begin(), starts_[i].end(),
-                             [&](const Start& a, const Start& b) {
-                               return norm(a.begin - near) < norm(b.begin - near);
-                             });
+  [[nodiscard]] Start best_start(std::size_t i, const Wish& way) const {
+    const Wish wanted = wish(i, way);
+    std::vector<Start> beside;
+    if (starts_[i].empty()) {
+      beside.push_back(nearest_of_all(i, wanted.from));
+      if (wanted.next) {
+        beside.push_back(nearest_of_all(i, *wanted.next));
+        beside.push_back(nearest_of_all(i, 0.5 * (wanted.from + *wanted.next)));
+      }
+    }
+    const std::vector<Start>& all = starts_[i].empty() ? beside : starts_[i];
+    return *std::min_element(all.begin(), all.end(), [&](const Start& a, const Start& b) {
+      return wanted.way(a) < wanted.way(b);
+    });
   }
 
   /// Of a closed track without leads.
@@ -171,21 +190,22 @@ class Ordering {
   }
 
   /// A start with a lead, moved along its piece to where it is nearest.
-  [[nodiscard]] Start moved_along(std::size_t i, Start start, Vec2 at) const {
-    const Vec2 near = wish(i, at);
+  [[nodiscard]] Start moved_along(std::size_t i, Start start, const Wish& way) const {
+    const Wish wanted = wish(i, way);
     double step = start.step;
     for (int k = 0; k < kHalvedSteps && step > 0.0; ++k) {
       step *= 0.5;
       for (const double place : {start.place - step, start.place + step}) {
         if (!(place > 0.0 && place < 1.0)) continue;
         const auto other = start_with_lead(tracks_[i], start.piece, place);
-        if (other && norm(other->begin - near) < norm(start.begin - near)) start = *other;
+        if (other && wanted.way(*other) < wanted.way(start)) start = *other;
       }
     }
     return start;
   }
 
-  [[nodiscard]] Visit visit_of(std::size_t i, const Start& start) const {
+  [[nodiscard]] Visit visit_of(const Planned& planned) const {
+    const auto& [i, start] = planned;
     const Track& track = tracks_[i];
     if (!track.axis.closed)
       return {i, start.turned ? reversed(track.axis) : track.axis, {}, {}, false};
@@ -202,20 +222,21 @@ class Ordering {
   void nearest_first() {
     std::vector<bool> done(tracks_.size());
     Vec2 at{};
-    while (turns_.size() < tracks_.size()) {
-      std::size_t best = tracks_.size();
+    while (tour_.size() < tracks_.size() && !watch_.cancelled()) {
+      Planned best;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < tracks_.size(); ++i) {
         if (done[i] || !may_be_next(i, done)) continue;
-        const double way = norm(nearest(i, at).begin - at);
+        const Start start = best_start(i, {at, {}});
+        const double way = norm(start.begin - at);
         if (way < least) {
           least = way;
-          best = i;
+          best = {i, start};
         }
       }
-      done[best] = true;
-      turns_.push_back(best);
-      at = nearest(best, at).end;
+      done[best.track] = true;
+      tour_.push_back(best);
+      at = best.start.end;
     }
   }
 
@@ -224,47 +245,59 @@ class Ordering {
     return std::all_of(first.begin(), first.end(), [&](std::size_t k) { return done[k]; });
   }
 
-  [[nodiscard]] bool is_allowed(const Turns& turns) const {
-    std::vector<bool> done(tracks_.size());
-    for (const std::size_t i : turns) {
-      if (!may_be_next(i, done)) return false;
-      done[i] = true;
-    }
-    return true;
-  }
-
-  [[nodiscard]] double way(const Turns& turns) const {
+  [[nodiscard]] static double way(const Tour& tour) {
     double sum = 0.0;
     Vec2 at{};
-    for (const std::size_t i : turns) {
-      const Start start = nearest(i, at);
-      sum += norm(start.begin - at);
-      at = start.end;
+    for (const Planned& planned : tour) {
+      sum += norm(planned.start.begin - at);
+      at = planned.start.end;
     }
     return sum;
   }
 
-  /// One visit at a time goes to another turn, as long as that helps.
+  /// With starts as they are tracks change places, then starts move to where the ways are short.
   void shorten() {
-    double best = way(turns_);
-    for (bool better = true; better && !watch_.cancelled();) {
-      better = false;
-      for (std::size_t from = 0; from < turns_.size() && !watch_.cancelled(); ++from) {
-        for (std::size_t to = 0; to < turns_.size(); ++to) {
-          if (from == to) continue;
-          Turns trial = turns_;
-          const std::size_t moved = trial[from];
-          trial.erase(trial.begin() + static_cast<std::ptrdiff_t>(from));
-          trial.insert(trial.begin() + static_cast<std::ptrdiff_t>(to), moved);
-          if (!is_allowed(trial)) continue;
-          const double length = way(trial);
-          if (!(length < best * (1.0 - kLittle))) continue;
-          best = length;
-          turns_ = std::move(trial);
-          better = true;
-        }
-      }
+    for (int round = 0; round < kMostRounds && !watch_.cancelled(); ++round) {
+      const Tour other = with_better_starts(reordered(tour_));
+      if (!(way(other) < way(tour_) * (1.0 - kLittle))) break;
+      tour_ = other;
     }
+  }
+
+  [[nodiscard]] Tour reordered(const Tour& tour) const {
+    std::vector<Stop> stops(tracks_.size());
+    std::vector<Turn> turns;
+    for (const Planned& planned : tour) {
+      const Track& track = tracks_[planned.track];
+      stops[planned.track] = {planned.start.begin, planned.start.end, !track.axis.closed,
+                              track.first};
+      turns.push_back({planned.track, false});
+    }
+    std::vector<Start> starts(tracks_.size());
+    for (const Planned& planned : tour) starts[planned.track] = planned.start;
+    Tour out;
+    for (const Turn& turn : shorter_tour(stops, turns, watch_)) {
+      Start start = starts[turn.stop];
+      if (turn.turned) {
+        std::swap(start.begin, start.end);
+        start.turned = !start.turned;
+      }
+      out.push_back({turn.stop, start});
+    }
+    return out;
+  }
+
+  [[nodiscard]] Tour with_better_starts(Tour tour) const {
+    Vec2 at{};
+    for (std::size_t k = 0; k < tour.size(); ++k) {
+      auto& [track, start] = tour[k];
+      Wish way{at, {}};
+      if (k + 1 < tour.size()) way.next = tour[k + 1].start.begin;
+      const Start other = moved_along(track, best_start(track, way), way);
+      if (wish(track, way).way(other) < wish(track, way).way(start)) start = other;
+      at = start.end;
+    }
+    return tour;
   }
 
   const std::vector<Track>& tracks_;
@@ -273,7 +306,7 @@ class Ordering {
   Watch& watch_;
   std::vector<std::vector<Start>> starts_;
   std::vector<std::vector<Around>> around_;  ///< of the pieces of each track
-  Turns turns_;
+  Tour tour_;
 };
 
 }  // namespace
