@@ -94,13 +94,10 @@ struct Reach : Extent {
   }
 };
 
-/// Headings nearer to a right angle from the chord than this are left to rounding, rad.
-constexpr Real kBesideRightAngle = 1e-12L;
-
 bool is_graph(const Biarc& b) {
   for (const BoundaryArc* arc : {&b.first, &b.second}) {
     for (const Real theta : {arc->theta, arc->theta + arc->turn}) {
-      if (!(std::abs(theta) < 0.5L * kPi - kBesideRightAngle)) return false;
+      if (!(std::abs(theta) < 0.5L * kPi)) return false;
     }
   }
   return b.first.end.x >= 0.0L && b.first.end.x <= b.second.end.x;
