@@ -72,26 +72,27 @@ Boundary make_boundary(const ChordFrame& f, double k0, double k1) {
 
 /// A boundary as a function y(x) over the chord, with its slope's sine; arcs within a right angle.
 struct Graph {
-  double h, x_joint, k0, k1, s0, s1, y0;
+  double h, x_joint, k0, k1;
+  Vec2 t0, t1;  ///< tangents at the start and at the end
 
   static std::optional<Graph> of(const ChordFrame& f, const Boundary& b) {
     if (std::isinf(b.kappa_first) || std::isinf(b.kappa_second)) return std::nullopt;
     const double least = std::min({f.start_tangent.x, f.end_tangent.x, b.joint_tangent.x});
     if (!(least > 0.0)) return std::nullopt;
-    Graph g{f.h, 0.0, b.kappa_first, b.kappa_second, f.start_tangent.y, f.end_tangent.y, 0.0};
+    Graph g{f.h, 0.0, b.kappa_first, b.kappa_second, f.start_tangent, f.end_tangent};
     g.x_joint = joint_abscissa(f, g.k0, g.k1, b.joint_tangent);
     return g;
   }
 
-  /// y of an arc through (0, 0) with sine of heading s and curvature k, at distance x.
-  static double arc(double s, double k, double x) {
-    const double e = s + k * x;
-    const double c0 = std::sqrt(std::max(0.0, 1.0 - s * s)),
-                 c1 = std::sqrt(std::max(0.0, 1.0 - e * e));
-    return x * (s + e) / (c0 + c1);
+  /// y of an arc through (0, 0) with tangent t and curvature k, at distance x. Cosines are never
+  /// made of sines, which beside a right angle have lost them.
+  static double arc(Vec2 t, double k, double x) {
+    const double more = k * x;  // of the sine
+    const double then = std::sqrt(std::max(0.0, t.x * t.x - more * (2.0 * t.y + more)));
+    return x * (2.0 * t.y + more) / (t.x + then);
   }
   [[nodiscard]] double y(double x) const {
-    return x <= x_joint ? arc(s0, k0, x) : -arc(s1, -k1, h - x);
+    return x <= x_joint ? arc(t0, k0, x) : -arc(t1, -k1, h - x);
   }
 };
 
@@ -104,15 +105,15 @@ double largest_gap(const Graph& a, const Graph& b) {
   look(a.x_joint, 0.0, a.h);
   look(b.x_joint, 0.0, a.h);
   // heading sines are s0 + k0 x on first arcs and s1 - k1 (h - x) on second ones
-  const double a1 = a.s1 - a.k1 * a.h, b1 = b.s1 - b.k1 * b.h;
+  const double a1 = a.t1.y - a.k1 * a.h, b1 = b.t1.y - b.k1 * b.h;
   const double near = std::min(a.x_joint, b.x_joint), far = std::max(a.x_joint, b.x_joint);
   const auto equally_steep = [&](double sa, double ka, double sb, double kb, double from,
                                  double to) {
     if (ka != kb) look((sb - sa) / (ka - kb), from, to);
   };
-  equally_steep(a.s0, a.k0, b.s0, b.k0, 0.0, near);
-  if (a.x_joint < b.x_joint) equally_steep(a1, a.k1, b.s0, b.k0, near, far);
-  if (b.x_joint < a.x_joint) equally_steep(a.s0, a.k0, b1, b.k1, near, far);
+  equally_steep(a.t0.y, a.k0, b.t0.y, b.k0, 0.0, near);
+  if (a.x_joint < b.x_joint) equally_steep(a1, a.k1, b.t0.y, b.k0, near, far);
+  if (b.x_joint < a.x_joint) equally_steep(a.t0.y, a.k0, b1, b.k1, near, far);
   equally_steep(a1, a.k1, b1, b.k1, far, a.h);
   return gap;
 }

@@ -84,12 +84,13 @@ struct Candidate {
 class CornerSearch {
  public:
   CornerSearch(const std::vector<Vec2>& points, const std::vector<double>& tolerance, bool closed,
-               double angle)
+               const CornerConstraints& constraints)
       : points_(points),
         tolerance_(tolerance),
         closed_(closed),
-        angle_(angle),
-        rough_(std::max(kRoughTurn, 0.5 * angle)),
+        angle_(constraints.angle),
+        exact_(constraints.exact),
+        rough_(std::max(kRoughTurn, 0.5 * angle_)),
         size_(bounding_diagonal(points)) {}
 
   [[nodiscard]] std::vector<Candidate> candidates() const;
@@ -102,6 +103,7 @@ class CornerSearch {
   [[nodiscard]] Arm arm(std::size_t i, bool forwards, double chord, std::size_t chords) const;
   [[nodiscard]] bool is_corner(std::size_t i, double turn, double noise, double chord) const;
   [[nodiscard]] bool ends_arc_at_edge(std::size_t i) const;
+  [[nodiscard]] bool turns_here(std::size_t i) const;
   [[nodiscard]] bool is_base(const Arm& beside, const Arm& other, double total) const;
   [[nodiscard]] static bool is_edge(const Arm& beside, const Arm& other, double turn);
   [[nodiscard]] std::optional<Forecast> forecast(const Arm& arm, std::size_t skip) const;
@@ -111,6 +113,7 @@ class CornerSearch {
   const std::vector<double>& tolerance_;
   bool closed_;
   double angle_;
+  bool exact_;
   double rough_;
   double size_;
 };
@@ -288,6 +291,13 @@ bool CornerSearch::ends_arc_at_edge(std::size_t i) const {
   return false;
 }
 
+/// By the least angle, from the point before to the one behind.
+bool CornerSearch::turns_here(std::size_t i) const {
+  const auto before = at(i, 1, false), behind = at(i, 1, true);
+  return before && behind &&
+         std::abs(turning(points_[i] - points_[*before], points_[*behind] - points_[i])) >= angle_;
+}
+
 std::vector<Candidate> CornerSearch::candidates() const {
   std::vector<Candidate> found;
   const std::size_t n = points_.size();
@@ -297,6 +307,7 @@ std::vector<Candidate> CornerSearch::candidates() const {
       found.push_back({i, kAngleSteps.front(), std::numbers::pi, 0.0, {}});
       continue;
     }
+    if (exact_ && !turns_here(i)) continue;
     const double noise = noise_at(i);
     for (const double step : kAngleSteps) {
       // Without noise the next points are near enough whatever the angle.
@@ -363,7 +374,7 @@ std::vector<std::size_t> find_corners(const std::vector<Vec2>& points,
   }
   if (constraints.find) {
     std::vector<Candidate> found =
-        CornerSearch(points, tolerance, closed, constraints.angle).candidates();
+        CornerSearch(points, tolerance, closed, constraints).candidates();
     const auto marked = [&](const Candidate& c) {
       return std::any_of(kept.begin(), kept.end(),
                          [&](const Candidate& k) { return k.index == c.index; });

@@ -290,7 +290,7 @@ class Options {
     std::vector<Vec> points;
     for (const GivenPoint& p : input_.points)
       points.push_back(seen(p.point, input_.points[0].point));
-    const auto reach = reach_of_scatter(points);
+    const auto reach = reach_of_scatter(points, rounding_of_places(input_));
     input_.noise = reach ? reach->greatest : 0.0;
   }
   void at_point(const std::string& name, const std::string& value) {
@@ -356,7 +356,16 @@ std::optional<Ends> deviations_of(const std::vector<Vec>& points, std::size_t ap
 
 }  // namespace
 
-std::optional<Ends> reach_of_scatter(const std::vector<Vec>& points) {
+double rounding_of_places(const Input& input) {
+  constexpr double kRoundings = 16.0 * 0x1p-53;
+  double most = 0.0;
+  for (const GivenPoint& p : input.points) {
+    most = std::max({most, std::abs(p.point.x), std::abs(p.point.y)});
+  }
+  return input.placed ? kRoundings * most : 0.0;
+}
+
+std::optional<Ends> reach_of_scatter(const std::vector<Vec>& points, double rounding) {
   const auto near = deviations_of(points, 1), far = deviations_of(points, 2);
   if (!near || !far) return std::nullopt;
   constexpr double kPower = 256.0, kAmiss = 0.05;
@@ -364,8 +373,8 @@ std::optional<Ends> reach_of_scatter(const std::vector<Vec>& points) {
     return std::sqrt(std::max(0.0, kPower * one * one - two * two) / (kPower - 1.0));
   };
   const double factor = std::sqrt(2.0 * std::log(static_cast<double>(points.size()) / kAmiss));
-  return Ends{factor * deviation(near->least, far->greatest),
-              factor * deviation(near->greatest, far->least)};
+  return Ends{factor * (deviation(near->least, far->greatest) - rounding),
+              factor * (deviation(near->greatest, far->least) + rounding)};
 }
 
 std::vector<std::string> without_placement(const std::vector<std::string>& options) {
@@ -412,7 +421,7 @@ void share_closing_point(Input& input) {
   last = first;
 }
 
-std::string with_tolerances_from(const std::string& text, const std::string& tolerance) {
+std::string without_tolerances_below(const std::string& text, double tolerance) {
   std::string out;
   std::istringstream lines(text);
   std::optional<std::size_t> column;
@@ -422,8 +431,8 @@ std::string with_tolerances_from(const std::string& text, const std::string& tol
       if (cells[i] == "tol") column = i;
     }
     if (column && *column < cells.size() && is_number(cells[*column]) &&
-        std::strtod(cells[*column].c_str(), nullptr) < std::strtod(tolerance.c_str(), nullptr)) {
-      cells[*column] = tolerance;
+        std::strtod(cells[*column].c_str(), nullptr) < tolerance) {
+      cells[*column].clear();
     }
     for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
     out += "\n";

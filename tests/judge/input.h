@@ -60,8 +60,11 @@ struct Input {
 Input read_input(const std::string& text, const std::vector<std::string>& options);
 
 /// How far points may move that scatter as these do (docs/methods/series.md): from and to, because
-/// an even number has two medians. None where it cannot be told.
-std::optional<Ends> reach_of_scatter(const std::vector<Vec>& points);
+/// an even number has two medians. `rounding` of each point. None where it cannot be told.
+std::optional<Ends> reach_of_scatter(const std::vector<Vec>& points, double rounding);
+
+/// What points that were scaled, turned or moved may be off: they are rounded a few times.
+double rounding_of_places(const Input& input);
 
 /// Options of fit but for those that place the points (`--scale` and its like).
 std::vector<std::string> without_placement(const std::vector<std::string>& options);
@@ -70,7 +73,7 @@ std::vector<std::string> without_placement(const std::vector<std::string>& optio
 void share_closing_point(Input& input);
 
 /// The same points, none with a smaller tolerance of its own (column tol) than this one.
-std::string with_tolerances_from(const std::string& text, const std::string& tolerance);
+std::string without_tolerances_below(const std::string& text, double tolerance);
 
 /// Options of fit but for those that give a heading (or a bend) at one point, from 1; `points`: how
 /// many there are, repeats merged.

@@ -113,7 +113,7 @@ class Work : public ProgramRuns {
     const double reach = input.noise.value_or(0.0);
     std::vector<Vec> points;
     for (const GivenPoint& p : input.points) points.push_back(seen(p.point, course.origin));
-    const auto own = reach_of_scatter(points);
+    const auto own = reach_of_scatter(points, rounding_of_places(input));
     constexpr double kDigits = 1e-3;  // four are printed
     out_.sheet.expect(
         own && told >= own->least * (1.0 - kDigits) && told <= reach * (1.0 + kDigits),
@@ -261,12 +261,21 @@ class Work : public ProgramRuns {
     if (dice_.chance(0.25)) advised_tolerance(fit, input);
   }
 
+  /// What `--scale` makes of lengths of the file.
+  [[nodiscard]] double scale() const {
+    const auto& words = series_.options;
+    const auto option = std::find(words.begin(), words.end(), "--scale");
+    return option == words.end() ? 1.0 : std::strtod(std::next(option)->c_str(), nullptr);
+  }
+
   /// The same job within another tolerance; "rounding" too.
   Run within(const std::string& tolerance, bool open, bool widened, const std::string& output) {
     std::string points = kPoints;
     if (widened) {
       points = "widened.csv";
-      write_file(path(points), with_tolerances_from(series_.text, tolerance));
+      write_file(path(points),
+                 without_tolerances_below(series_.text,
+                                          std::strtod(tolerance.c_str(), nullptr) / scale()));
     }
     std::vector<std::string> words{"fit", points, "--quiet"};
     for (std::size_t i = 0; i < series_.options.size(); ++i) {

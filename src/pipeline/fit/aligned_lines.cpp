@@ -26,6 +26,11 @@ constexpr double kRoom = 1.1, kRoughBound = 4.0;
 /// Times that the search may ask whether it goes on, for each point: lines and arcs that are there
 /// take some 50.
 constexpr int kMostAskedEach = 150;
+/// Between two times, for each point, in the units of `Watch::spend`.
+constexpr double kWorkOfPoint = 1.4;
+/// Of the tolerances, what a circle through three points of many may be off the others at most
+/// where they lie within them of one circle: their own errors, magnified between and beside.
+constexpr double kThroughThree = 4.0;
 
 class AlignedLines {
  public:
@@ -57,10 +62,12 @@ class AlignedLines {
 
  private:
   std::vector<MeantPiece> within(const std::vector<double>& tolerance, double most) {
+    if (stretches(tolerance) * kFewestOnPiece > points_.size()) return {};
     const int most_asked = kMostAskedEach * static_cast<int>(points_.size());
     int asked = 0;
     RunContext run;
-    run.cancelled = [&] { return ++asked > most_asked || watch_.cancelled(); };
+    const double work = kWorkOfPoint * static_cast<double>(points_.size());
+    run.cancelled = [&] { return ++asked > most_asked || !watch_.spend(work); };
     AlignmentOptions options;
     options.closed = s_.closed;
     const auto found = fit_alignment(points_, tolerance, options, run);
@@ -72,6 +79,44 @@ class AlignedLines {
       if (const auto piece = piece_of(e, *found)) out.push_back(*piece);
     }
     return out;
+  }
+
+  /// The fewest of consecutive points that may lie on one line or arc each: where the points mean
+  /// lines and arcs there are no more of these.
+  [[nodiscard]] std::size_t stretches(const std::vector<double>& tolerance) const {
+    std::size_t count = 0;
+    for (std::size_t first = 0; first < points_.size(); ++count) {
+      std::size_t last = first;
+      while (last + 1 < points_.size() && may_be_one(tolerance, first, last + 1)) ++last;
+      first = last + 1;
+    }
+    return count;
+  }
+
+  [[nodiscard]] bool may_be_one(const std::vector<double>& tolerance, std::size_t first,
+                                std::size_t last) const {
+    if (last < first + 3) return true;
+    const Vec2 begin = points_[first], end = points_[last];
+    const auto middle = std::min_element(points_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                                         points_.begin() + static_cast<std::ptrdiff_t>(last),
+                                         [&](const Vec2 a, const Vec2 b) {
+                                           return std::abs(norm(a - begin) - norm(a - end)) <
+                                                  std::abs(norm(b - begin) - norm(b - end));
+                                         });
+    const Vec2 one = *middle - begin, two = end - begin;
+    const double area = cross(one, two);
+    const Vec2 inward = -left_normal(dot(one, one) * two - dot(two, two) * one);
+    const double size = norm(inward);
+    if (!(size > 0.0)) return true;  // places fall together
+    const double kappa = 2.0 * std::abs(area) / size;
+    const Vec2 normal = (std::copysign(1.0, area) / size) * inward;
+    for (std::size_t i = first; i <= last; ++i) {
+      const Vec2 w = points_[i] - begin;
+      const double power = kappa * dot(w, w) - 2.0 * dot(normal, w);
+      const double off = power / (1.0 + std::sqrt(std::max(0.0, 1.0 + kappa * power)));
+      if (!(std::abs(off) <= kThroughThree * tolerance[i])) return false;
+    }
+    return true;
   }
 
   /// With the points whose feet it has.

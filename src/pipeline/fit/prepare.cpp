@@ -336,6 +336,8 @@ class Preparation {
     CornerConstraints constraints;
     constraints.find = job_.find_corners;
     if (job_.corner_angle) constraints.angle = *job_.corner_angle;
+    constraints.exact = std::all_of(out_.tolerance.begin(), out_.tolerance.end(),
+                                    [](double t) { return t == 0.0; });
     // points that are met exactly were rounded all the same, in print and as doubles
     const double printed = printed_blur();
     std::vector<double> blur = out_.tolerance;

@@ -678,7 +678,7 @@ class SectionChooser {
   /// these takes its place. What they mean, if that is more than was found.
   std::vector<MeantPiece> keep_meant(MeasuredSeries measured, const std::vector<std::size_t>& whole,
                                      std::optional<SeriesChain>& chain, FairedSeries& faired) {
-    if (goes_on_) return {};
+    if (goes_on_ || series_.part < 1.0) return {};
     const auto had = static_cast<std::size_t>(chain ? faired.primitives : 0);
     measured.loose.clear();
     measured.meant = aligned_lines(measured, middle_deviation(series_.points), watch_);

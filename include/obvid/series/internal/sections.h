@@ -16,6 +16,7 @@ inline constexpr double kDefaultCornerAngle = std::numbers::pi / 9.0;
 struct CornerConstraints {
   bool find = true;                    ///< search them; else only those that are marked
   double angle = kDefaultCornerAngle;  ///< rad, least turn of a corner that is searched
+  bool exact = false;                  ///< points are met: it turns by that between its neighbours
 };
 
 /// Whether the last point is the first one again, within the tolerances of both.
