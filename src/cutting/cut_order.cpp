@@ -19,6 +19,9 @@ constexpr int kMostRounds = 6;
 constexpr double kLeadTurn = 0.5 * std::numbers::pi;
 /// Places on a lead that are looked at: of the tool's radius, how far apart.
 constexpr double kApartOnLead = 0.2, kFewestOnLead = 16.0, kMostOnLead = 512.0;
+/// Of the lead's radius, room between the tool and what stays where it goes down, where some place
+/// has it: beside a straight side all of it.
+constexpr double kRoomToPlunge = 0.5;
 /// Of the tool's radius and of the way: rounding.
 constexpr double kLittle = 1e-9;
 
@@ -33,6 +36,7 @@ struct Start {
   double place = 0.0;   ///< of the piece, 0 to 1
   double step = 0.0;    ///< to the next place that was tried
   bool turned = false;  ///< an open one, from its other end
+  bool free = true;     ///< nothing that stays is near where the tool goes down
   Vec2 begin, end;      ///< of the tool's way, leads included
 };
 
@@ -96,7 +100,7 @@ class Ordering {
     const ArcPath& axis = track.axis;
     if (!axis.closed) {
       const Vec2 first = start_point(axis.pieces.front()), last = end_point(axis.pieces.back());
-      return {{0, 0.0, 0.0, false, first, last}, {0, 0.0, 0.0, true, last, first}};
+      return {{0, 0.0, 0.0, false, true, first, last}, {0, 0.0, 0.0, true, true, last, first}};
     }
     if (!wants_lead(track)) return out;
     const double whole = length_of(axis);
@@ -111,6 +115,11 @@ class Ordering {
         out.back().step = step;
       }
     }
+    if (std::any_of(out.begin(), out.end(), [](const Start& start) { return start.free; })) {
+      out.erase(
+          std::remove_if(out.begin(), out.end(), [](const Start& start) { return !start.free; }),
+          out.end());
+    }
     return out;
   }
 
@@ -119,7 +128,9 @@ class Ordering {
     const ArcPiece in = lead(track.axis.pieces[piece], place, true),
                    out = lead(track.axis.pieces[piece], place, false);
     if (!has_room(in) || !has_room(out)) return std::nullopt;
-    return Start{piece, place, 0.0, false, in.start, out.end};
+    const double room = edges_.nearest(in.start).room - rules_.tool_radius;
+    return Start{piece,    place,  0.0, false, room >= kRoomToPlunge * rules_.lead_radius,
+                 in.start, out.end};
   }
 
   /// A quarter of a circle on the side of the waste, tangent to a piece at a place.
@@ -186,7 +197,7 @@ class Ordering {
       place = 0.0;
     }
     const Vec2 p = place == 0.0 ? start_point(pieces[best]) : evaluate(pieces[best], place).point;
-    return {best, place, 0.0, false, p, p};
+    return {best, place, 0.0, false, true, p, p};
   }
 
   /// A start with a lead, moved along its piece to where it is nearest.
@@ -198,7 +209,9 @@ class Ordering {
       for (const double place : {start.place - step, start.place + step}) {
         if (!(place > 0.0 && place < 1.0)) continue;
         const auto other = start_with_lead(tracks_[i], start.piece, place);
-        if (other && wanted.way(*other) < wanted.way(start)) start = *other;
+        if (other && other->free >= start.free && wanted.way(*other) < wanted.way(start)) {
+          start = *other;
+        }
       }
     }
     return start;

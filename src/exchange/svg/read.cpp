@@ -50,12 +50,42 @@ bool is_silent(string_view name) {
   return std::find(kSilent.begin(), kSilent.end(), name) != kSilent.end();
 }
 
-bool is_hidden(pugi::xml_node node) {
-  if (exchange::trimmed(node.attribute("display").value()) == "none") return true;
-  std::string style = node.attribute("style").value();
-  std::erase_if(style, [](char c) { return c == ' ' || c == '\t' || c == '\n'; });
-  const std::size_t at = style.find("display:none");
-  return at == 0 || (at != std::string::npos && style[at - 1] == ';');
+/// A property of its style, or the attribute of that name; empty: none of both.
+std::string property(pugi::xml_node node, string_view name) {
+  std::string out(exchange::trimmed(node.attribute(std::string(name).c_str()).value()));
+  string_view rest = node.attribute("style").value();
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(';'), rest.size());
+    const string_view one = rest.substr(0, end);
+    const std::size_t colon = one.find(':');
+    if (colon != string_view::npos && exchange::trimmed(one.substr(0, colon)) == name) {
+      out = exchange::trimmed(one.substr(colon + 1));
+    }
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return out;
+}
+
+/// What of an element shows: these are handed down to those inside.
+struct Paint {
+  bool visible = true, filled = true, stroked = false;
+
+  [[nodiscard]] Paint inside(pugi::xml_node node) const {
+    Paint out = *this;
+    const std::string visibility = property(node, "visibility"), fill = property(node, "fill"),
+                      stroke = property(node, "stroke");
+    if (!visibility.empty()) out.visible = visibility != "hidden" && visibility != "collapse";
+    if (!fill.empty()) out.filled = fill != "none" && fill != "transparent";
+    if (!stroke.empty()) out.stroked = stroke != "none" && stroke != "transparent";
+    // a style sheet may say otherwise
+    if (node.attribute("class")) out.filled = true;
+    return out;
+  }
+};
+
+bool is_transparent(pugi::xml_node node) {
+  const std::string opacity = property(node, "opacity");
+  return !opacity.empty() && opacity.find_first_not_of("0.%") == std::string::npos;
 }
 
 /// Where an element is drawn.
@@ -64,6 +94,7 @@ struct State {
   SvgViewport viewport;
   int depth = 0;
   std::string layer{};  ///< those around it, from the outermost one: "Part/Holes"
+  Paint paint{};
 };
 
 class SvgReader {
@@ -202,14 +233,30 @@ class SvgReader {
   void element(pugi::xml_node node, const State& outer) {
     const string_view whole = node.name(), name = local_name(whole);
     if (whole.substr(0, whole.size() - name.size()) != prefix_ || is_silent(name)) return;
-    if (is_hidden(node)) return warnings_.add("hidden elements (display: none) left out", node);
+    if (property(node, "display") == "none") {
+      return warnings_.add("hidden elements (display: none) left out", node);
+    }
+    if (is_transparent(node)) return warnings_.add("elements with opacity 0 left out", node);
     if (!afford(node)) return;
     State state = {outer.to_sheet * own_transform(node), outer.viewport, outer.depth + 1,
-                   outer.layer};
+                   outer.layer, outer.paint.inside(node)};
     if (!state.to_sheet.is_finite() || state.to_sheet.determinant() == 0.0) {
       return warnings_.leave_out("elements with a transform that flattens them left out", node);
     }
-    if (SvgShape::knows(name)) return shape(node, name, state);
+    const std::string clip = property(node, "clip-path"), mask = property(node, "mask");
+    if ((!clip.empty() && clip != "none") || (!mask.empty() && mask != "none")) {
+      warnings_.add("clip paths and masks are not applied: what they cut off is read too", node);
+    }
+    if (SvgShape::knows(name)) {
+      if (!state.paint.visible) {
+        return warnings_.add("hidden elements (visibility: hidden) left out", node);
+      }
+      if (!state.paint.filled && !state.paint.stroked) {
+        warnings_.add("shapes without fill and stroke, which do not show, are read as they are",
+                      node);
+      }
+      return shape(node, name, state);
+    }
     if (name == "g") state.layer = layer_inside(node, outer.layer);
     if (name == "g" || name == "a" || name == "switch") return children(node, state);
     if (name == "svg") return nested(node, state, {}, node);
