@@ -270,6 +270,7 @@ class Ordering {
 
   /// With starts as they are tracks change places, then starts move to where the ways are short.
   void shorten() {
+    tour_ = with_better_starts(tour_);
     for (int round = 0; round < kMostRounds && !watch_.cancelled(); ++round) {
       const Tour other = with_better_starts(reordered(tour_));
       if (!(way(other) < way(tour_) * (1.0 - kLittle))) break;
