@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "obvid/exchange/internal/gcode/path.h"
+#include "obvid/exchange/internal/whole_arcs.h"
 
 namespace obvid::cutting {
 namespace {
@@ -135,12 +135,12 @@ class Ordering {
     return true;
   }
 
-  [[nodiscard]] Vec2 wish(std::size_t i, Vec2 at) const {
+  [[nodiscard]] Vec2 wanted_near(std::size_t i, Vec2 at) const {
     return tracks_[i].axis.closed ? rules_.near.value_or(at) : at;
   }
 
   [[nodiscard]] Start nearest(std::size_t i, Vec2 at) const {
-    const Vec2 near = wish(i, at);
+    const Vec2 near = wanted_near(i, at);
     if (starts_[i].empty()) return nearest_of_all(i, near);
     return *std::min_element(starts_[i].begin(), starts_[i].end(),
                              [&](const Start& a, const Start& b) {
@@ -172,7 +172,7 @@ class Ordering {
 
   /// A start with a lead, moved along its piece to where it is nearest.
   [[nodiscard]] Start moved_along(std::size_t i, Start start, Vec2 at) const {
-    const Vec2 near = wish(i, at);
+    const Vec2 near = wanted_near(i, at);
     double step = start.step;
     for (int k = 0; k < kHalvedSteps && step > 0.0; ++k) {
       step *= 0.5;
