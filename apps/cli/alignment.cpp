@@ -188,9 +188,7 @@ Result<AlignmentDone> aligned(const AlignmentCommand& command, const Progress& p
 /// The command of one of several; `names` are its files, in the order of `alignment_files`.
 AlignmentCommand command_of_one(const AlignmentCommand& all, const OneOf& one,
                                 std::vector<std::string> names) {
-  AlignmentCommand out = all;
-  out.input = one.input;
-  if (one.curve) out.import.curve = {one.curve, {}, false};
+  AlignmentCommand out = options_of_one(all, one);
   const auto take_last = [&](std::string& table) {
     if (table.empty()) return;
     table = std::move(names.back());
@@ -224,13 +222,10 @@ Summary summary_of_alignment(const AlignmentCommand& command) {
 }
 
 int align_several(const AlignmentCommand& command) {
-  const auto all = all_of_them(command.inputs, command.input, command.import, true);
-  if (!all) return report(all.error());
-  Several several(*all, summary_form(command.csv, command.json, command.quiet));
-  return several.run(alignment_files(command),
-                     [&](const OneOf& one, const std::vector<std::string>& names) {
-                       return summary_of_alignment(command_of_one(command, one, names));
-                     });
+  return run_each(command, command.import, true, alignment_files(command),
+                  [&](const OneOf& one, const std::vector<std::string>& names) {
+                    return summary_of_alignment(command_of_one(command, one, names));
+                  });
 }
 
 }  // namespace

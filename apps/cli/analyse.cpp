@@ -12,6 +12,7 @@
 #include "obvid/pipeline/internal/page_text.h"
 #include "obvid/pipeline/internal/report_json.h"
 #include "outputs.h"
+#include "series_of.h"
 #include "series_report.h"
 #include "several.h"
 #include "terminal.h"
@@ -21,9 +22,8 @@ namespace obvid {
 namespace {
 
 Result<AnalysedSeries> analysed_points(const AnalyseOptions& options) {
-  Result<PointSeries> series = read_series(options.input, options.import);
+  Result<PointSeries> series = series_of(options);
   OBVID_TRY(series);
-  if (options.units) take_units(*series, *options.units);
   Result<Analysis> analysis = analyse(series->points);
   if (!analysis) {
     warn(series->warnings);
@@ -71,8 +71,7 @@ Result<std::vector<std::string>> write_tables(const AnalyseOptions& options,
 Summary summary_of_points(const AnalyseOptions& all, const OneOf& one) {
   Summary out;
   out.verdict = "read";
-  AnalyseOptions options = all;
-  options.input = one.input;
+  const AnalyseOptions options = options_of_one(all, one);
   if (is_drawing(one.input)) {
     auto drawing = analysed_drawing(options);
     if (!drawing) {
@@ -98,10 +97,7 @@ int analyse_several(const AnalyseOptions& options) {
     return report({ErrorCode::kBadOption, "a picture or table is of one input",
                    options.outputs.front(), "analyse one file, or leave -o out"});
   }
-  const auto all = all_of_them(options.inputs, options.input, {}, true);
-  if (!all) return report(all.error());
-  Several several(*all, summary_form(options.csv, options.json, options.quiet));
-  return several.run({}, [&](const OneOf& one, const std::vector<std::string>&) {
+  return run_each(options, {}, true, {}, [&](const OneOf& one, const std::vector<std::string>&) {
     return summary_of_points(options, one);
   });
 }

@@ -20,6 +20,7 @@
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/internal/summary.h"
 #include "outputs.h"
+#include "series_of.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -182,12 +183,11 @@ int run(const CompareOptions& options) {
     outputs.push_back({path, *format, {}});
   }
   ProgressBar bar(options.progress);
-  Result<PointSeries> series = read_series(options.input, options.import);
+  Result<PointSeries> series = series_of(options);
   if (!series) {
     bar.clear();
     return report(series.error());
   }
-  if (options.units) take_units(*series, *options.units);
   Comparison finished;
   const Result<Comparison> compared = [&] {
     const Interrupt interrupt;

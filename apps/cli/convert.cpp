@@ -81,10 +81,7 @@ Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
                          const std::vector<std::string>& outputs,
                          std::vector<TitledContour>* together) {
   Summary out;
-  ConvertOptions options = all;
-  options.input = one.input;
-  options.outputs = outputs;
-  if (one.curve) options.import.curve = {one.curve, {}, false};
+  const ConvertOptions options = options_of_one(all, one, outputs);
   Result<TitledContour> contour = [&]() -> Result<TitledContour> {
     auto read = read_input(options, {});
     OBVID_TRY(read);
@@ -110,21 +107,11 @@ Summary summary_of_files(const ConvertOptions& all, const OneOf& one,
 
 int convert_several(const ConvertOptions& options) {
   const bool edges = options.import.use == DrawnUse::kExact;
-  const auto all = all_of_them(options.inputs, options.input, options.import, edges);
-  if (!all) return report(all.error());
-  const auto outputs = several_outputs(options.outputs, options.formats);
-  if (!outputs) return report(outputs.error());
-  Several several(*all, summary_form(false, false, options.quiet));
-  std::vector<TitledContour> contours;
-  return several.run(
-      *outputs,
-      [&](const OneOf& one, const std::vector<std::string>& files) {
-        return summary_of_files(options, one, files,
-                                outputs->together.empty() ? nullptr : &contours);
-      },
-      [&](const std::vector<Output>& files) {
-        return write_together(contours, files, options.formats);
-      });
+  return run_contours(options, edges, summary_form(false, false, options.quiet),
+                      [&](const OneOf& one, const std::vector<std::string>& files,
+                          std::vector<TitledContour>* together) {
+                        return summary_of_files(options, one, files, together);
+                      });
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "obvid/pipeline/space_fit.h"
 #include "outputs.h"
 #include "refusal.h"
+#include "series_of.h"
 #include "several.h"
 #include "space_fit.h"
 #include "suggest.h"
@@ -38,11 +39,8 @@ Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, Progress
     return Outcome{std::nullopt, report(error)};
   };
   bar.tell("reading", 0.0);
-  Result<PointSeries> series = options.text
-                                   ? parse_series(*options.text, options.name(), options.import)
-                                   : read_series(options.input, options.import);
+  const Result<PointSeries> series = series_of(options);
   if (!series) return stop(series.error());
-  if (options.units) take_units(*series, *options.units);
   formats.picture.name = series->name;
   formats.name = curve_name(*series, options.name());
   Result<Fit> made = options.construction
@@ -97,17 +95,14 @@ Summary summary_of_fit(const FitOptions& all, const OneOf& one,
     out.error = error;
     return out;
   };
-  FitOptions options = all;
-  options.input = one.input;
-  if (one.curve) options.import.curve = {one.curve, {}, false};
+  const FitOptions options = options_of_one(all, one);
   const auto spatial = space_series(options.input, options.along.has_value(), options.import);
   if (!options.flat && spatial && *spatial) {
     return failed({ErrorCode::kBadOption, "points in space are formed one file at a time",
                    options.input, "--flat forms the contours in the plane of x and y"});
   }
-  Result<PointSeries> series = read_series(options.input, options.import);
+  const Result<PointSeries> series = series_of(options);
   if (!series) return failed(series.error());
-  if (options.units) take_units(*series, *options.units);
   Result<Fit> made = options.construction ? fit_construction(*series, *options.construction)
                                           : fit(*series, options.job);
   if (!made) {
@@ -134,20 +129,11 @@ Summary summary_of_fit(const FitOptions& all, const OneOf& one,
 }
 
 int fit_several(const FitOptions& options) {
-  const auto all = all_of_them(options.inputs, options.input, options.import, true);
-  if (!all) return report(all.error());
-  const auto outputs = several_outputs(options.outputs, options.formats);
-  if (!outputs) return report(outputs.error());
-  Several several(*all, summary_form(options.csv, options.json, options.quiet));
-  std::vector<TitledContour> contours;
-  return several.run(
-      *outputs,
-      [&](const OneOf& one, const std::vector<std::string>& files) {
-        return summary_of_fit(options, one, files, outputs->together.empty() ? nullptr : &contours);
-      },
-      [&](const std::vector<Output>& files) {
-        return write_together(contours, files, options.formats);
-      });
+  return run_contours(options, true, summary_form(options.csv, options.json, options.quiet),
+                      [&](const OneOf& one, const std::vector<std::string>& files,
+                          std::vector<TitledContour>* together) {
+                        return summary_of_fit(options, one, files, together);
+                      });
 }
 
 }  // namespace

@@ -119,8 +119,7 @@ std::string lines_and_arcs_text(const Contour& contour) {
     const bool line = one.kappa == 0.0;
     table.row({points_on_text(one), radius_text(one.kappa),
                line ? "-" : centre_text(one.centre.x, one),
-               line ? "-" : centre_text(one.centre.y, one),
-               significant(std::remainder(one.theta, kFullTurn) / kOneDegree),
+               line ? "-" : centre_text(one.centre.y, one), significant(one.heading_deg()),
                significant(one.length), significant(one.off, 4)});
   }
   return table.text() + shown_note(shown.size(), all.size(), "farthest", "lines and arcs") + "\n";

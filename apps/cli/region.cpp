@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "obvid/core/units.h"
 #include "obvid/pipeline/region_table.h"
 
 #include <fmt/format.h>
@@ -17,6 +16,7 @@
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/internal/summary.h"
 #include "outputs.h"
+#include "series_of.h"
 #include "several.h"
 #include "table.h"
 #include "terminal.h"
@@ -45,30 +45,20 @@ struct RadiusRange {
 
 RadiusRange radius_range(const std::optional<CurvatureRange>& kappa) {
   if (!kappa) return {"-", "-"};
-  const double kappa_low = kappa->low, kappa_high = kappa->high;
-  const bool low_is_larger = std::fabs(kappa_low) > std::fabs(kappa_high);
-  const double larger = low_is_larger ? kappa_low : kappa_high;
-  const double smaller = low_is_larger ? kappa_high : kappa_low;
-  const bool crosses = kappa_low < 0.0 && kappa_high > 0.0;
-  return {std::isinf(larger) ? "0" : radius_text(larger),
-          crosses ? "straight" : radius_text(smaller)};
+  const auto [least, greatest] = extreme_radii(*kappa);
+  return {std::isinf(least) ? "0" : radius_text(least), radius_text(greatest)};
 }
 
 std::string measured(const std::optional<double>& length, int digits = kWidthDigits) {
   return length ? significant(*length, digits) : "-";
 }
 
-std::string heading_text(double theta) {
-  return degrees_text(std::remainder(theta, kFullTurn) / kOneDegree);
-}
-
-/// Both ends near the heading that was taken, so that they can be compared; an end that the points
-/// leave open is marked.
+/// An end that the points leave open is marked.
 std::array<std::string, 2> heading_range(const RegionPoint& p) {
   if (!p.headings) return {"-", "-"};
-  const double turns = std::remainder(p.theta, kFullTurn) - p.theta;
+  const HeadingDegrees degrees(p.theta);
   const auto text = [&](double theta, bool open) {
-    return degrees_text((theta + turns) / kOneDegree) + (open ? "*" : "");
+    return degrees_text(degrees(theta)) + (open ? "*" : "");
   };
   return {text(p.headings->low, p.headings->low_is_open),
           text(p.headings->high, p.headings->high_is_open)};
@@ -110,8 +100,9 @@ Table region_points(const RegionPart& part, double size) {
     const RadiusRange radius = radius_range(p.curvatures);
     const auto headings = heading_range(p);
     table.row({region_point_name(p), coordinate(p.point.x, size), coordinate(p.point.y, size),
-               p.adjacent_kappa ? radius_text(*p.adjacent_kappa) : "-", heading_text(p.theta),
-               headings[0], headings[1], radius.least, radius.greatest, heading_came_by(p)});
+               p.adjacent_kappa ? radius_text(*p.adjacent_kappa) : "-",
+               degrees_text(principal_degrees(p.theta)), headings[0], headings[1], radius.least,
+               radius.greatest, heading_came_by(p)});
   }
   return table;
 }
@@ -217,14 +208,10 @@ Result<std::vector<NamedFile>> write_worksheet(const PointSeries& series, const 
 Summary summary_of_region(const RegionOptions& all, const OneOf& one,
                           const std::vector<std::string>& outputs) {
   Summary out;
-  RegionOptions options = all;
-  options.input = one.input;
-  options.outputs = outputs;
-  if (one.curve) options.import.curve = {one.curve, {}, false};
+  const RegionOptions options = options_of_one(all, one, outputs);
   const auto done = [&]() -> Result<void> {
-    Result<PointSeries> series = read_series(options.input, options.import);
+    const Result<PointSeries> series = series_of(options);
     OBVID_TRY(series);
-    if (options.units) take_units(*series, *options.units);
     out.warnings = series->warnings;
     const Result<RegionTable> region = region_table(*series, options.job);
     OBVID_TRY(region);
@@ -239,13 +226,10 @@ Summary summary_of_region(const RegionOptions& all, const OneOf& one,
 }
 
 int region_of_several(const RegionOptions& options) {
-  const auto all = all_of_them(options.inputs, options.input, options.import, true);
-  if (!all) return report(all.error());
-  Several several(*all, summary_form(options.csv, options.json, options.quiet));
-  return several.run(options.outputs,
-                     [&](const OneOf& one, const std::vector<std::string>& outputs) {
-                       return summary_of_region(options, one, outputs);
-                     });
+  return run_each(options, options.import, true, options.outputs,
+                  [&](const OneOf& one, const std::vector<std::string>& outputs) {
+                    return summary_of_region(options, one, outputs);
+                  });
 }
 
 }  // namespace
@@ -255,9 +239,8 @@ int run(const RegionOptions& options) {
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
   }
-  Result<PointSeries> series = read_series(options.input, options.import);
+  const Result<PointSeries> series = series_of(options);
   if (!series) return report(series.error());
-  if (options.units) take_units(*series, *options.units);
   warn(series->warnings);
   const Result<RegionTable> region = region_table(*series, options.job);
   if (!region) return report(explained(*series, options.job, region.error(), {}));

@@ -5,10 +5,10 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "fit_report.h"
+#include "obvid/core/units.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -23,7 +23,7 @@ const char* change_text(const std::optional<int>& change) {
   return change ? direction_text(*change) : "undecided";
 }
 
-double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
+double degrees(double rad) { return rad / kOneDegree; }
 
 std::string to_next(const Analysis& analysis, std::size_t point) {
   return point < analysis.chords.size() ? significant(analysis.chords[point].length) : "";

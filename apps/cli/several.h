@@ -13,6 +13,7 @@
 #include "obvid/pipeline/internal/summary.h"
 #include "obvid/pipeline/internal/titled_contour.h"
 #include "outputs.h"
+#include "terminal.h"
 
 namespace obvid {
 
@@ -35,9 +36,8 @@ enum class SummaryForm { kText, kCsv, kJson, kNothing };
 /// Whether a command has more than one thing to do.
 [[nodiscard]] bool are_several(const std::vector<std::string>& inputs, const CurveChoice& curve);
 
-/// All of them; `points`: series of points of drawings count beside curves (waypoints never), else a
-/// warning tells that they do not.
-/// Errors: those of reading a drawing whose curves are asked for.
+/// All of them; `points`: series of points of drawings count beside curves (waypoints never), else
+/// a warning tells that they do not. Errors: those of reading a drawing whose curves are asked for.
 [[nodiscard]] Result<std::vector<OneOf>> all_of_them(const std::vector<std::string>& inputs,
                                                      const std::string& input,
                                                      const ImportOptions& import, bool points);
@@ -106,5 +106,52 @@ class Several {
   std::size_t fine_ = 0;
   std::optional<Error> first_;
 };
+
+/// What was asked for, of one of several; its outputs where the command has them.
+template <class Options>
+[[nodiscard]] Options options_of_one(Options options, const OneOf& one) {
+  options.input = one.input;
+  if constexpr (requires { options.import.curve; }) {
+    if (one.curve) options.import.curve = {one.curve, {}, false};
+  }
+  return options;
+}
+template <class Options>
+[[nodiscard]] Options options_of_one(Options options, const OneOf& one,
+                                     const std::vector<std::string>& outputs) {
+  options.outputs = outputs;
+  return options_of_one(std::move(options), one);
+}
+
+/// `work(one, outputs)` for each of a command's inputs, with its own `outputs`. `points`: as for
+/// `all_of_them`.
+template <class Options, class Work>
+int run_each(const Options& options, const ImportOptions& import, bool points,
+             const std::vector<std::string>& outputs, const Work& work) {
+  const auto all = all_of_them(options.inputs, options.input, import, points);
+  if (!all) return report(all.error());
+  return Several(*all, summary_form(options.csv, options.json, options.quiet)).run(outputs, work);
+}
+
+/// `work(one, files, together)` for each contour, with where to leave it for files of all of them;
+/// nowhere without such files.
+template <class Options, class Work>
+int run_contours(const Options& options, bool points, SummaryForm form, const Work& work) {
+  const auto all = all_of_them(options.inputs, options.input, options.import, points);
+  if (!all) return report(all.error());
+  const auto outputs = several_outputs(options.outputs, options.formats);
+  if (!outputs) return report(outputs.error());
+  std::vector<TitledContour> contours;
+  std::vector<TitledContour>* together = outputs->together.empty() ? nullptr : &contours;
+  return Several(*all, form)
+      .run(
+          *outputs,
+          [&](const OneOf& one, const std::vector<std::string>& files) {
+            return work(one, files, together);
+          },
+          [&](const std::vector<Output>& files) {
+            return write_together(contours, files, options.formats);
+          });
+}
 
 }  // namespace obvid

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <utility>
 
 #include "fit_report.h"
 #include "obvid/core/files.h"
 #include "obvid/core/internal/file_ending.h"
+#include "obvid/core/units.h"
 #include "obvid/pipeline/internal/space_values.h"
 #include "obvid/pipeline/space_fit.h"
 #include "outputs.h"
@@ -136,8 +136,8 @@ std::string planar_text(const SpaceFit& fit, const Written& written) {
 std::string corner_words(const SpaceChain& chain) {
   std::vector<std::string> out;
   for (const SpaceCorner& corner : chain.corners) {
-    out.push_back(fmt::format("point {} ({} degrees)", corner.point + 1,
-                              number(corner.turn * 180.0 / std::numbers::pi)));
+    out.push_back(
+        fmt::format("point {} ({} degrees)", corner.point + 1, number(corner.turn / kOneDegree)));
   }
   return listed(out);
 }

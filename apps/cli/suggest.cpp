@@ -12,6 +12,7 @@
 #include "obvid/pipeline/internal/report_json.h"
 #include "obvid/pipeline/trade_off.h"
 #include "outputs.h"
+#include "series_of.h"
 #include "table.h"
 #include "terminal.h"
 #include "text.h"
@@ -91,10 +92,7 @@ int suggest(const FitOptions& options) {
   if (!charts) return report(charts.error());
   ProgressBar bar(options.progress && !options.quiet);
   bar.tell("reading", 0.0);
-  Result<PointSeries> series = options.text
-                                   ? parse_series(*options.text, options.name(), options.import)
-                                   : read_series(options.input, options.import);
-  if (series && options.units) take_units(*series, *options.units);
+  const Result<PointSeries> series = series_of(options);
   TradeOff finished;
   const Result<TradeOff> found = series.and_then([&](const PointSeries& s) {
     const Interrupt interrupt;

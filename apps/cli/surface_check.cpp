@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "commands.h"
 #include "obvid/core/internal/data_table.h"
+#include "obvid/core/units.h"
 #include "obvid/pipeline/internal/summary.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
 #include "outputs.h"
@@ -171,8 +171,7 @@ Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
     const auto side = [&](std::size_t k) {
       return fmt::format("{}, {}", model.patches[j.patch[k]].name, border_name(j.side[k]));
     };
-    table.row({side(0), side(1), significant(j.gap, 3),
-               significant(j.angle * 180.0 / std::numbers::pi, 3),
+    table.row({side(0), side(1), significant(j.gap, 3), significant(j.angle / kOneDegree, 3),
                significant(100.0 * j.curvature, 3) + " %", fmt::format("G{}", j.order),
                coordinates_text(j.angle_at)});
   }
@@ -306,9 +305,7 @@ std::vector<SummaryCell> cells_of(const CheckDone& done) {
 Summary summary_of_check(const SurfaceCheckOptions& all, const OneOf& one,
                          const std::vector<std::string>& outputs) {
   Summary out;
-  SurfaceCheckOptions options = all;
-  options.input = one.input;
-  options.outputs = outputs;
+  const SurfaceCheckOptions options = options_of_one(all, one, outputs);
   ProgressBar none(false);
   auto done = check_done(options, none);
   if (!done) {
@@ -322,13 +319,10 @@ Summary summary_of_check(const SurfaceCheckOptions& all, const OneOf& one,
 }
 
 int check_several(const SurfaceCheckOptions& options) {
-  const auto all = all_of_them(options.inputs, options.input, {}, false);
-  if (!all) return report(all.error());
-  Several several(*all, summary_form(options.csv, options.json, options.quiet));
-  return several.run(options.outputs,
-                     [&](const OneOf& one, const std::vector<std::string>& outputs) {
-                       return summary_of_check(options, one, outputs);
-                     });
+  return run_each(options, {}, false, options.outputs,
+                  [&](const OneOf& one, const std::vector<std::string>& outputs) {
+                    return summary_of_check(options, one, outputs);
+                  });
 }
 
 }  // namespace

@@ -93,11 +93,9 @@ int verify_several(const VerifyOptions& options) {
     return report({ErrorCode::kBadOption, "an answer is of one file", options.outputs.front(),
                    "verify one file, or leave -o out: --json has a line for each"});
   }
-  const auto all = all_of_them(options.inputs, options.input, {}, false);
-  if (!all) return report(all.error());
-  Several several(*all, summary_form(options.csv, options.json, options.quiet));
-  return several.run(
-      {}, [](const OneOf& one, const std::vector<std::string>&) { return summary_of_stored(one); });
+  return run_each(options, {}, false, {}, [](const OneOf& one, const std::vector<std::string>&) {
+    return summary_of_stored(one);
+  });
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "obvid/core/units.h"
 
 namespace obvid::alignment {
 namespace {
@@ -13,7 +14,7 @@ constexpr double kOfTolerance = 0.9;  ///< that it is away from its point
 constexpr double kNoCorner = 1e-9;    ///< rad: a turn that is rounding
 /// rad: chords that turn by more nearly go straight back. One arc there would be smaller than its
 /// tangents by the tangent of half of it; two, with a chord across between them, are not.
-constexpr double kHairpin = 179.0 / 180.0 * std::numbers::pi;
+constexpr double kHairpin = 179.0 * kOneDegree;
 /// Of the tolerance, and of the chords beside it: half of that chord across.
 constexpr double kAcrossOfTolerance = 0.4, kAcrossOfChord = 0.25;
 /// Intervals of points: where the ends of a chord across stand for, that passes its point in the

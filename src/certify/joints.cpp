@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "box.h"
 #include "double_double.h"
 #include "end_data.h"
 #include "obvid/certify/internal/loose_slopes.h"
@@ -52,21 +53,16 @@ constexpr double kBroken = std::numeric_limits<double>::max();
 double known(double gap) { return is_nan(gap) ? kBroken : gap; }
 
 double size_of_box(const Contour& contour, const std::vector<KnownPiece>* known) {
-  double low_x = kBroken, low_y = kBroken, high_x = -kBroken, high_y = -kBroken;
-  const auto grow = [&](Vec2 p) {
-    low_x = std::min(low_x, p.x);
-    low_y = std::min(low_y, p.y);
-    high_x = std::max(high_x, p.x);
-    high_y = std::max(high_y, p.y);
-  };
+  Box box;
   for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
     const Piece& piece = contour.pieces[i];
-    grow(start_point(piece));
-    grow(end_point(piece));
+    box.grow(start_point(piece));
+    box.grow(end_point(piece));
     // a single closed arc has no other extent
-    grow(known != nullptr ? (*known)[i].middle : evaluate(piece, 0.5).point);
+    box.grow(known != nullptr ? (*known)[i].middle : evaluate(piece, 0.5).point);
   }
-  return std::hypot(high_x - low_x, high_y - low_y);
+  const Vec2 size = box.high - box.low;
+  return std::hypot(size.x, size.y);
 }
 
 /// Rounded outward: at least what it would be without the roundings of its own evaluation.

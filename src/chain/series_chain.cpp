@@ -57,7 +57,7 @@ Attempt insert_and_solve(Extended current, ChainSolution solution, int steps, Wa
   return refuse(blame(0), steps);
 }
 
-/// Closed-form cones first; then mere existence and free elements; then without the wish that the
+/// Closed-form cones first; then mere existence and free elements; then without the demand that the
 /// curvature keep its sign, which can turn out to be impossible.
 Attempt attempt(Extended current, bool convex, Watch& watch) {
   const std::vector<Element> given = current.start;

@@ -50,7 +50,7 @@ class Cutting {
         options_(options),
         watch_(run),
         units_(outlines.front().contour.units),
-        inches_(units_.name == "in"),
+        inches_(exchange::in_inches(units_)),
         scale_(*exchange::machine_units_in(units_)),
         defaults_(inches_ ? kInches : kMillimetres) {}
 
@@ -130,7 +130,7 @@ class Cutting {
     out.tool_diameter = options_.diameter * scale_;
     out.safe_z = options_.safe_z ? *options_.safe_z * scale_ : defaults_.safe_z;
     out.clear_z = std::min(out.safe_z, defaults_.clear_z);
-    out.feed = options_.feed.value_or(default_feed(units_.name));
+    out.feed = options_.feed.value_or(default_feed(units_));
     out.plunge_feed = options_.plunge_feed.value_or(defaults_.plunge);
     out.across = options_.centripetal.value_or(0.0) / (inches_ ? kMmPerInch : 1.0);
     out.pierce_seconds = options_.pierce_seconds;

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "obvid/exchange/internal/gcode/path.h"
+#include "obvid/exchange/internal/whole_arcs.h"
 #include "short_tour.h"
 
 namespace obvid::cutting {
@@ -81,7 +81,7 @@ class Ordering {
   using Tour = std::vector<Planned>;
 
   /// What a start is to be near to: the way to it, and from its end on where anything follows.
-  struct Wish {
+  struct Neighbours {
     Vec2 from;
     std::optional<Vec2> next;
 
@@ -158,23 +158,23 @@ class Ordering {
     return true;
   }
 
-  [[nodiscard]] Wish wish(std::size_t i, const Wish& way) const {
-    return tracks_[i].axis.closed && rules_.near ? Wish{*rules_.near, {}} : way;
+  [[nodiscard]] Neighbours wanted(std::size_t i, const Neighbours& way) const {
+    return tracks_[i].axis.closed && rules_.near ? Neighbours{*rules_.near, {}} : way;
   }
 
-  [[nodiscard]] Start best_start(std::size_t i, const Wish& way) const {
-    const Wish wanted = wish(i, way);
+  [[nodiscard]] Start best_start(std::size_t i, const Neighbours& way) const {
+    const Neighbours near = wanted(i, way);
     std::vector<Start> beside;
     if (starts_[i].empty()) {
-      beside.push_back(nearest_of_all(i, wanted.from));
-      if (wanted.next) {
-        beside.push_back(nearest_of_all(i, *wanted.next));
-        beside.push_back(nearest_of_all(i, 0.5 * (wanted.from + *wanted.next)));
+      beside.push_back(nearest_of_all(i, near.from));
+      if (near.next) {
+        beside.push_back(nearest_of_all(i, *near.next));
+        beside.push_back(nearest_of_all(i, 0.5 * (near.from + *near.next)));
       }
     }
     const std::vector<Start>& all = starts_[i].empty() ? beside : starts_[i];
     return *std::min_element(all.begin(), all.end(), [&](const Start& a, const Start& b) {
-      return wanted.way(a) < wanted.way(b);
+      return near.way(a) < near.way(b);
     });
   }
 
@@ -201,15 +201,15 @@ class Ordering {
   }
 
   /// A start with a lead, moved along its piece to where it is nearest.
-  [[nodiscard]] Start moved_along(std::size_t i, Start start, const Wish& way) const {
-    const Wish wanted = wish(i, way);
+  [[nodiscard]] Start moved_along(std::size_t i, Start start, const Neighbours& way) const {
+    const Neighbours near = wanted(i, way);
     double step = start.step;
     for (int k = 0; k < kHalvedSteps && step > 0.0; ++k) {
       step *= 0.5;
       for (const double place : {start.place - step, start.place + step}) {
         if (!(place > 0.0 && place < 1.0)) continue;
         const auto other = start_with_lead(tracks_[i], start.piece, place);
-        if (other && other->free >= start.free && wanted.way(*other) < wanted.way(start)) {
+        if (other && other->free >= start.free && near.way(*other) < near.way(start)) {
           start = *other;
         }
       }
@@ -305,10 +305,10 @@ class Ordering {
     Vec2 at{};
     for (std::size_t k = 0; k < tour.size(); ++k) {
       auto& [track, start] = tour[k];
-      Wish way{at, {}};
+      Neighbours way{at, {}};
       if (k + 1 < tour.size()) way.next = tour[k + 1].start.begin;
       const Start other = moved_along(track, best_start(track, way), way);
-      if (wish(track, way).way(other) < wish(track, way).way(start)) start = other;
+      if (wanted(track, way).way(other) < wanted(track, way).way(start)) start = other;
       at = start.end;
     }
     return tour;

@@ -128,10 +128,7 @@ class SketchDxf {
     const Vec2 centre = arc.start + left_normal(unit_at(arc.theta0)) / arc.kappa;
     const double turn = arc.kappa * arc.length;
     const double from = arc.theta0 - std::copysign(0.5 * std::numbers::pi, arc.kappa);
-    const auto degrees = [](double angle) {
-      const double rest = std::fmod(angle / kOneDegree, 360.0);
-      return rest < 0.0 ? rest + 360.0 : rest;
-    };
+    const auto degrees = [](double angle) { return positive_angle(angle / kOneDegree, 360.0); };
     begin("ARC", "AcDbCircle", layer);
     out_.point3(10, centre);
     out_.pair(40, 1.0 / std::abs(arc.kappa));

@@ -31,7 +31,7 @@ constexpr int kRoughSteps = 12;  ///< towards the fairest state of a window, to 
 /// Headings farther from their chord than 120 degrees belong to loops.
 constexpr double kLeastCosine = -0.5;
 /// Least sigma over B - A of the pieces of a link: below it curvature leaps at their ends and rests
-/// between them. The first with a wish for room, the second a little more than the chain refuses.
+/// between them. The first where room is asked for, the second a little more than the chain refuses.
 constexpr double kRoom = 2e-3, kRefused = 1.1e-3;
 constexpr double kLoop = -1.0;  ///< stands for the room of a loop
 /// Closed-form margin with which the chain carries a link in one piece.

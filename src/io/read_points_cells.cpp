@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <numbers>
 
 #include "obvid/core/units.h"
 #include "read_points_reader.h"
@@ -165,7 +164,7 @@ Result<FixedData> RowReader::read_fixed(string_view line) {
   const auto corner = read_corner(line);
   OBVID_TRY(corner);
   FixedData fixed;
-  if (*heading) fixed.theta = **heading * (std::numbers::pi / 180.0);
+  if (*heading) fixed.theta = **heading * kOneDegree;
   fixed.kappa = *kappa;
   if (*tolerance) fixed.tolerance = **tolerance * layout_.tolerance_scale;
   fixed.corner = *corner;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
 /// Neighbouring chords that turn by more than this say nothing about the curve between them.
-constexpr double kLargestTurning = 170.0 * std::numbers::pi / 180.0;
+constexpr double kLargestTurning = 170.0 * kOneDegree;
 /// Points that a program computed lie on their circle within some four roundings: those of a
 /// cosine, of its product with the radius, and of the sum with the centre. Their adjacent
 /// curvatures miss it by as many, and a circle through three of them misses the others by four

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "obvid/core/units.h"
 
 namespace obvid {
 namespace {
 
 /// Curves are given by more than eight points to the turn, polygons mostly by fewer.
-constexpr double kCoarseTurn = 40.0 * std::numbers::pi / 180.0;
+constexpr double kCoarseTurn = 40.0 * kOneDegree;
 /// Turn that the rounding of doubles gives points in line, rad.
 constexpr double kInLine = 1e-6;
 /// Errors of the points turn longer chords by less than a quarter of a right angle.

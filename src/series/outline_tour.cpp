@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
+#include "obvid/core/units.h"
 #include "obvid/numeric/internal/disjoint_sets.h"
 
 namespace obvid {
@@ -17,12 +17,12 @@ namespace {
 using Index = std::size_t;
 using Order = std::vector<Index>;
 
-constexpr Index kNear = 10;         // neighbours that edges are looked for among
-constexpr Index kMostMoved = 3;     // points of a move
-constexpr double kGain = 1e-12;     // of a length: less is rounding
-constexpr double kRivalPart = 1.7;  // a join that is this much longer is no rival
-constexpr double kClearTurn = 100.0 * std::numbers::pi / 180.0;  // a rival that turns more is none
-constexpr double kSmallTurn = 10.0 * std::numbers::pi / 180.0;  // nor one that turns twice and this
+constexpr Index kNear = 10;                        // neighbours that edges are looked for among
+constexpr Index kMostMoved = 3;                    // points of a move
+constexpr double kGain = 1e-12;                    // of a length: less is rounding
+constexpr double kRivalPart = 1.7;                 // a join that is this much longer is no rival
+constexpr double kClearTurn = 100.0 * kOneDegree;  // a rival that turns more is none
+constexpr double kSmallTurn = 10.0 * kOneDegree;   // nor one that turns twice and this
 
 double between(const std::vector<Vec2>& p, Index a, Index b) { return norm(p[a] - p[b]); }
 

@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "obvid/core/units.h"
 
 namespace obvid {
 namespace {
 
 /// Turns from here on are corners of what is drawn with straight lines: a dodecagon turns by 30
 /// degrees, and nobody draws a curve with fewer than 14 chords to the turn (25.7 degrees).
-constexpr double kLargestTurn = 27.0 * std::numbers::pi / 180.0;
+constexpr double kLargestTurn = 27.0 * kOneDegree;
 /// Fewer turns do not tell a curve from a bend.
 constexpr int kFewestTurns = 3;
 /// Of the largest turn in the row. Turns that come from errors of the points are differences of

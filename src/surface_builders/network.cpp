@@ -60,11 +60,7 @@ Result<void> find_crossings(NetSide& first, NetSide& second, double tolerance) {
   return {};
 }
 
-double size_of(const NetSide& side) {
-  Box3 box;
-  for (const SpaceCurve& c : side.curves) box.add_all(c.points);
-  return box.diagonal();
-}
+double size_of(const NetSide& side) { return bounding_diagonal(side.curves, &SpaceCurve::points); }
 
 CrossingPoints points_at(const NetSide& side, const std::vector<double>& parameters) {
   CrossingPoints points;

@@ -66,12 +66,10 @@ DropField::DropField(const std::vector<Mesh>& meshes, std::size_t threads) {
 }
 
 void DropField::take(const std::vector<Mesh>& meshes, std::size_t threads) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
   std::size_t count = 0;
   for (const Mesh& mesh : meshes) count += mesh.triangles.size();
   triangles_ = large_list<FieldTriangle>(count, {}, threads);
-  low_ = {kFar, kFar, kFar};
-  high_ = -low_;
+  box_ = {};
   auto next = triangles_.begin();
   for (std::uint32_t m = 0; m < meshes.size(); ++m) {
     for (std::uint32_t i = 0; i < meshes[m].triangles.size(); ++i) {
@@ -79,8 +77,7 @@ void DropField::take(const std::vector<Mesh>& meshes, std::size_t threads) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 p = meshes[m].vertices[meshes[m].triangles[i][k]].point;
         t.corners[k] = p;
-        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
-        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
+        box_.add(p);
       }
       t.mesh = m;
       t.number = i;

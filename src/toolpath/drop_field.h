@@ -7,6 +7,7 @@
 
 #include "drop_triangle.h"
 #include "large_list.h"
+#include "obvid/geom/internal/box.h"
 #include "obvid/mesh/mesh.h"
 
 namespace obvid::toolpath {
@@ -48,8 +49,8 @@ class DropField {
   [[nodiscard]] std::optional<FieldRest> drop(const CutterShape& cutter, Vec2 axis) const;
   /// Highest point over a place.
   [[nodiscard]] std::optional<FieldHeight> height(Vec2 place) const;
-  [[nodiscard]] Vec3 low() const { return low_; }
-  [[nodiscard]] Vec3 high() const { return high_; }
+  [[nodiscard]] Vec3 low() const { return box_.low; }
+  [[nodiscard]] Vec3 high() const { return box_.high; }
 
  private:
   struct Box {
@@ -75,7 +76,7 @@ class DropField {
 
   LargeList<FieldTriangle> triangles_;
   std::vector<Box> boxes_;
-  Vec3 low_, high_;
+  Box3 box_;
 };
 
 /// Sets the bits of open sides: edges that belong to one triangle only (corners at the same place

@@ -57,7 +57,7 @@ double length_from_above(const std::vector<Vec3>& way) {
 std::optional<double> fall_of(const ToolpathOptions& options) {
   const double deg = asked_deg(options);
   if (!(deg > 0.0)) return std::nullopt;
-  return std::tan(deg * std::numbers::pi / 180.0);
+  return std::tan(deg * kOneDegree);
 }
 
 double asked_deg(const ToolpathOptions& options) {

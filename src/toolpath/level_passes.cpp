@@ -8,10 +8,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "obvid/core/internal/parallel.h"
+#include "obvid/core/units.h"
 
 namespace obvid::toolpath {
 namespace {
@@ -72,7 +72,7 @@ void LevelPasses::Crossing::close_in(double near, const Over& over) {
 
 std::optional<double> flat_from(const ToolpathOptions& options) {
   if (options.strategy != ToolpathStrategy::kZLevel && !options.steep_deg) return std::nullopt;
-  return std::cos(options.steep_deg.value_or(kSteepDeg) * std::numbers::pi / 180.0);
+  return std::cos(options.steep_deg.value_or(kSteepDeg) * kOneDegree);
 }
 
 LevelPasses::LevelPasses(const Part& part, const ToolpathOptions& options, const StepRule& rule,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "obvid/core/internal/parallel.h"
@@ -194,24 +193,19 @@ Cell SurfaceCells::made(const Part& part, const Origin& origin) const {
 
 std::size_t SurfaceCells::column(double x) const {
   return static_cast<std::size_t>(
-      std::clamp((x - low_.x) / tile_, 0.0, static_cast<double>(nx_ - 1)));
+      std::clamp((x - box_.low.x) / tile_, 0.0, static_cast<double>(nx_ - 1)));
 }
 
 std::size_t SurfaceCells::row(double y) const {
   return static_cast<std::size_t>(
-      std::clamp((y - low_.y) / tile_, 0.0, static_cast<double>(ny_ - 1)));
+      std::clamp((y - box_.low.y) / tile_, 0.0, static_cast<double>(ny_ - 1)));
 }
 
 void SurfaceCells::sort_into_tiles(double tile, const std::vector<Row>& rows,
                                    const LargeList<Vec2>& places, std::size_t threads) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  low_ = {kFar, kFar};
-  high_ = {-kFar, -kFar};
-  for (const Vec2 p : places) {
-    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-  }
-  const double dx = high_.x - low_.x, dy = high_.y - low_.y;
+  box_ = {};
+  for (const Vec2 p : places) box_.add(p);
+  const auto [dx, dy] = box_.size();
   tile_ = std::max({tile, std::sqrt(dx * dy / kMostTiles), (dx + dy) / kMostTiles});
   nx_ = static_cast<std::size_t>(dx / tile_) + 1;
   ny_ = static_cast<std::size_t>(dy / tile_) + 1;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "large_list.h"
+#include "obvid/geom/internal/box.h"
 #include "part.h"
 
 namespace obvid::toolpath {
@@ -100,7 +101,7 @@ class SurfaceCells {
   LargeList<Origin> origins_;
   LargeList<std::uint32_t> number_;  ///< of cells, by their place in the patches
   std::vector<Tile> tiles_;
-  Vec2 low_, high_;
+  Box2 box_;
   double tile_ = 1.0;
   std::size_t nx_ = 1, ny_ = 1;
 };

@@ -33,13 +33,13 @@ std::string cutter_text(const Toolpath& path, double scale) {
 
 std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, double scale,
                  double minutes) {
-  const bool inches = path.units.name == "in";
+  const bool inches = exchange::in_inches(path.units);
   std::vector<std::string> remarks{
       fmt::format("Obvid {}: {}", kVersion, gcode_comment(options.name)),
       cutter_text(path, scale) + ", places are those of the tip",
       fmt::format("{} passes, about {:.1f} min, within {} {}", path.report.passes, minutes,
                   significant_above(path.tolerance * scale, kDigitsOfBounds),
-                  inches ? "in" : "mm")};
+                  exchange::machine_unit(path.units))};
   for (std::string& one : exchange::gcode_unit_remarks(path.units)) {
     remarks.push_back(std::move(one));
   }
@@ -74,8 +74,8 @@ void write_moves(const Toolpath& path, double scale, std::size_t threads,
 }  // namespace
 
 ToolpathFeeds default_feeds(const Units& units) {
-  const bool inches = units.name == "in";
-  return {default_feed(units.name), inches ? 12.0 : 300.0, inches ? 200.0 : 5000.0};
+  const bool inches = exchange::in_inches(units);
+  return {default_feed(units), inches ? 12.0 : 300.0, inches ? 200.0 : 5000.0};
 }
 
 Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOptions& options,
@@ -84,7 +84,7 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
   OBVID_TRY(unit);
   OBVID_TRY(exchange::check_gcode_decimals(options.decimals));
   const double scale = *unit, print = path.print_within * scale;
-  const bool inches = path.units.name == "in";
+  const bool inches = exchange::in_inches(path.units);
   const int decimals =
       options.decimals.value_or(exchange::decimals_of_digit(kDigitsOfPrint * print, inches));
   const double within = print - std::pow(10.0, -decimals);

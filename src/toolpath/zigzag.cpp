@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "obvid/core/units.h"
 #include "pass_families.h"
 
 namespace obvid::toolpath {
@@ -14,7 +14,7 @@ PassFrame pass_frame(const Part& part, double angle_deg) {
   const double turn = std::remainder(angle_deg, 360.0);
   static constexpr std::array<std::array<double, 3>, 5> kSquare = {
       {{0, 1, 0}, {90, 0, 1}, {-90, 0, -1}, {180, -1, 0}, {-180, -1, 0}}};
-  const double rad = turn * std::numbers::pi / 180.0;
+  const double rad = turn * kOneDegree;
   frame.along = {std::cos(rad), std::sin(rad)};
   for (const auto& [angle, x, y] : kSquare) {  // exactly, so that passes lie in planes of the axes
     if (turn != angle) continue;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace judge {
@@ -120,7 +121,8 @@ class SeriesMaker {
   void choose_options(const Shape& shape) {
     static const char* kCarriers[] = {"arcs",    "conics", "beziers", "clothoids",
                                       "bspline", "cubic",  "baseline"};
-    if (dice_.chance(0.65)) add("--carrier", kCarriers[dice_.whole(0, 6)]);
+    if (dice_.chance(0.65))
+      add("--carrier", kCarriers[dice_.whole(0, static_cast<int>(std::size(kCarriers)) - 1)]);
     if (dice_.chance(0.35)) add("--units", unit_of(dice_));
     if (dice_.chance(0.2)) {
       const double part = dice_.chance(0.02) ? 1e-300 : dice_.logarithmic(1e-9, 0.1);

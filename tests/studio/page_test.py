@@ -4,6 +4,7 @@ again, operations undone, pasted and dropped files, refusals.
 usage: page_test.py OBVID PROJECT_FOLDER AXE_SCRIPT | OBVID PROJECT_FOLDER --pictures FOLDER"""
 import json
 import math
+import os
 import random
 import re
 import subprocess
@@ -20,6 +21,8 @@ AXE = Path(sys.argv[3])
 FILE, AIRFOIL = ROOT / "examples/series10.csv", "tests/data/airfoils/ag12.dat"
 DRAGS, OPERATIONS = 200, 1000
 failures = []
+os.environ.setdefault("OBVID_LIBRARY", str(Path(PROGRAM).resolve().parent / "libobvid_c.so"))
+sys.path.insert(0, str(ROOT / "bindings/python"))
 
 
 def check(what, holds, seen=""):
@@ -552,6 +555,34 @@ def overlays(page):
         print("SKIPPED: STEP files, the helper of the CAD kernel is not built")
 
 
+def places_of(arcs, count):
+    """`count` places after the start of each arc, and its start before the first: as the page has them."""
+    x, y = arcs[0][:2]
+    out = [(x, y)]
+    for x, y, heading, kappa, length in arcs:
+        for k in range(1, count + 1):
+            s = length * k / count
+            reach = s if abs(kappa * s) < 1e-12 else 2 * math.sin(0.5 * kappa * s) / kappa
+            out.append((x + reach * math.cos(heading + 0.5 * kappa * s), y + reach * math.sin(heading + 0.5 * kappa * s)))
+    return out
+
+
+def compare_regions(curve, sides):
+    """The page reckons boundaries for itself, sixty times a second (docs/decisions/0016): they are those of the engine."""
+    import obvid
+
+    each = curve["samples"]
+    for piece, drawn in enumerate(sides):
+        ends = [(*curve["xy"][2 * i:2 * i + 2], curve["heading"][i], curve["kappa"][i])
+                for i in (piece * each, (piece + 1) * each - 1)]
+        told, size = obvid.region_arcs(*ends), math.dist(ends[0][:2], ends[1][:2])
+        check("the engine has a region, too", told is not None, piece)
+        for side, arcs in zip(drawn, told or ()):
+            wanted = places_of(arcs, (len(side) - 1) // len(arcs))
+            check("the boundaries of the engine", len(wanted) == len(side) and
+                  max(map(math.dist, side, wanted)) < 1e-9 * size, (piece, arcs, side[:2], wanted[:2]))
+
+
 def shades(page):
     """The region is drawn, as wide as it is told; the contour lies inside it."""
     page.click_on("#shade")
@@ -560,6 +591,7 @@ def shades(page):
     curve = page.run("studio.fitted.value.answer.curve")
     check("a region for each piece", len(sides) == 9 and all(sides), len(sides))
     each = curve["samples"]
+    compare_regions(curve, sides)
     for piece, (one, other) in enumerate(sides):
         xy = [curve["xy"][2 * i:2 * i + 2] for i in range(piece * each, (piece + 1) * each)]
         for side in (one, other):

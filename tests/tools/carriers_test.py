@@ -83,6 +83,16 @@ class Carriers(unittest.TestCase):
         self.assertEqual(set(promised), {name for _, name, _ in entries()})
         self.assertEqual(set(re.findall(r'"(\w+)"', silent)), {name for name, says in promised.items() if not says})
 
+    def test_of_the_judge_are_those_of_the_table(self):
+        names, formed = [name for _, name, _ in entries()], [name for _, name, is_formed in entries() if is_formed]
+        self.assertEqual(self.listed("tests/judge/check_form.cpp", r"kNames = \{(.*?)\}"), names)
+        self.assertEqual(self.listed("tests/judge/series.cpp", r"kCarriers\[\] = \{(.*?)\}"), formed[1:])
+        silent = re.findall(r"^OBVID_CARRIER.*?, (\w+),.*?\.monotone = false", TABLE.read_text(encoding="utf-8"), re.MULTILINE)
+        judged = re.search(r"promises_monotone\(\) const \{(.*?)\}",
+                           (ROOT / "tests/judge/contour_file.h").read_text(encoding="utf-8"), re.DOTALL)[1]
+        self.assertGreater(len(silent), 2)
+        self.assertEqual(re.findall(r'"(\w+)"', judged), silent)
+
     def test_batches_and_pages_have_units_and_carriers_of_the_tables(self):
         table = (ROOT / "src/core/units.cpp").read_text(encoding="utf-8")
         lengths = [name for name, metres in re.findall(r'Row\{"(\w+)", ([0-9.e]+)', table) if float(metres) > 0]

@@ -57,6 +57,20 @@ class CheckLayers(unittest.TestCase):
         self.accepts("apps/studio/main.cpp", "obvid.h")
         self.accepts("apps/first/later.cpp", "io/contour_json.h")
 
+    def test_programs_include_no_private_header_by_its_bare_name(self):
+        header = {"src/cad/client/helper_file.h": "#pragma once\n", "src/batch/work.h": "#pragma once\n",
+                  "apps/batch/work_of_its_own.h": "#pragma once\n"}
+        for name, text, fault in (
+                ("apps/cli/main.cpp", '#include "helper_file.h"', "helper_file.h is a private header of cad"),
+                ("apps/cli/main.cpp", '#include "client/helper_file.h"', "is a private header of cad"),
+                ("apps/batch/main.cpp", '#include "helper_file.h"', "is a private header of cad"),
+                ("apps/web/no_processes.cpp", '#include "helper_file.h"', None),
+                ("apps/batch/main.cpp", '#include "work.h"', None),
+                ("apps/batch/main.cpp", '#include "work_of_its_own.h"', None)):
+            code, out = run_on({**header, name: text + "\n"})
+            self.assertEqual(code, 1 if fault else 0, out)
+            self.assertIn(fault or "0 faults", out)
+
     def test_the_order_inside_level_three_is_kept(self):
         self.refuses("src/series/runs.cpp", "region/width.h", "series (level 3.1)")
         self.refuses("src/region/width.cpp", "chain/solve.h", "region (level 3.2)")

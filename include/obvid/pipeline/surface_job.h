@@ -2,7 +2,6 @@
 #pragma once  // reentrant: docs/threads.md
 
 #include <array>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -94,8 +93,8 @@ struct IdKind {
 /// Near points in any order, as heights over a plane; the job's tolerance has to be given.
 struct ScatterKind {
   std::optional<Vec3> up{};  ///< direction of the heights; nothing: normal of the best plane
-  double steepest = 85.0 / 180.0 * std::numbers::pi;  ///< rad, what neighbours may force
-  bool drop_outliers = false;                         ///< left out, in place of named alone
+  double steepest = 85.0 * kOneDegree;  ///< rad, what neighbours may force
+  bool drop_outliers = false;           ///< left out, in place of named alone
 };
 /// A part of a surface: above planes or below them, inside or outside a closed contour.
 struct TrimKind {

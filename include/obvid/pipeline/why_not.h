@@ -34,7 +34,7 @@ struct WhyNot {
 [[nodiscard]] double largest_tolerance_tried(const PointSeries& series);
 
 /// For a job that `fit` refuses because no such contour exists (E401 to E405): the smallest
-/// tolerance, the same for all points, within which one does, every wish of the job kept. Points
+/// tolerance, the same for all points, within which one does, every demand of the job kept. Points
 /// with larger tolerances of their own keep those; an open series stays open. Found by long steps
 /// and bisection, to 2 %; between the tolerances that were tried feasibility is taken as
 /// monotone. The search ends after some 15 calls of `fit`, or earlier after a number of steps that

@@ -22,6 +22,7 @@
 
 #include "borders.h"
 #include "creases.h"
+#include "obvid/geom/internal/box.h"
 #include "splines.h"
 #include "trimmed_faces.h"
 
@@ -78,7 +79,7 @@ class Builder {
     std::vector<double> wide(joints_.vertices.size());
     for (std::size_t i = 0; i < wide.size(); ++i) wide[i] = joints_.vertices[i].gap;
     for (const JointEdge& edge : joints_.edges) {  // no vertex narrower than its edges
-      const double gap = edge.point ? size_of_point(edge) : edge.gap;
+      const double gap = edge.point ? farthest_from_first(edge.curve.points) : edge.gap;
       for (const std::size_t end : {edge.from, edge.to}) wide[end] = std::max(wide[end], gap);
     }
     for (std::size_t i = 0; i < wide.size(); ++i) {
@@ -100,12 +101,6 @@ class Builder {
   }
 
  private:
-  static double size_of_point(const JointEdge& edge) {
-    double size = 0.0;
-    for (const Vec3 p : edge.curve.points) size = std::max(size, norm(p - edge.curve.points[0]));
-    return size;
-  }
-
   TopoDS_Edge edge_of(const JointEdge& joint) {
     TopoDS_Edge edge;
     if (joint.point) {

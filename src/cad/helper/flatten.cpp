@@ -20,6 +20,7 @@
 
 #include "obvid/curve/internal/drawn_spans.h"
 #include "obvid/curve/nurbs.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid::cad {
 namespace {
@@ -120,12 +121,6 @@ bool all_finite(const std::vector<gp_Pnt>& points) {
   return std::all_of(points.begin(), points.end(), [](const gp_Pnt& p) {
     return std::isfinite(p.X()) && std::isfinite(p.Y()) && std::isfinite(p.Z());
   });
-}
-
-double size_of_points(const std::vector<gp_Pnt>& points) {
-  double size = 0.0;
-  for (const gp_Pnt& p : points) size = std::max(size, p.Distance(points.front()));
-  return size;
 }
 
 /// Seen from the side of the axis that its normal is nearest to, so that drawings are not mirrored.
@@ -250,7 +245,8 @@ void add_chain(const EdgeChain& chain, Drawing& drawing) {
   if (!all_finite(points)) {
     return leave_out(chain, "it has numbers that are not finite", drawing);
   }
-  const double size = size_of_points(points);
+  const double size = farthest_from_first(
+      points, [](const gp_Pnt& p, const gp_Pnt& first) { return p.Distance(first); });
   double away = 0.0;
   const auto plane = plane_of(points, size, away);
   if (!plane && chain.edges.size() > 1) return add_one_by_one(chain, drawing);

@@ -16,6 +16,8 @@
 #include <XSControl_WorkSession.hxx>
 #include <fstream>
 
+#include "obvid/core/files.h"
+
 namespace obvid::cad {
 namespace {
 
@@ -98,16 +100,13 @@ Result<Loaded> read_brep(const std::string& path) {
 }  // namespace
 
 Result<Loaded> load(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
+  if (!std::ifstream(path)) {
     return error(ErrorCode::kCannotOpen, "cannot read the file")
         .where(path)
         .hint("check path and permissions");
   }
   constexpr std::size_t kHead = 4096;
-  std::string head(kHead, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(kHead));
-  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string head = head_of_file(path, kHead);
   if (head.find("ISO-10303-21") != std::string::npos) return read_step(path);
   if (head.find("DBRep_DrawableShape") != std::string::npos ||
       head.find("CASCADE Topology") != std::string::npos) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <numbers>
 
 #include "dxf/entity_shape.h"
+#include "obvid/core/units.h"
 
 namespace obvid::dxf {
 namespace {
@@ -65,7 +65,7 @@ Affine translation(Point3 by) {
 
 Affine rotation(double degrees) {
   if (degrees == 0.0) return {};
-  const double angle = std::fmod(degrees, 360.0) * (std::numbers::pi / 180.0);
+  const double angle = std::fmod(degrees, 360.0) * kOneDegree;
   Affine out;
   out.linear[0] = {std::cos(angle), -std::sin(angle), 0.0};
   out.linear[1] = {std::sin(angle), std::cos(angle), 0.0};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dxf/arcs.h"
-#include "obvid/core/units.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid::dxf {
 namespace {
@@ -71,8 +71,8 @@ double sweep_of(double from, double to, double turn) {
   constexpr double kWhole = 1e-9;  // of a turn: digits that a whole turn is printed with
   const double difference = to - from;
   if (std::abs(std::abs(difference) - turn) <= kWhole * turn) return turn;
-  const double sweep = std::fmod(difference, turn);
-  return sweep > 0.0 ? sweep : sweep + turn;
+  const double sweep = positive_angle(difference, turn);
+  return sweep > 0.0 ? sweep : turn;
 }
 
 void append_elliptic(const EllipseFrame& frame, double from, double sweep,

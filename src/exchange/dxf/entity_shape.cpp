@@ -13,6 +13,7 @@
 #include "obvid/curve/internal/drawn_spans.h"
 #include "obvid/curve/nurbs.h"
 #include "obvid/geom/internal/angle.h"
+#include "obvid/geom/internal/box.h"
 
 namespace obvid::dxf {
 namespace {
@@ -35,14 +36,6 @@ Point3 turned(const Affine& map, Point3 v) {
 
 bool is_level(Point3 direction) {
   return std::abs(direction.z) <= kLevelWithin * std::hypot(direction.x, direction.y);
-}
-
-double size_of(const Entity& e) {
-  double most = 0.0;
-  for (const Point3& p : e.points) {
-    most = std::max(most, std::hypot(p.x - e.points[0].x, p.y - e.points[0].y));
-  }
-  return most;
 }
 
 class Shaper {
@@ -153,7 +146,8 @@ class Shaper {
     const Point3 x = turned(map, {1, 0, 0}), y = turned(map, {0, 1, 0});
     if (!in_space && !(is_level(x) && is_level(y))) return refuse(kTilted);
     const double determinant = cross(flat(x), flat(y));
-    const double size = size_of(e_);
+    const double size = farthest_from_first(
+        e_.points, [](Point3 p, Point3 first) { return std::hypot(p.x - first.x, p.y - first.y); });
     shape_.polygon = true;
     shape_.closed = (e_.flags & kClosedFlag) != 0;
     const std::size_t count = e_.points.size();

@@ -24,6 +24,7 @@
 #include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/core/internal/questions.h"
 #include "obvid/curve/internal/smooth_parts.h"
+#include "obvid/exchange/internal/whole_arcs.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/geom/internal/box.h"
 
@@ -50,11 +51,6 @@ bool is_circular(const Piece& piece) {
 }
 
 /// Angle from 0 to below `turn`.
-double within(double angle, double turn) {
-  const double rest = std::fmod(angle, turn);
-  return rest < 0.0 ? rest + turn : rest;
-}
-
 /// Names of layers in the file: no two names of ours become one there. Case does not tell layers
 /// apart.
 class LayerNames {
@@ -186,7 +182,7 @@ class DxfDrawer {
   void arc(const ArcPiece& one) {
     constexpr double kToldAngle = 1e-12;  ///< rad
     if (std::abs(one.kappa * one.length) < kToldAngle) return line({one.start, one.end});
-    constexpr double kWhole = 1.0 - 1e-12;  // of a turn: an arc of equal angles would be nothing
+    constexpr double kWhole = 1.0 - 1e-9;  // of a turn: what parts of a circle may miss
     const Vec2 centre = one.start + left_normal(unit_at(one.theta0)) / one.kappa;
     const double turn = one.kappa * one.length;
     const double from = one.theta0 - std::copysign(0.5 * std::numbers::pi, one.kappa);
@@ -197,8 +193,8 @@ class DxfDrawer {
     out_.pair(40, 1.0 / std::abs(one.kappa));
     if (whole) return;
     out_.pair(100, "AcDbArc");
-    out_.pair(50, within(low / kOneDegree, 360.0));
-    out_.pair(51, within(high / kOneDegree, 360.0));
+    out_.pair(50, positive_angle(low / kOneDegree, 360.0));
+    out_.pair(51, positive_angle(high / kOneDegree, 360.0));
   }
 
   /// DXF ellipses run counter-clockwise from `start` to `end` of their parameter.
@@ -215,8 +211,8 @@ class DxfDrawer {
       out_.pair(41, 0.0);
       return out_.pair(42, kFullTurn);
     }
-    out_.pair(41, within(std::min(one.from, one.to), kFullTurn));
-    out_.pair(42, within(std::max(one.from, one.to), kFullTurn));
+    out_.pair(41, positive_angle(std::min(one.from, one.to), kFullTurn));
+    out_.pair(42, positive_angle(std::max(one.from, one.to), kFullTurn));
   }
 
   void spline(const NurbsCurve& curve, bool closed) {
@@ -273,7 +269,7 @@ class DxfDrawer {
                            std::abs(next.semi_minor - last->semi_minor) <= near &&
                            std::abs(next.rotation - last->rotation) <= kSame &&
                            (next.to > next.from) == (last->to > last->from) &&
-                           std::abs(std::remainder(next.from - last->to, kFullTurn)) <= kSame;
+                           std::abs(turn_between(last->to, next.from)) <= kSame;
       if (!goes_on) {
         out.push_back(next);
         continue;
@@ -298,7 +294,7 @@ class DxfDrawer {
   bool as_one_entity() {
     const std::vector<Piece>& pieces = contour_->pieces;
     if (!std::all_of(pieces.begin(), pieces.end(), is_circular)) return false;
-    const std::vector<Piece> whole = whole_arcs(pieces);
+    const std::vector<Piece> whole = exchange::whole_arcs(pieces);
     if (whole.size() > 1 || !centres_are_near(*contour_)) {
       lwpolyline(whole, contour_->closed);
     } else {
@@ -319,7 +315,7 @@ class DxfDrawer {
   Result<void> exact(const Contour& part, bool closed) {
     if (std::all_of(part.pieces.begin(), part.pieces.end(), is_circular)) {
       if (centres_are_near(part)) {
-        for (const Piece& piece : whole_arcs(part.pieces)) circular(piece);
+        for (const Piece& piece : exchange::whole_arcs(part.pieces)) circular(piece);
       } else {
         lwpolyline(part.pieces, closed);
       }
@@ -341,34 +337,6 @@ class DxfDrawer {
     result_.deviation = std::max(result_.deviation, made->deviation);
     spline(made->curve, closed);
     return {};
-  }
-
-  /// Arcs that are parts of one are that; once around it is a circle.
-  [[nodiscard]] static std::vector<Piece> whole_arcs(const std::vector<Piece>& pieces) {
-    constexpr double kSame = 1e-12;     // of the curvature
-    constexpr double kSmooth = 1e-9;    // rad
-    constexpr double kRounding = 1e-9;  // of a turn
-    std::vector<Piece> out;
-    for (const Piece& piece : pieces) {
-      const auto* next = std::get_if<ArcPiece>(&piece);
-      auto* last = out.empty() ? nullptr : std::get_if<ArcPiece>(&out.back());
-      const bool goes_on =
-          next != nullptr && last != nullptr &&
-          std::abs(next->kappa - last->kappa) <= kSame * std::abs(last->kappa) &&
-          std::abs(std::remainder(last->theta0 + last->kappa * last->length - next->theta0,
-                                  kFullTurn)) <= kSmooth &&
-          std::abs(last->kappa) * (last->length + next->length) <= (1.0 + kRounding) * kFullTurn;
-      if (!goes_on) {
-        out.push_back(piece);
-        continue;
-      }
-      last->length += next->length;
-      const double turn = std::abs(last->kappa) * last->length;
-      if (std::abs(turn - kFullTurn) <= kRounding * kFullTurn) {
-        last->length = kFullTurn / std::abs(last->kappa);
-      }
-    }
-    return out;
   }
 
   void circular(const Piece& piece) {

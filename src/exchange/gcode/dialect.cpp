@@ -15,14 +15,18 @@ Result<void> check_gcode_decimals(std::optional<int> decimals) {
       .value(*decimals);
 }
 
+bool in_inches(const Units& units) { return units.name == "in"; }
+
+const char* machine_unit(const Units& units) { return in_inches(units) ? "in" : "mm"; }
+
 Result<double> machine_units_in(const Units& units) {
-  return unit_ratio(units, units.name == "in" ? "in" : "mm", "machines");
+  return unit_ratio(units, machine_unit(units), "machines");
 }
 
 std::vector<std::string> gcode_unit_remarks(const Units& units) {
   std::vector<std::string> out;
   if (!units.known()) out.emplace_back("the unit is assumed");
-  if (units.name != "in" && units.name != "mm") {
+  if (units.name != machine_unit(units)) {
     out.push_back("converted from " + gcode_comment(units.name));
   }
   return out;

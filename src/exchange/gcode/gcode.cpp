@@ -18,6 +18,7 @@
 #include "obvid/curve/internal/smooth_parts.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/exchange/internal/gcode/path.h"
+#include "obvid/exchange/internal/whole_arcs.h"
 
 namespace obvid {
 namespace {
@@ -31,7 +32,10 @@ constexpr int kToleranceTrials = 5;
 class Program {
  public:
   Program(const Contour& contour, const GcodeOptions& options, Watch* watch)
-      : contour_(contour), options_(options), watch_(watch), inches_(contour.units.name == "in") {
+      : contour_(contour),
+        options_(options),
+        watch_(watch),
+        inches_(exchange::in_inches(contour.units)) {
     scale_ = *exchange::machine_units_in(contour.units);
     decimals_ = options.decimals.value_or(exchange::decimals_of_digit(
         exchange::kDigitOfTolerance * (options.tolerance * scale_), inches_));
@@ -155,10 +159,10 @@ class Program {
     std::string out;
     if (options_.safe_z)
       out += "G0 Z" + fixed(*options_.safe_z, exchange::kLeastGcodeDecimals) + "\n";
-    out += "G0 " + path.start() + "\nF" +
-           fixed(options_.feed.value_or(default_feed(contour_.units.name)),
-                 exchange::kLeastGcodeDecimals) +
-           "\n";
+    out +=
+        "G0 " + path.start() + "\nF" +
+        fixed(options_.feed.value_or(default_feed(contour_.units)), exchange::kLeastGcodeDecimals) +
+        "\n";
     if (options_.safe_z) out += "G1 Z0.000\n";
     return out;
   }
@@ -183,7 +187,7 @@ Result<void> check(const Contour& contour, const GcodeOptions& options) {
   const auto bad = [](std::string what, std::string hint, double value) {
     return error(ErrorCode::kBadOption, std::move(what)).hint(std::move(hint)).value(value);
   };
-  const double feed = options.feed.value_or(default_feed(contour.units.name));
+  const double feed = options.feed.value_or(default_feed(contour.units));
   if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance) || !(feed > 0.0) ||
       !std::isfinite(feed)) {
     return bad("tolerance and feed must be greater than 0", "", options.tolerance);
@@ -216,9 +220,9 @@ std::string gcode_comment(std::string_view name) {
   return out;
 }
 
-double default_feed(std::string_view units) {
+double default_feed(const Units& units) {
   constexpr double kMillimetres = 1000.0, kInches = 40.0;  // a minute
-  return units == "in" ? kInches : kMillimetres;
+  return exchange::in_inches(units) ? kInches : kMillimetres;
 }
 
 Result<GcodeText> gcode_text(const Contour& contour, const GcodeOptions& options, Watch* watch) {

@@ -10,7 +10,6 @@
 
 #include "obvid/core/internal/format_into.h"
 #include "obvid/exchange/internal/gcode/gcode_limits.h"
-#include "obvid/geom/internal/angle.h"
 #include "obvid/numeric/internal/wide.h"
 
 namespace obvid::exchange {
@@ -78,36 +77,7 @@ Centre centre_over(Wide x, Wide y, double above, int decimals) {
   return out;
 }
 
-/// Whether one arc from the start of the first is both, but for what rounding leaves of coordinates
-/// and directions: far from the origin that is more than of the arcs themselves.
-bool is_one_arc(const ArcPiece& first, const ArcPiece& second) {
-  constexpr double kSameCircle = 1e-10;  // of the length: what offsetting makes of rounding
-  constexpr double kRoundings = 64.0 * numeric::kUnitRoundoff;  // of coordinates
-  const double length = second.length;
-  const double turn = std::abs(first.kappa) * (first.length + length);
-  const double step = first.theta0 + first.kappa * first.length - second.theta0;
-  const double off = norm(first.end - second.start) + std::abs(principal_angle(step)) * length +
-                     0.5 * std::abs(first.kappa - second.kappa) * length * length;
-  const double room = kSameCircle * length + kRoundings * (norm(second.start) + norm(second.end));
-  return off <= room && turn <= kFullTurn + std::abs(first.kappa) * room;
-}
-
 }  // namespace
-
-std::vector<Piece> whole_arcs(const std::vector<Piece>& pieces) {
-  std::vector<Piece> out;
-  for (const Piece& piece : pieces) {
-    auto* before = out.empty() ? nullptr : std::get_if<ArcPiece>(&out.back());
-    const auto* behind = std::get_if<ArcPiece>(&piece);
-    if (before == nullptr || behind == nullptr || !is_one_arc(*before, *behind)) {
-      out.push_back(piece);
-      continue;
-    }
-    before->end = behind->end;
-    before->length += behind->length;
-  }
-  return out;
-}
 
 std::size_t blocks_of_turn(double turn) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(turn / kMostBlockTurn)));

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 
+#include "obvid/core/units.h"
 #include "obvid/io/internal/repeated_heights.h"
 
 namespace obvid::exchange {
@@ -16,7 +16,7 @@ namespace {
 constexpr double kScaleWorthSaying =
     1e-3;                              // of a length: scale of the plane that users must know of
 constexpr double kMostDistance = 3e6;  // m from the middle meridian: the series is good so far
-constexpr double kMetresPerDegree = 6371e3 * std::numbers::pi / 180.0;  // for the rounding only
+constexpr double kMetresPerDegree = 6371e3 * kOneDegree;  // for the rounding only
 
 /// Middle of the smallest box around all places, seen from the first one.
 GeoPoint middle_of_places(const std::vector<GeoSeries>& all) {
@@ -59,8 +59,7 @@ PointSeries projected(GeoSeries series, const LocalProjection& projection) {
   }
   PointSeries out = plane_series(std::move(series.name), "m", points);
   take_heights(series, points, out);
-  const double narrow =
-      std::cos(projection.centre().latitude * std::numbers::pi / 180.0) * kMetresPerDegree;
+  const double narrow = std::cos(projection.centre().latitude * kOneDegree) * kMetresPerDegree;
   out.rounding = {narrow * longitude.half_unit(), kMetresPerDegree * latitude.half_unit()};
   out.kind = series.kind;
   out.warnings.insert(out.warnings.begin(), series.warnings.begin(), series.warnings.end());

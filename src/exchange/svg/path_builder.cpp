@@ -105,7 +105,7 @@ void SvgPathBuilder::arc_to(const SvgArc& arc) {
     return;
   }
   if (!(rx > 0.0) || !(ry > 0.0)) return line_to(arc.end);
-  const double rotation = arc.rotation_deg * std::numbers::pi / 180.0;
+  const double rotation = arc.rotation_deg * kOneDegree;
   const Vec2 axis = unit_at(rotation);
   const Vec2 half = 0.5 * (here_ - arc.end);
   const Vec2 turned = {dot(axis, half) / rx, cross(axis, half) / ry};  // in the unit circle

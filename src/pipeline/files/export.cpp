@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <utility>
 
 #include "advice/uniform_tolerance.h"
@@ -15,11 +14,12 @@
 #include "files/format_writers.h"
 #include "obvid/contour/bsplines/nurbs_of.h"
 #include "obvid/core/internal/figures.h"
-#include "obvid/exchange/internal/gcode/path.h"
+#include "obvid/core/units.h"
 #include "obvid/exchange/internal/points/solidworks.h"
 #include "obvid/exchange/internal/road/landxml.h"
 #include "obvid/exchange/internal/road/opendrive.h"
 #include "obvid/exchange/internal/svg/drawing.h"
+#include "obvid/exchange/internal/whole_arcs.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/picture/picture_svg.h"
 #include "obvid/pipeline/internal/airfoil_file.h"
@@ -57,30 +57,14 @@ Result<Exported> one_text(Result<std::string> made) {
 
 /// What is written, with what is to be said of its units: where they are refused, nothing is.
 template <class Make>
-Result<Exported> with_units(Result<UnitNotes> notes, const Make& make) {
+Result<Exported> with_units(const ContourExport& e, FileFormat format, const Make& make) {
+  auto notes = unit_notes(e.contour.units, format);
   OBVID_TRY(notes);
   Result<Exported> out = make();
   if (!out) return out;
   for (std::string& one : notes->remarks) out->remarks.push_back(std::move(one));
   out->warnings.insert(out->warnings.end(), notes->warnings.begin(), notes->warnings.end());
   return out;
-}
-
-Result<UnitNotes> notes_of(const ContourExport& e, UnitRule rule, const char* kind,
-                           std::string_view written) {
-  return unit_notes(e.contour.units, rule, kind, written);
-}
-
-/// Files without a place for a unit. `kind`: "BREP files".
-template <class Make>
-Result<Exported> without_unit(const ContourExport& e, const char* kind, const Make& make) {
-  return with_units(notes_of(e, UnitRule::kLost, kind, e.contour.units.name), make);
-}
-
-/// Files that state the unit that we have.
-Result<Exported> as_it_is(const ContourExport& e, Result<std::string> made) {
-  return with_units(notes_of(e, UnitRule::kNone, "", e.contour.units.name),
-                    [&] { return one_text(std::move(made)); });
 }
 
 bool only_lines_and_arcs(const ContourExport& e) {
@@ -197,7 +181,7 @@ Result<Exported> sldcrv_file(const ContourExport& e) {
 
 /// What was done to the points, and how it is undone.
 std::string unit_chord_remark(const AirfoilFigures& f, const std::optional<RoundedEdge>& edge) {
-  const double turn = (f.turn + (edge ? edge->turn : 0.0)) * 180.0 / std::numbers::pi;
+  const double turn = (f.turn + (edge ? edge->turn : 0.0)) / kOneDegree;
   return fmt::format(
       "scaled to unit chord, turned by {:.6f} degrees; undone by --scale {} --rotate {} --move "
       "{},{}",
@@ -233,7 +217,7 @@ std::string nose_text(const AirfoilFigures& f) {
   if (f.nose_corner > 0.0) {
     return fmt::format(
         "the nose has a corner of {:.2f} degrees; `obvid fit` with --open --no-corners rounds it",
-        f.nose_corner * 180.0 / std::numbers::pi);
+        f.nose_corner / kOneDegree);
   }
   if (f.nose_turns < 2) return "";
   return fmt::format(
@@ -344,9 +328,7 @@ Result<Exported> airfoil_file(const ContourExport& e) {
   out.remarks.push_back(fmt::format(
       "{}: leading edge radius {:.3f} %, {}{}; % of the chord {:.6g} {}", measured,
       100.0 * f.nose_radius, edge_text(f),
-      f.trailing_round
-          ? ""
-          : fmt::format(", {:.2f} degrees", f.trailing_angle * 180.0 / std::numbers::pi),
+      f.trailing_round ? "" : fmt::format(", {:.2f} degrees", f.trailing_angle / kOneDegree),
       f.chord, e.contour.units.text()));
   if (const std::string told = nose_text(f); !told.empty()) out.warnings.push_back(told);
   if (auto told = trailing_text(*made, write.trailing_thickness); !told.empty()) {
@@ -458,42 +440,36 @@ Result<Exported> contour_as_json(const ContourExport& e) {
   StoredAlignment own{e.options.first_station, e.options.transitions, e.options.profile};
   stored.alignment.reset();
   if (is_said(own)) stored.alignment = std::move(own);
-  return as_it_is(e, contour_to_json(stored, e.watch));
+  return one_text(contour_to_json(stored, e.watch));
 }
 
 /// A picture for a report, or a drawing in true scale.
 Result<Exported> contour_as_svg(const ContourExport& e) {
   if (!e.options.drawing) {
     OBVID_TRY(can_plot(e));
-    return as_it_is(e, picture_svg(e.stored, e.options.picture, e.options.plots, e.watch));
+    return one_text(picture_svg(e.stored, e.options.picture, e.options.plots, e.watch));
   }
-  return with_units(notes_of(e, UnitRule::kLength, "drawings in true scale", e.contour.units.name),
-                    [&] { return drawing(e); });
+  return with_units(e, FileFormat::kPicture, [&] { return drawing(e); });
 }
 
 Result<Exported> contour_as_step(const ContourExport& e) {
-  return with_units(notes_of(e, UnitRule::kLength, "STEP files", cad_unit(e.contour.units.name)),
-                    [&] { return cad_file(e, e.options.step); });
+  return with_units(e, FileFormat::kStep, [&] { return cad_file(e, e.options.step); });
 }
 
 Result<Exported> contour_as_iges(const ContourExport& e) {
-  return with_units(notes_of(e, UnitRule::kLength, "IGES files", cad_unit(e.contour.units.name)),
-                    [&] { return cad_file(e, CadFormat::kIges); });
+  return with_units(e, FileFormat::kIges, [&] { return cad_file(e, CadFormat::kIges); });
 }
 
 Result<Exported> contour_as_brep(const ContourExport& e) {
-  return without_unit(e, "BREP files", [&] { return cad_file(e, CadFormat::kBrep); });
+  return with_units(e, FileFormat::kBrep, [&] { return cad_file(e, CadFormat::kBrep); });
 }
 
 Result<Exported> contour_as_dxf(const ContourExport& e) {
-  return with_units(notes_of(e, UnitRule::kStated, "the DXF file", dxf_unit(e.contour.units)),
-                    [&] { return dxf_file(e); });
+  return with_units(e, FileFormat::kDxf, [&] { return dxf_file(e); });
 }
 
 Result<Exported> contour_as_gcode(const ContourExport& e) {
-  const char* written = e.contour.units.name == "in" ? "in" : "mm";
-  return with_units(notes_of(e, UnitRule::kLength, "machines", written),
-                    [&] { return gcode_file(e); });
+  return with_units(e, FileFormat::kGcode, [&] { return gcode_file(e); });
 }
 
 Result<Exported> contour_as_opendrive(const ContourExport& e) {
@@ -502,7 +478,7 @@ Result<Exported> contour_as_opendrive(const ContourExport& e) {
   road.first_station = e.options.first_station;
   road.profile = e.options.profile;
   road.tolerance = e.tolerance;
-  auto out = with_units(notes_of(e, UnitRule::kRoad, "OpenDRIVE files", "m"),
+  auto out = with_units(e, FileFormat::kOpenDrive,
                         [&] { return one_text(opendrive_text(e.contour, road)); });
   if (out && road.first_station != 0.0) {
     out->remarks.push_back(fmt::format(
@@ -518,38 +494,34 @@ Result<Exported> contour_as_landxml(const ContourExport& e) {
   road.transitions = e.options.transitions;
   road.first_station = e.options.first_station;
   auto out =
-      with_units(notes_of(e, UnitRule::kRoad, "LandXML files", landxml_unit(e.contour.units.name)),
-                 [&] { return one_text(landxml_text(e.contour, road)); });
+      with_units(e, FileFormat::kLandXml, [&] { return one_text(landxml_text(e.contour, road)); });
   if (out) tell_of_parts(e, out->files.front().text, out->remarks);
   return out;
 }
 
 Result<Exported> contour_as_samples(const ContourExport& e) {
-  return as_it_is(e, samples_csv(e.contour, samples_of(e), e.watch));
+  return one_text(samples_csv(e.contour, samples_of(e), e.watch));
 }
 
-Result<Exported> contour_as_airfoil(const ContourExport& e) {
-  return with_units(notes_of(e, UnitRule::kNone, "", e.contour.units.name),
-                    [&] { return airfoil_file(e); });
-}
+Result<Exported> contour_as_airfoil(const ContourExport& e) { return airfoil_file(e); }
 
 Result<Exported> contour_as_sldcrv(const ContourExport& e) {
-  return without_unit(e, "points of SolidWorks", [&] { return sldcrv_file(e); });
+  return with_units(e, FileFormat::kSldcrv, [&] { return sldcrv_file(e); });
 }
 
 Result<Exported> contour_as_macro(const ContourExport& e) {
-  return with_units(notes_of(e, UnitRule::kLength, "macros of SolidWorks", "m"),
+  return with_units(e, FileFormat::kMacro,
                     [&] { return one_text(solidworks_macro(e.contour, samples_of(e), e.watch)); });
 }
 
 Result<Exported> contour_as_obj(const ContourExport& e) {
-  return without_unit(e, "OBJ files",
-                      [&] { return one_text(obj_text(e.contour, samples_of(e), e.watch)); });
+  return with_units(e, FileFormat::kObj,
+                    [&] { return one_text(obj_text(e.contour, samples_of(e), e.watch)); });
 }
 
 Result<Exported> contour_as_ply(const ContourExport& e) {
-  return without_unit(e, "PLY files",
-                      [&] { return one_text(ply_text(e.contour, samples_of(e), e.watch)); });
+  return with_units(e, FileFormat::kPly,
+                    [&] { return one_text(ply_text(e.contour, samples_of(e), e.watch)); });
 }
 
 Result<Exported> contour_as_none(const ContourExport&) { return fail(not_held_by_format()); }

@@ -125,22 +125,6 @@ Result<Exported> curves_of_cad(const Together& asked, CadFormat format) {
   return out;
 }
 
-/// What a file says of its unit, as it says it of a single contour.
-Result<UnitNotes> notes_of_format(const Units& units, FileFormat format) {
-  switch (format) {
-    case FileFormat::kDxf:
-      return unit_notes(units, UnitRule::kStated, "the DXF file", dxf_unit(units));
-    case FileFormat::kPicture:
-      return unit_notes(units, UnitRule::kLength, "drawings in true scale", units.name);
-    case FileFormat::kBrep:
-      return unit_notes(units, UnitRule::kLost, "BREP files", units.name);
-    case FileFormat::kIges:
-      return unit_notes(units, UnitRule::kLength, "IGES files", cad_unit(units.name));
-    default:
-      return unit_notes(units, UnitRule::kLength, "STEP files", cad_unit(units.name));
-  }
-}
-
 Result<Exported> made_together(const Together& asked, FileFormat format) {
   switch (format) {
     case FileFormat::kDxf:
@@ -212,7 +196,7 @@ Result<Exported> export_together(const std::vector<TitledContour>& contours, Fil
     }
     all.all.push_back(contour_export(one.stored, options, &watch));
   }
-  const auto notes = notes_of_format(all.units(), format);
+  const auto notes = unit_notes(all.units(), format);
   OBVID_TRY(notes);
   auto made = made_together(all, format);
   if (watch.was_cancelled()) return fail(cancelled_error());

@@ -8,6 +8,11 @@
 #include <variant>
 
 #include "obvid/core/internal/figures.h"
+#include "obvid/exchange/internal/cad_curve.h"
+#include "obvid/exchange/internal/dxf/write.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
+#include "obvid/exchange/internal/road/landxml.h"
+#include "obvid/pipeline/internal/format_table.h"
 
 namespace obvid::pipeline_detail {
 namespace {
@@ -22,10 +27,35 @@ Error assumed(const Units& units, std::string_view kind) {
       .value(metres_in(units.name).value_or(0.0));
 }
 
+/// The unit of the numbers in a file, where it is not always the one that we have.
+std::string unit_in_file(const Units& units, FileFormat format) {
+  switch (format) {
+    case FileFormat::kStep:
+    case FileFormat::kIges:
+      return std::string(cad_unit(units.name));
+    case FileFormat::kDxf:
+      return dxf_unit(units);
+    case FileFormat::kGcode:
+      return exchange::machine_unit(units);
+    case FileFormat::kLandXml:
+      return std::string(landxml_unit(units.name));
+    case FileFormat::kOpenDrive:
+    case FileFormat::kMacro:
+    case FileFormat::kGlb:
+      return "m";
+    default:
+      return units.name;
+  }
+}
+
 }  // namespace
 
-Result<UnitNotes> unit_notes(const Units& units, UnitRule rule, std::string_view kind,
-                             std::string_view written) {
+Result<UnitNotes> unit_notes(const Units& units, FileFormat format) {
+  const FormatRow& row = *std::find_if(kFormats.begin(), kFormats.end(),
+                                       [&](const FormatRow& one) { return one.format == format; });
+  const UnitRule rule = row.rule;
+  const std::string_view kind = row.files;
+  const std::string written = unit_in_file(units, format);
   UnitNotes notes;
   if (rule == UnitRule::kNone) return notes;
   if (rule == UnitRule::kLost) {

@@ -8,17 +8,9 @@
 
 #include "obvid/core/units.h"
 #include "obvid/curve/pieces.h"
+#include "obvid/pipeline/file_formats.h"
 
 namespace obvid::pipeline_detail {
-
-/// What a kind of file does with a unit (docs/formats.md, "Units").
-enum class UnitRule {
-  kNone,    ///< it states the one that we have, assumed or not
-  kLost,    ///< it has no place for one, and readers take millimetres
-  kStated,  ///< it states a unit that is known, and none otherwise
-  kLength,  ///< it has true lengths: a unit that is merely assumed is worth a warning
-  kRoad,    ///< it is in metres or feet of the ground: an assumed unit is refused
-};
 
 /// What is to be said of the units of a file.
 struct UnitNotes {
@@ -26,10 +18,9 @@ struct UnitNotes {
   std::vector<std::string> warnings;
 };
 
-/// `kind`: "STEP files"; `written`: the unit of the numbers in the file. Error E203 where a unit
-/// without a length, or an assumed one, is refused.
-[[nodiscard]] Result<UnitNotes> unit_notes(const Units& units, UnitRule rule,
-                                           std::string_view kind, std::string_view written);
+/// By the rule of the format (formats.inc); for pictures that are drawings in true scale. Error
+/// E203 where a unit without a length, or an assumed one, is refused.
+[[nodiscard]] Result<UnitNotes> unit_notes(const Units& units, FileFormat format);
 
 /// Whether a CAD kernel keeps the shape of something of this size. Error E309 with `instead`, what
 /// else can be done. `plain`: the format has no unit, numbers are taken for millimetres.

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "files/file_units.h"
 #include "files/format_writers.h"
 #include "obvid/core/internal/data_table.h"
 #include "obvid/core/internal/figures.h"
@@ -97,8 +96,7 @@ std::string lines_and_arcs_table(const Contour& contour) {
         "</tr>\n",
         one.from + 1, one.to + 1, line ? "straight" : significant(1.0 / one.kappa),
         line ? "-" : significant(one.centre.x), line ? "-" : significant(one.centre.y),
-        significant(principal_angle(one.theta) / kOneDegree), significant(one.length),
-        significant(one.off, 4));
+        significant(one.heading_deg()), significant(one.length), significant(one.off, 4));
   }
   return out + "</tbody></table>\n";
 }
@@ -182,13 +180,9 @@ std::string report_page(const ContourExport& e, const std::string& picture, cons
 }  // namespace
 
 Result<Exported> contour_as_report(const ContourExport& e) {
-  const auto notes = unit_notes(e.contour.units, UnitRule::kNone, "", e.contour.units.name);
-  OBVID_TRY(notes);
   OBVID_TRY(can_plot(e));
   const auto picture = picture_svg(e.stored, e.options.picture, e.options.plots, e.watch);
   Exported out;
-  out.remarks = notes->remarks;
-  out.warnings = notes->warnings;
   out.files.push_back({"", report_page(e, picture, out)});
   return out;
 }

@@ -74,18 +74,15 @@ Result<Contour> exact_spirals(const Prepared& series, const SeriesChain& chain, 
   return std::move(out->contour);
 }
 
-/// What is proved of the pieces one by one: carriers that promise nothing do not know their runs.
-std::vector<Run> proved_runs(const std::vector<Piece>& pieces) {
-  std::vector<int> direction;
-  direction.reserve(pieces.size());
-  for (const Piece& piece : pieces) direction.push_back(direction_of(prove_piece(piece).verdict));
-  return collect_runs(direction);
-}
-
-/// A section in its carrier; `spirals` as `Carry` has them.
+/// A section in its carrier; `spirals` as `Carry` has them. Carriers that promise nothing do not
+/// know their runs.
 Result<Carried> form(const Contour& spirals, const CarryOptions& options, Carrier carrier) {
   auto out = builder_of(carrier)(spirals, options);
-  if (out && !promises_monotone(carrier)) out->contour.runs = proved_runs(out->contour.pieces);
+  OBVID_TRY(out);
+  if (promises_monotone(carrier)) return out;
+  const auto direction = proved_directions(out->contour.pieces, options.watch);
+  OBVID_TRY(direction);
+  out->contour.runs = collect_runs(*direction);
   return out;
 }
 

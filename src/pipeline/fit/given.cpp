@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "obvid/curve/internal/end_curvatures.h"
@@ -310,7 +309,7 @@ Result<void> keeps_given(const Contour& contour) {
     }
     const bool turned = !(miss.heading <= kKeptHeading);
     if (!turned && miss.curvature <= kSameCurvature) continue;
-    const double off = turned ? miss.heading * 180.0 / std::numbers::pi : 100.0 * miss.curvature;
+    const double off = turned ? miss.heading / kOneDegree : 100.0 * miss.curvature;
     return error(ErrorCode::kCarrierCannotKeep,
                  fmt::format(
                      "{} cannot keep the {} given there: the nearest found is off by {:.3g}{}",

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <iterator>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -43,7 +42,6 @@ constexpr std::size_t kMostGuesses = 3;
 /// steps on a point, beside a multiple of what the fairest chain took.
 constexpr int kMostHeld = 3;
 constexpr double kHoldWork = 1e6, kHoldFactor = 3.0;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// `whole`: the numbers that the points of the analysis have in the series; a segment may be there
 /// twice.
@@ -385,7 +383,7 @@ class SectionChooser {
     return error(ErrorCode::kWanders,
                  fmt::format(
                      "the contour would swing out by {:.0f} degrees more than the points ask for",
-                     worst.beyond * kDegrees))
+                     worst.beyond / kOneDegree))
         .where("points " + range(chain, worst))
         .hint("mark corners there, or put points between them")
         .point(*chain.source[worst.first])
@@ -398,7 +396,7 @@ class SectionChooser {
           fmt::format("the fairest contour would swing out beside point {}: its heading there was "
                       "held at {:.4g} "
                       "degrees; --heading-at gives another",
-                      point + 1, std::remainder(heading * kDegrees, 360.0)));
+                      point + 1, principal_degrees(heading)));
     }
   }
 
@@ -408,7 +406,7 @@ class SectionChooser {
       best.warnings.push_back(fmt::format(
           "the points leave open what the contour does over the long chord from point {}: it "
           "turns by {:.0f} degrees there; mark corners (--corner-at) if it should be straight",
-          range(best.chain, found.guessed[k]), found.guessed[k].turn * kDegrees));
+          range(best.chain, found.guessed[k]), found.guessed[k].turn / kOneDegree));
     }
   }
 
@@ -499,7 +497,7 @@ class SectionChooser {
 
   /// Whether a link turns by half a turn, nearly: no shape that points ask for.
   static bool bends_back(const SeriesChain& chain) {
-    constexpr double kMostOfLink = 179.0 / kDegrees;
+    constexpr double kMostOfLink = 179.0 * kOneDegree;
     for (std::size_t k = 0; k + 1 < chain.elements.size(); ++k) {
       const Element &a = chain.elements[k], &b = chain.elements[k + 1];
       const Vec2 chord = b.point - a.point;

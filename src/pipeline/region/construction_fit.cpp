@@ -156,11 +156,11 @@ class ConstructionContour {
 
   /// Of arcs those of their segments, of others as they are proved.
   [[nodiscard]] std::vector<int> directions() const {
+    Watch unwatched;
+    if (!steps_at_joints(out_.carrier)) return *proved_directions(made_.pieces, unwatched);
     std::vector<int> out;
     for (std::size_t k = 0; k < made_.pieces.size(); ++k) {
-      const bool arcs = steps_at_joints(out_.carrier);
-      out.push_back(arcs ? row_of(k).direction.value_or(0)
-                         : direction_of(prove_piece(made_.pieces[k]).verdict));
+      out.push_back(row_of(k).direction.value_or(0));
     }
     return out;
   }

@@ -23,13 +23,6 @@
 namespace obvid {
 namespace {
 
-/// Headings of a point by the turn in which its own lies between -180 and 180 degrees.
-struct Degrees {
-  explicit Degrees(double heading) : shift(principal_angle(heading) - heading) {}
-  double operator()(double angle) const { return (angle + shift) / kOneDegree; }
-  double shift;
-};
-
 std::optional<double> radius_of(std::optional<double> kappa) {
   if (!kappa) return std::nullopt;
   return std::isinf(*kappa) ? 0.0 : 1.0 / *kappa;  // infinite for a line
@@ -39,10 +32,8 @@ std::optional<double> radius_of(std::optional<double> kappa) {
 std::pair<std::optional<double>, std::optional<double>> radii(
     const std::optional<CurvatureRange>& range) {
   if (!range) return {};
-  auto least = radius_of(range->low), greatest = radius_of(range->high);
-  if (std::abs(*least) > std::abs(*greatest)) std::swap(least, greatest);
-  if (range->low <= 0.0 && range->high >= 0.0) greatest = std::numeric_limits<double>::infinity();
-  return {least, greatest};
+  const auto [least, greatest] = extreme_radii(*range);
+  return {radius_of(least), radius_of(greatest)};
 }
 
 /// Ranges of headings are known to this (`feasible_data`), rad: only what is farther is outside.
@@ -62,7 +53,7 @@ void add_rows_of(const RegionPart& part, const char* series, OpenEnds ends, Data
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const RegionPoint& p = part.points[i];
     const auto [least, greatest] = radii(p.curvatures);
-    const Degrees degrees(p.theta);
+    const HeadingDegrees degrees(p.theta);
     DataRow& cells = out.rows.emplace_back(DataRow{
         series, p.inserted > 0 ? "inserted" : "point", region_point_name(p), p.point.x, p.point.y,
         radius_of(p.adjacent_kappa), degrees(p.theta),
@@ -122,7 +113,7 @@ void add_latex(const RegionPart& part, std::string& out) {
       "\\hline\n";
   for (const RegionPoint& p : part.points) {
     const auto [least, greatest] = radii(p.curvatures);
-    const Degrees degrees(p.theta);
+    const HeadingDegrees degrees(p.theta);
     out +=
         fmt::format("{}{} & {} & {} & {} & {} & {} & {} & {} & {} \\\\\n", region_point_name(p),
                     p.inserted > 0 ? "$^+$" : "", tex_number(p.point.x, coarse),
@@ -335,6 +326,13 @@ class WorksheetDrawing {
 };
 
 }  // namespace
+
+ExtremeRadii extreme_radii(const CurvatureRange& range) {
+  double least = range.low, greatest = range.high;
+  if (std::abs(least) < std::abs(greatest)) std::swap(least, greatest);
+  if (range.low <= 0.0 && range.high >= 0.0) greatest = 0.0;
+  return {least, greatest};
+}
 
 std::string region_point_name(const RegionPoint& point) {
   return point.inserted > 0 ? fmt::format("{}.{}", point.number + 1, point.inserted)

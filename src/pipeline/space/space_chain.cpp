@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fit/prepare.h"
+#include "obvid/geom/internal/box.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/numeric/internal/median.h"
 #include "obvid/pipeline/internal/promise.h"

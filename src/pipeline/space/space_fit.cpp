@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fit/prepare.h"
+#include "obvid/geom/internal/box.h"
 #include "obvid/io/read_sections.h"
 #include "obvid/pipeline/skin_sections.h"
 #include "space/space_shape.h"
@@ -16,7 +17,6 @@
 namespace obvid {
 namespace {
 
-using pipeline_detail::farthest_from_first;
 using pipeline_detail::HeightOrder;
 using pipeline_detail::SpaceEnds;
 using pipeline_detail::SpacePlace;

@@ -19,12 +19,6 @@ double slope_of_unrolled(const Jet& jet) { return std::atan2(jet.d1.y, jet.d1.x)
 
 }  // namespace
 
-double farthest_from_first(const std::vector<Vec3>& points) {
-  double out = 0.0;
-  for (const Vec3& p : points) out = std::max(out, norm(p - points.front()));
-  return out;
-}
-
 bool meets(const SpaceSeam& seam, const SpaceSeam& bounds) {
   return seam.position <= bounds.position && seam.heading <= bounds.heading &&
          seam.curvature <= bounds.curvature;

@@ -10,9 +10,6 @@
 
 namespace obvid::pipeline_detail {
 
-/// Size of points in space: the largest distance from the first of them; 0 of none.
-[[nodiscard]] double farthest_from_first(const std::vector<Vec3>& points);
-
 /// Place of a space curve with what its arc length's derivatives say.
 struct SpacePlace {
   Vec3 point;

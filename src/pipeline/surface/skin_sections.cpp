@@ -19,12 +19,6 @@
 namespace obvid {
 namespace {
 
-double size_of_sections(const std::vector<SpaceSeries>& sections) {
-  Box3 box;
-  for (const SpaceSeries& section : sections) box.add_all(section.points);
-  return box.diagonal();
-}
-
 /// A section in its plane: points that differ, and which of them each point is.
 struct Flat {
   SkinSection section;
@@ -195,8 +189,8 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
         .value(static_cast<double>(given.size()));
   }
   std::vector<SpaceSeries> sections = given;
-  result.tolerance =
-      job.tolerance.value_or(pipeline_detail::kSurfaceTolerance * size_of_sections(sections));
+  result.tolerance = job.tolerance.value_or(pipeline_detail::kSurfaceTolerance *
+                                            bounding_diagonal(sections, &SpaceSeries::points));
   if (job.sections.closing == Closing::kAutomatic) {
     close_slits(sections, result.tolerance, result.warnings);
   }

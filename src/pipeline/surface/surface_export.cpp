@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <utility>
 
 #include "files/file_units.h"
 #include "files/format_writers.h"
 #include "obvid/core/internal/figures.h"
+#include "obvid/core/units.h"
 #include "obvid/exchange/internal/mesh/files.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
@@ -20,14 +20,13 @@ namespace pipeline_detail {
 namespace {
 
 constexpr double kDefaultChordTolerance = 1e-3;  ///< of the size: not seen on a screen
-constexpr double kDefaultAngle = 15.0 * std::numbers::pi / 180.0;
+constexpr double kDefaultAngle = 15.0 * kOneDegree;
 
 /// What is written, with what is to be said of its units: where they are refused, nothing is.
 template <class Make>
 Result<std::string> surface_in_units(SurfaceExport& e, std::vector<std::string>& remarks,
-                                     UnitRule rule, const char* kind, std::string_view written,
-                                     const Make& make) {
-  auto notes = unit_notes(e.model.units, rule, kind, written);
+                                     FileFormat format, const Make& make) {
+  auto notes = unit_notes(e.model.units, format);
   OBVID_TRY(notes);
   Result<std::string> text = make();
   if (!text) return text;
@@ -46,20 +45,6 @@ Looks looks_of(SurfaceExport& e) {
   out.deviation = e.options.deviation;
   out.extremes = e.options.extremes;
   return out;
-}
-
-/// Files without a place for a unit. `kind`: "BREP files".
-template <class Make>
-Result<std::string> surface_without_unit(SurfaceExport& e, std::vector<std::string>& remarks,
-                                         const char* kind, const Make& make) {
-  return surface_in_units(e, remarks, UnitRule::kLost, kind, e.model.units.name, make);
-}
-
-/// Files that state the unit that we have.
-template <class Make>
-Result<std::string> surface_as_it_is(SurfaceExport& e, std::vector<std::string>& remarks,
-                                     const Make& make) {
-  return surface_in_units(e, remarks, UnitRule::kNone, "", e.model.units.name, make);
 }
 
 Result<std::string> surface_of_kernel(const SurfaceExport& e, CadFormat format) {
@@ -121,27 +106,27 @@ Result<void> SurfaceExport::tessellate_once(std::vector<std::string>& remarks) {
   return {};
 }
 
-Result<std::string> surface_as_json(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_as_it_is(e, remarks, [&] { return Result<std::string>(surface_json(e.model)); });
+Result<std::string> surface_as_json(SurfaceExport& e, std::vector<std::string>&) {
+  return surface_json(e.model);
 }
 
 Result<std::string> surface_as_step(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_in_units(e, remarks, UnitRule::kLength, "STEP files", cad_unit(e.model.units.name),
+  return surface_in_units(e, remarks, FileFormat::kStep,
                           [&] { return surface_of_kernel(e, e.options.step); });
 }
 
 Result<std::string> surface_as_iges(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_in_units(e, remarks, UnitRule::kLength, "IGES files", cad_unit(e.model.units.name),
+  return surface_in_units(e, remarks, FileFormat::kIges,
                           [&] { return surface_of_kernel(e, CadFormat::kIges); });
 }
 
 Result<std::string> surface_as_brep(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_without_unit(e, remarks, "BREP files",
-                              [&] { return surface_of_kernel(e, CadFormat::kBrep); });
+  return surface_in_units(e, remarks, FileFormat::kBrep,
+                          [&] { return surface_of_kernel(e, CadFormat::kBrep); });
 }
 
 Result<std::string> surface_as_stl(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_without_unit(e, remarks, "STL files", [&] {
+  return surface_in_units(e, remarks, FileFormat::kStl, [&] {
     return of_triangles(e, remarks, [&](Watch& watch) -> Result<std::string> {
       remarks.push_back(fmt::format("STL holds single precision: another {:.2g} {}",
                                     single_precision_loss(e.meshes), e.model.units.text()));
@@ -151,40 +136,36 @@ Result<std::string> surface_as_stl(SurfaceExport& e, std::vector<std::string>& r
 }
 
 Result<std::string> surface_as_obj(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_without_unit(e, remarks, "OBJ files", [&] {
+  return surface_in_units(e, remarks, FileFormat::kObj, [&] {
     return of_triangles(e, remarks,
                         [&](Watch& watch) { return obj_mesh_text(e.model, e.meshes, &watch); });
   });
 }
 
 Result<std::string> surface_as_glb(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_in_units(e, remarks, UnitRule::kLength, "glTF files", "m", [&] {
+  return surface_in_units(e, remarks, FileFormat::kGlb, [&] {
     return of_triangles(e, remarks,
                         [&](Watch& watch) { return glb_text(e.model, e.meshes, &watch); });
   });
 }
 
 Result<std::string> surface_as_ply(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_without_unit(e, remarks, "PLY files", [&] {
+  return surface_in_units(e, remarks, FileFormat::kPly, [&] {
     return of_triangles(e, remarks,
                         [&](Watch& watch) { return ply_text(e.model, e.meshes, &watch); });
   });
 }
 
 Result<std::string> surface_as_page(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_as_it_is(e, remarks, [&] {
-    return of_triangles(e, remarks, [&](Watch&) -> Result<std::string> {
-      OBVID_TRY(e.find_extremes_once());
-      return surface_page(e.model, e.meshes, looks_of<PageOptions>(e), e.run);
-    });
+  return of_triangles(e, remarks, [&](Watch&) -> Result<std::string> {
+    OBVID_TRY(e.find_extremes_once());
+    return surface_page(e.model, e.meshes, looks_of<PageOptions>(e), e.run);
   });
 }
 
-Result<std::string> surface_as_svg(SurfaceExport& e, std::vector<std::string>& remarks) {
-  return surface_as_it_is(e, remarks, [&]() -> Result<std::string> {
-    if (is_curvature(e.options.colouring)) OBVID_TRY(e.find_extremes_once());
-    return surface_svg(e.model, looks_of<SurfacePictureOptions>(e), e.run);
-  });
+Result<std::string> surface_as_svg(SurfaceExport& e, std::vector<std::string>&) {
+  if (is_curvature(e.options.colouring)) OBVID_TRY(e.find_extremes_once());
+  return surface_svg(e.model, looks_of<SurfacePictureOptions>(e), e.run);
 }
 
 Result<std::string> surface_as_none(SurfaceExport&, std::vector<std::string>&) {

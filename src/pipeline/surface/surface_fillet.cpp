@@ -155,7 +155,7 @@ Result<MadeSurface> made_fillet(const RolledBall& by, const SurfaceJob& job,
   if (at[0] == at[1]) {
     return error(ErrorCode::kBadOption, "a blend needs two faces").where("--faces");
   }
-  const double tolerance = job.tolerance.value_or(kBlendTolerance * obvid::size_of(made.model));
+  const double tolerance = job.tolerance.value_or(kBlendTolerance * size_of(made.model));
   const std::array<const SurfacePatch*, 2> faces{&made.model.patches[at[0]],
                                                  &made.model.patches[at[1]]};
   const std::array<std::string, 2> names{faces[0]->name, faces[1]->name};

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <utility>
 
+#include "obvid/core/units.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/surface_builders/internal/network.h"
 #include "obvid/surface_builders/internal/offset.h"
@@ -36,9 +36,7 @@ Result<void> need(const SurfaceJob& job, std::size_t least, std::size_t most, co
 }
 
 double size_of_all(const std::vector<ReadCurve>& curves) {
-  Box3 box;
-  for (const ReadCurve& c : curves) box.add_all(c.curve.points);
-  return box.diagonal();
+  return bounding_diagonal(curves, [](const ReadCurve& c) { return std::cref(c.curve.points); });
 }
 
 /// What the curves bring to the surface that is made of them. Error E310 where their units differ.
@@ -79,9 +77,7 @@ bool are_points(const SurfaceJob& job) {
   });
 }
 
-std::string degrees(double rad) {
-  return fmt::format("{:.6g} degrees", rad * 180.0 / std::numbers::pi);
-}
+std::string degrees(double rad) { return fmt::format("{:.6g} degrees", rad / kOneDegree); }
 
 std::string folded_at(const SurfacePatch& patch, const FoldedRegion& fold) {
   return fmt::format("{}, u {:.4g} to {:.4g}, v {:.4g} to {:.4g}", patch.name, fold.u.from,
@@ -117,12 +113,6 @@ Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance
 }
 
 }  // namespace
-
-double size_of(const std::vector<Vec3>& points) {
-  Box3 box;
-  box.add_all(points);
-  return box.diagonal();
-}
 
 ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
   constexpr int kChordsPerSpan = 8;
@@ -249,7 +239,7 @@ Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job,
     OBVID_TRY(may_go_on(run));
     const OffsetCheck found = check_offset(patch.surface, kind.distance);
     if (!found.folds.empty()) return fail(folds(patch, found, kind.distance));
-    const double size = obvid::size_of(patch.surface);
+    const double size = size_of(patch.surface);
     const OffsetSurface offset{patch.surface, kind.distance};
     auto form = to_nurbs(offset, job.tolerance.value_or(kSurfaceTolerance * size));
     if (!form) {

@@ -22,15 +22,14 @@ inline constexpr double kSurfaceTolerance = 1e-5;
 }
 
 /// One function for each kind of surface; errors as `make_surface`.
-#define OBVID_SURFACE_KIND(kind, ...) \
-  [[nodiscard]] Result<MadeSurface> make_kind(const kind& how, const SurfaceJob& job, const RunContext& run);
+#define OBVID_SURFACE_KIND(kind, ...)                                                 \
+  [[nodiscard]] Result<MadeSurface> make_kind(const kind& how, const SurfaceJob& job, \
+                                              const RunContext& run);
 #include "obvid/pipeline/surface_kinds.inc"
 #undef OBVID_SURFACE_KIND
 
 /// Points along a curve, to be drawn with the surface.
 [[nodiscard]] ScenePolyline drawn(const SpaceCurve& curve, const char* role = "section");
-/// Diagonal of the box of points.
-[[nodiscard]] double size_of(const std::vector<Vec3>& points);
 
 /// Near points in any order; without `up` heights along the normal of their best plane.
 [[nodiscard]] Result<MadeSurface> made_near_points(ScatterOptions options,

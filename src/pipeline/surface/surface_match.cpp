@@ -92,7 +92,7 @@ Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job
   }
   const auto joint = measured_joint(patch, by.border.side, other, by.to.side, run);
   OBVID_TRY(joint);
-  const double tolerance = job.tolerance.value_or(kSameBorder * obvid::size_of(made.model));
+  const double tolerance = job.tolerance.value_or(kSameBorder * size_of(made.model));
   const std::string unit = made.model.units.text();
   if (joint->gap > tolerance) {
     return error(ErrorCode::kToleranceNotReached,

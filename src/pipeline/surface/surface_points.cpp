@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "obvid/geom/internal/box.h"
 #include "obvid/surface_builders/internal/approximate.h"
 #include "surface/surface_inputs.h"
 #include "surface/surface_kinds.h"
@@ -23,7 +24,8 @@ MadeSurface of_one_patch(const PointGrid& grid, NurbsSurface surface) {
 }
 
 Result<MadeSurface> near(const PointGrid& grid, const SurfaceJob& job, const RunContext& run) {
-  const double tolerance = job.tolerance.value_or(kSurfaceTolerance * size_of(grid.points));
+  const double tolerance =
+      job.tolerance.value_or(kSurfaceTolerance * bounding_diagonal(grid.points));
   auto surface = approximated(grid, tolerance, run);
   OBVID_TRY(surface);
   MadeSurface made = of_one_patch(grid, std::move(surface->surface));
@@ -98,8 +100,8 @@ Result<MadeSurface> make_kind(const IdKind& kind, const SurfaceJob& job, const R
     OBVID_TRY(made);
     *spline = std::move(*made);
   }
-  auto made =
-      made_of(surface, grid->name.empty() ? "surface" : grid->name, size_of(grid->points), job);
+  auto made = made_of(surface, grid->name.empty() ? "surface" : grid->name,
+                      bounding_diagonal(grid->points), job);
   if (made) {
     made->model.units = grid->units;
     say_of_heights(*grid, kind.reading, *made);

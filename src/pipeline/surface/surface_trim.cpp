@@ -54,7 +54,7 @@ Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
   auto read = as_read(job, run);
   OBVID_TRY(read);
   MadeSurface made = std::move(*read);
-  const TrimOptions options{job.tolerance.value_or(kTrimTolerance * obvid::size_of(made.model)),
+  const TrimOptions options{job.tolerance.value_or(kTrimTolerance * size_of(made.model)),
                             by.keep_positive};
   const std::size_t cuts = by.planes.size() + (by.contour ? 1 : 0);
   const auto take = [&](const std::string& cut, Result<TrimmedModel> part) -> Result<void> {

@@ -341,13 +341,10 @@ class Auditor {
   }
 
   Result<void> lay_runs() {
-    std::vector<int> direction;
-    for (const Piece& piece : out_.contour.pieces) {
-      OBVID_TRY(goes_on());
-      direction.push_back(pipeline_detail::direction_of(prove_piece(piece).verdict));
-    }
+    const auto direction = pipeline_detail::proved_directions(out_.contour.pieces, watch_);
+    OBVID_TRY(direction);
     out_.contour.runs = collect_runs(
-        direction, [this](std::size_t i) { return out_.contour.joints[i].leaving.has_value(); });
+        *direction, [this](std::size_t i) { return out_.contour.joints[i].leaving.has_value(); });
     return {};
   }
 

@@ -392,6 +392,16 @@ int direction_of(Verdict verdict) {
   return verdict == Verdict::kIncreasing ? 1 : (verdict == Verdict::kDecreasing ? -1 : 0);
 }
 
+Result<std::vector<int>> proved_directions(const std::vector<Piece>& pieces, Watch& watch) {
+  std::vector<int> out;
+  out.reserve(pieces.size());
+  for (const Piece& piece : pieces) {
+    if (watch.cancelled()) return fail(cancelled_error());
+    out.push_back(direction_of(prove_piece(piece).verdict));
+  }
+  return out;
+}
+
 double default_tolerance(const std::vector<Vec2>& points) {
   return kRegionTolerance * bounding_diagonal(points);
 }

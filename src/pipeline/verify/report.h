@@ -27,4 +27,9 @@ void settle_with(const Certificate& certificate, const Contour& contour, FitRepo
 /// Direction of a run that is proved; 0 also where nothing is.
 [[nodiscard]] int direction_of(Verdict verdict);
 
+/// The same of pieces one by one, of which runs are made where no builder knows them. That
+/// `certify` proves those runs once more is no check of them (docs/methods/certify.md). Error E103.
+[[nodiscard]] Result<std::vector<int>> proved_directions(const std::vector<Piece>& pieces,
+                                                         Watch& watch);
+
 }  // namespace obvid::pipeline_detail

@@ -14,6 +14,17 @@ namespace obvid {
   return std::remainder(theta, kFullTurn);
 }
 
+/// The same in degrees, in [-180, 180].
+[[nodiscard]] inline double principal_degrees(double theta) {
+  return principal_angle(theta) / kOneDegree;
+}
+
+/// The angle that means the same direction, in [0, turn), where a whole turn is `turn`.
+[[nodiscard]] inline double positive_angle(double angle, double turn) {
+  const double rest = std::fmod(angle, turn);
+  return rest < 0.0 ? rest + turn : rest;
+}
+
 /// The turn from one direction to another one, rad, in [-pi, pi]: to the left positive.
 [[nodiscard]] inline double turn_between(double from, double to) {
   return principal_angle(to - from);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -51,5 +52,32 @@ struct Box3 {
   [[nodiscard]] double diagonal() const { return empty() ? 0.0 : norm(size()); }
   [[nodiscard]] constexpr Vec3 middle() const { return low + 0.5 * size(); }
 };
+
+/// Diagonal of the box around points in space.
+[[nodiscard]] inline double bounding_diagonal(const std::vector<Vec3>& points) {
+  Box3 box;
+  box.add_all(points);
+  return box.diagonal();
+}
+
+/// The same around all points of several things: `points_of(one)` are its points.
+template <class All, class PointsOf>
+[[nodiscard]] double bounding_diagonal(const All& all, const PointsOf& points_of) {
+  Box3 box;
+  for (const auto& one : all) box.add_all(std::invoke(points_of, one));
+  return box.diagonal();
+}
+
+/// Largest distance of points from the first of them: 0 where all are one.
+template <class Points, class Distance>
+[[nodiscard]] double farthest_from_first(const Points& points, const Distance& distance) {
+  double out = 0.0;
+  for (const auto& p : points) out = std::max(out, distance(p, points.front()));
+  return out;
+}
+
+[[nodiscard]] inline double farthest_from_first(const std::vector<Vec3>& points) {
+  return farthest_from_first(points, [](Vec3 p, Vec3 first) { return norm(p - first); });
+}
 
 }  // namespace obvid

@@ -12,6 +12,15 @@
 
 namespace obvid::pipeline_detail {
 
+/// What a kind of file does with a unit (docs/formats.md, "Units").
+enum class UnitRule {
+  kNone,    ///< it states the one that we have, assumed or not
+  kLost,    ///< it has no place for one, and readers take millimetres
+  kStated,  ///< it states a unit that is known, and none otherwise
+  kLength,  ///< it has true lengths: a unit that is merely assumed is worth a warning
+  kRoad,    ///< it is in metres or feet of the ground: an assumed unit is refused
+};
+
 /// What an entry of the table says of its format: what it is of each thing, "STEP"; empty where it
 /// holds none.
 struct FormatRow {
@@ -30,6 +39,8 @@ struct FormatRow {
   const char* proof = "";      ///< of what was proved again,
   const char* spline = "";     ///< of a spline,
   const char* graph = "";      ///< and of one of two variables
+  UnitRule rule = UnitRule::kNone;
+  const char* files = "";  ///< what such files are called where their units are spoken of
 
   /// First of the file extensions: ".step".
   [[nodiscard]] constexpr std::string_view ending() const {

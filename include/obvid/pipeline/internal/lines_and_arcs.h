@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "obvid/curve/contour.h"
+#include "obvid/geom/internal/angle.h"
 
 namespace obvid {
 
@@ -17,6 +18,9 @@ struct LineOrArc {
   double theta = 0.0;            ///< heading of a line at its start, rad
   double length = 0.0;  ///< units, with what lies ahead of its first point and behind its last
   double off = 0.0;     ///< largest distance of those points from its line or circle, units
+
+  /// `theta` in degrees, in [-180, 180].
+  [[nodiscard]] double heading_deg() const { return principal_degrees(theta); }
 };
 
 /// Those of at least four points, in order; pieces taken over from a drawing are not among them.

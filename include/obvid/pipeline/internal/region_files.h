@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "obvid/core/result.h"
 #include "obvid/core/run_context.h"
 #include "obvid/exchange/internal/sketch.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/pipeline/internal/fit_figures.h"
 #include "obvid/pipeline/region_table.h"
 #include "obvid/series/point_series.h"
@@ -18,6 +20,21 @@ namespace obvid {
 [[nodiscard]] std::string region_point_name(const RegionPoint& point);
 /// "9-10", "9.1-10".
 [[nodiscard]] std::string region_segment_name(const RegionPart& part, const RegionRow& row);
+
+/// Headings of a point in degrees, by the turn in which its own lies between -180 and 180, so that
+/// its range can be compared with it.
+struct HeadingDegrees {
+  explicit HeadingDegrees(double heading) : shift(principal_angle(heading) - heading) {}
+  double operator()(double angle) const { return (angle + shift) / kOneDegree; }
+  double shift;
+};
+
+/// The signed curvatures of a range whose radii are its least and its greatest one; 0 where the
+/// range has a line, whose radius has no bound.
+struct ExtremeRadii {
+  double least, greatest;
+};
+[[nodiscard]] ExtremeRadii extreme_radii(const CurvatureRange& range);
 
 /// How the heading of a point came: "given", "chosen, radius given, OUTSIDE its range", ...
 [[nodiscard]] std::string heading_came_by(const RegionPoint& point);

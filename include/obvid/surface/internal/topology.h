@@ -11,7 +11,8 @@
 namespace obvid {
 
 /// Corners and borders nearer to each other than this part of the model's size are the same: in
-/// meshes, CAD files, pictures, tool paths and `check_surface` alike.
+/// meshes, CAD files, pages and tool paths. `check` says which these are (`shared`), and measures
+/// all that come as near as `kMeeting` (docs/decisions/0015).
 inline constexpr double kSameBorder = 1e-7;
 
 /// The sides of a patch; each runs with its parameter.

@@ -29,8 +29,11 @@ inline constexpr double kDigitOfTolerance = 0.1;
 /// in units of the machine.
 [[nodiscard]] int decimals_of_digit(double digit, bool inches);
 
-/// Units of the machine in a unit of lengths: inches in inches, else millimetres. Error E203: it
-/// has no length in metres.
+/// What machines are set to: inches for lengths in inches, else millimetres.
+[[nodiscard]] bool in_inches(const Units& units);
+/// Its name: "in" or "mm".
+[[nodiscard]] const char* machine_unit(const Units& units);
+/// Units of the machine in a unit of lengths. Error E203: it has no length in metres.
 [[nodiscard]] Result<double> machine_units_in(const Units& units);
 /// Remarks on the unit: that it is assumed, that lengths were converted.
 [[nodiscard]] std::vector<std::string> gcode_unit_remarks(const Units& units);

@@ -22,7 +22,7 @@ enum class GcodeMotion {
 enum class GcodeController { kGrbl, kLinuxCnc, kFanuc, kMarlin };
 
 /// Feed where none is given: 1000 mm/min, for inches 40 in/min.
-[[nodiscard]] double default_feed(std::string_view units);
+[[nodiscard]] double default_feed(const Units& units);
 
 struct GcodeOptions {
   GcodeMotion motion = GcodeMotion::kArcs;

@@ -20,10 +20,6 @@ inline constexpr double kMostBlockTurn = 3.15;
 /// Blocks of an arc that turns by so much.
 [[nodiscard]] std::size_t blocks_of_turn(double turn);
 
-/// Neighbours on one circle as one arc, of a whole turn at most: circles are drawn in parts. What
-/// comes first stays first.
-[[nodiscard]] std::vector<Piece> whole_arcs(const std::vector<Piece>& pieces);
-
 /// Fixed decimals, never "-0.000".
 [[nodiscard]] std::string fixed(double value, int decimals);
 
