@@ -10,8 +10,12 @@ namespace obvid {
 namespace {
 
 Result<void> take_tolerance(const std::string& typed, const char* option, const char* hint,
-                            std::optional<double>& length, bool& from_scatter) {
-  if (typed.empty() || typed == "rounding") return {};
+                            std::optional<double>& length, bool& from_scatter, bool& of_digits) {
+  if (typed.empty()) return {};
+  if (typed == "rounding") {
+    of_digits = true;
+    return {};
+  }
   if (typed == "auto") {
     from_scatter = true;
     return {};
@@ -30,10 +34,10 @@ Result<void> take_tolerance(const std::string& typed, const char* option, const 
 
 Result<void> set_alignment(const AlignmentValues& typed, AlignmentJob& job) {
   OBVID_TRY(take_tolerance(typed.noise, "--noise", "give it in the units of the points", job.noise,
-                           job.noise_from_scatter));
+                           job.noise_from_scatter, job.noise_of_digits));
   OBVID_TRY(take_tolerance(typed.profile_noise, "--profile-noise",
                            "give it in the units of the points", job.profile_noise,
-                           job.profile_noise_from_scatter));
+                           job.profile_noise_from_scatter, job.profile_noise_of_digits));
   if (typed.closed && typed.open) {
     return fail(bad_option("--closed and --open contradict each other", "", "give one of them"));
   }
