@@ -693,6 +693,7 @@ Result<Command> checked_convert(Raw& raw) {
 
 Result<Command> checked_analyse(Raw& raw) {
   OBVID_TRY(set_import(raw.formats, raw.analyse.import));
+  raw.analyse.import.list.hint_of_two = "two do when both have a heading, in a column heading_deg";
   OBVID_TRY(set_plots(raw.formats, raw.analyse.plots));
   OBVID_TRY(set_units(raw.units, raw.analyse.units));
   OBVID_TRY(settle_streams(raw.analyse, raw.format, raw.analyse.csv));

@@ -45,6 +45,7 @@ Result<StationHeights> read_heights(const std::string& path) {
 
 ImportOptions with_heights(ImportOptions import) {
   import.list.heights = true;
+  import.list.hint_of_two = "an alignment needs three points";
   return import;
 }
 
