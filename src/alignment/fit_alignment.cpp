@@ -125,7 +125,8 @@ Result<Alignment> fit_within(const std::vector<Vec2>& given, const std::vector<d
 }  // namespace alignment
 
 Transition transition_of(AlignmentKind kind) {
-  if (kind <= AlignmentKind::kClothoid) return Transition::kClothoid;
+  if (kind <= AlignmentKind::kClothoid || kind == AlignmentKind::kPolynomial)
+    return Transition::kClothoid;
   return static_cast<Transition>(static_cast<int>(kind) -
                                  static_cast<int>(AlignmentKind::kClothoid));
 }
