@@ -93,7 +93,7 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
       ->type_name("G1|G2");
   app.add_option("--transitions", raw.typed.transitions,
                  "Kind of the transitions between lines and arcs: clothoid, bloss, sine, cosine, "
-                 "helmert or cubic (parabola) [clothoid]")
+                 "helmert or cubic (parabola); none: lines and arcs alone, as of pipes [clothoid]")
       ->type_name("KIND");
   app.add_option(
          "--deviations", command.deviations,

@@ -74,6 +74,9 @@ struct AlignmentOptions {
   /// What takes the place of clothoids between lines and arcs, and at the ends, wherever the
   /// tolerance allows it; others stay clothoids.
   Transition transitions = Transition::kClothoid;
+  /// Lines and arcs alone, with common tangents: `transitions` and `without_steps` say nothing
+  /// then.
+  bool without_transitions = false;
   /// Curvature goes on without steps (G2): clothoids, or transitions of the wanted kind, are put
   /// between elements of different curvatures. There are more elements then.
   bool without_steps = false;

@@ -46,9 +46,10 @@ struct AlignmentJob {
   std::optional<double> first_station{};  ///< of the first point, units; nothing: as `road` says
   DrawnRoad road{};  ///< what the file of the points says: station, and a profile that stays
   Transition transitions = Transition::kClothoid;  ///< wanted between lines and arcs
-  bool without_steps = false;                      ///< of the curvature: G2 joints
-  std::optional<double> acceleration{};            ///< to the side, m/s^2: what limits the speed
-  std::optional<StationHeights> heights{};         ///< in place of those of the points
+  bool without_transitions = false;         ///< lines and arcs alone; no `without_steps` then
+  bool without_steps = false;               ///< of the curvature: G2 joints
+  std::optional<double> acceleration{};     ///< to the side, m/s^2: what limits the speed
+  std::optional<StationHeights> heights{};  ///< in place of those of the points
   std::optional<double>
       profile_noise{};  ///< how far the profile may pass a height, units; nothing: `noise` of
                         ///< heights of the points, where it is given; else estimated from the

@@ -259,6 +259,7 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
   limits.least_length = job.least_length;
   limits.least_radius = job.least_radius;
   limits.transitions = job.transitions;
+  limits.without_transitions = job.without_transitions;
   limits.without_steps = job.without_steps;
   limits.closed = closed;
   auto alignment = fit_alignment(series.points, *tolerance, limits, run);

@@ -43,12 +43,13 @@ Result<void> set_alignment(const AlignmentValues& typed, AlignmentJob& job) {
   }
   if (typed.closed) job.closing = Closing::kClosed;
   if (typed.open) job.closing = Closing::kOpen;
-  if (!typed.transitions.empty()) {
+  job.without_transitions = typed.transitions == "none";
+  if (!typed.transitions.empty() && !job.without_transitions) {
     const auto kind = transition_named(typed.transitions);
     if (!kind) {
       return fail(bad_option("transitions are of another kind than " + typed.transitions,
                              "--transitions",
-                             "name clothoid, bloss, sine, cosine, helmert or cubic"));
+                             "name clothoid, bloss, sine, cosine, helmert, cubic or none"));
     }
     job.transitions = *kind;
   }
@@ -57,6 +58,10 @@ Result<void> set_alignment(const AlignmentValues& typed, AlignmentJob& job) {
                            "G2 has no steps of the curvature"));
   }
   job.without_steps = typed.joints == "G2";
+  if (job.without_steps && job.without_transitions) {
+    return fail(bad_option("lines and arcs alone have steps of the curvature", "--joints",
+                           "leave G2 out, or --transitions none"));
+  }
   if (typed.profile_curves.empty() || typed.profile_curves == "parabolas") return {};
   if (typed.profile_curves != "arcs") {
     return fail(bad_option("vertical curves are parabolas or arcs", "--profile-curves",
