@@ -29,7 +29,7 @@ std::optional<AlignmentKind> kind_of_element(const Piece& piece) {
 }
 
 /// Of a cubic what its table of lengths tells; of others it is exact.
-double length_of(const Piece& piece, AlignmentKind kind) {
+double length_of_element(const Piece& piece, AlignmentKind kind) {
   return kind == AlignmentKind::kPolynomial ? PieceLength(piece, kFinestLength).length()
                                             : arc_length(piece, 0.0);
 }
@@ -53,7 +53,7 @@ std::optional<std::vector<AlignmentElement>> elements_of(
     e.station = station;
     e.start = element_at(piece, 0.0);
     e.kappa1 = element_at(piece, 1.0).kappa;
-    e.length = length_of(piece, *kind);
+    e.length = length_of_element(piece, *kind);
     if (stands_for) {
       e.kind = static_cast<AlignmentKind>(static_cast<int>(AlignmentKind::kClothoid) +
                                           static_cast<int>(next->kind));

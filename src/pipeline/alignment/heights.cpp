@@ -88,9 +88,9 @@ double tolerance_as_points(const std::vector<Vec2>& heights, double noise, doubl
   }
   std::string said =
       fmt::format("heights within {} {} as --noise", significant(noise, 3), units.text());
-  if (const auto seen = scatter_of(heights); seen && seen->deviation > noise) {
-    said += fmt::format(": that follows their scatter of {}; --profile-noise says another",
-                        significant(seen->deviation, 3));
+  if (const auto seen = scatter_of(heights); seen && seen->bound > noise) {
+    said += fmt::format("; their own scatter of {} may reach {} (--profile-noise auto)",
+                        significant(seen->deviation, 3), significant(seen->bound, 3));
   }
   remarks.push_back(std::move(said));
   return noise;
