@@ -93,7 +93,7 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
       ->type_name("G1|G2");
   app.add_option("--transitions", raw.typed.transitions,
                  "Kind of the transitions between lines and arcs: clothoid, bloss, sine, cosine, "
-                 "helmert or cubic (parabola) [clothoid]")
+                 "helmert or cubic (parabola); none: lines and arcs alone, as of pipes [clothoid]")
       ->type_name("KIND");
   app.add_option(
          "--deviations", command.deviations,
@@ -104,9 +104,10 @@ void add_alignment_options(CLI::App& app, RawAlignment& raw) {
                  "File of station and height per line, input units: heights of the profile [the "
                  "column z of the points]")
       ->type_name("FILE");
-  app.add_option("--profile-noise", raw.typed.profile_noise,
-                 "How far the profile may pass the heights, input units, or rounding or auto "
-                 "[rounding]")
+  app.add_option(
+         "--profile-noise", raw.typed.profile_noise,
+         "How far the profile may pass the heights, input units, or rounding or auto (their "
+         "own scatter) [--noise of heights in a column z, else auto where it can be told]")
       ->type_name("EPS");
   app.add_option("--profile-curves", raw.typed.profile_curves,
                  "Vertical curves: parabolas or arcs [parabolas]")

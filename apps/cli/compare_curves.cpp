@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -24,6 +25,13 @@ constexpr int kCurveDigits = 5;
 
 std::string percent(double chords, int decimals) {
   return fmt::format("{:.{}f}", 100.0 * chords, decimals);
+}
+
+/// In percent, and where it is: nowhere of what prints as 0.
+std::pair<std::string, std::string> camber_of(const AirfoilFigures& f) {
+  constexpr double kPrinted = 5e-6;  // chords
+  if (std::abs(f.camber) < kPrinted) return {percent(0.0, 3), "-"};
+  return {percent(f.camber, 3), percent(f.camber_at, 3)};
 }
 
 std::string verdict_of(const ComparedCurve& curve) {
@@ -55,8 +63,10 @@ std::string curves_table(const CurveComparison& compared) {
     if (compared.airfoils) {
       const AirfoilFigures& f = *curve.airfoil;
       row.push_back(significant(f.chord, kCurveDigits));
-      for (const double one : {f.thickness, f.thickness_at, f.camber, f.camber_at, f.nose_radius,
-                               f.trailing_thickness}) {
+      for (const double one : {f.thickness, f.thickness_at}) row.push_back(percent(one, 3));
+      const auto [camber, at] = camber_of(f);
+      row.insert(row.end(), {camber, at});
+      for (const double one : {f.nose_radius, f.trailing_thickness}) {
         row.push_back(percent(one, 3));
       }
     }
@@ -167,7 +177,7 @@ void add_airfoil_figures(const CurveComparison& compared, ReportPage& page) {
         fmt::format("chord {}; in % of it: thickness {} at {}, camber {} at {}, nose radius {}, "
                     "trailing edge {}",
                     significant(f.chord, kCurveDigits), percent(f.thickness, 3),
-                    percent(f.thickness_at, 3), percent(f.camber, 3), percent(f.camber_at, 3),
+                    percent(f.thickness_at, 3), camber_of(f).first, camber_of(f).second,
                     percent(f.nose_radius, 3), percent(f.trailing_thickness, 3)));
   }
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "table.h"
@@ -20,6 +21,7 @@ std::string azimuth_text(double theta) {
 /// Of elements that a line replaces within a billionth of the size: "straight".
 std::string element_radius(double kappa, double length, double size) {
   constexpr double kStraight = 1e-9;  // sagitta, of the size
+  if (!std::isfinite(kappa)) return "-";
   return radius_over(kappa, length, kStraight * size);
 }
 

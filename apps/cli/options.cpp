@@ -693,6 +693,7 @@ Result<Command> checked_convert(Raw& raw) {
 
 Result<Command> checked_analyse(Raw& raw) {
   OBVID_TRY(set_import(raw.formats, raw.analyse.import));
+  raw.analyse.import.list.hint_of_two = "two do when both have a heading, in a column heading_deg";
   OBVID_TRY(set_plots(raw.formats, raw.analyse.plots));
   OBVID_TRY(set_units(raw.units, raw.analyse.units));
   OBVID_TRY(settle_streams(raw.analyse, raw.format, raw.analyse.csv));
@@ -807,6 +808,9 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
     } catch (const CLI::CallForVersion& version) {
       return command_of(ShowText{std::string(version.what()) + "\n"});
     } catch (const CLI::CallForHelp&) {
+      const auto is_named = [&](CLI::App* command) { return command->get_name() == argv[1]; };
+      const bool known = *argv[1] == '-' || !app.get_subcommands(is_named).empty();
+      if (!known) return parse_command_line(2, argv);  // the word alone, which is an error
       return command_of(ShowText{app.help()});
     } catch (const CLI::ParseError& error) {
       return fail(from_cli(error, "COMMAND"));

@@ -110,7 +110,9 @@ bool is_for_limits(const Error& error, const AlignmentOptions& options) {
 Result<Alignment> fit_within(const std::vector<Vec2>& given, const std::vector<double>& tolerance,
                              const AlignmentOptions& options, const AlignmentOptions& kept,
                              const RunContext& run) {
-  const auto found = find_chain(given, tolerance, options, {}, run);
+  Sought sought;
+  sought.constant = options.without_transitions;
+  const auto found = find_chain(given, tolerance, options, sought, run);
   OBVID_TRY(found);
   Alignment out = alignment_of(found->chain, found->feet, tolerance, options.closed);
   OBVID_TRY(keeps_limits(out, kept));
@@ -125,7 +127,8 @@ Result<Alignment> fit_within(const std::vector<Vec2>& given, const std::vector<d
 }  // namespace alignment
 
 Transition transition_of(AlignmentKind kind) {
-  if (kind <= AlignmentKind::kClothoid) return Transition::kClothoid;
+  if (kind <= AlignmentKind::kClothoid || kind == AlignmentKind::kPolynomial)
+    return Transition::kClothoid;
   return static_cast<Transition>(static_cast<int>(kind) -
                                  static_cast<int>(AlignmentKind::kClothoid));
 }

@@ -1300,7 +1300,8 @@ constexpr std::size_t kMostSearchedAgain = 400;
 /// limit was given for.
 std::string advice_for_others(const AlignmentOptions& options, const Sought& sought) {
   std::string out = advice_to_allow_more(options);
-  const bool radii = !sought.constant;  // profiles have no least radius
+  // profiles have no least radius
+  const bool radii = !sought.constant || options.without_transitions;
   if (options.least_length == 0.0 && (options.least_radius == 0.0 && radii)) {
     return out + ", or set a least length or radius: other elements may do";
   }
@@ -1334,7 +1335,8 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
     turn(tolerance);
   }
   std::vector<double> within = tolerance;
-  const double part = attempt.part * (options.without_steps ? kBeforeTransitions : 1.0);
+  const double part =
+      attempt.part * (options.without_steps && !sought.constant ? kBeforeTransitions : 1.0);
   for (double& one : within) one *= part;
   for (double& one : tolerance) one *= attempt.fit;
   Sought search = sought;
@@ -1405,7 +1407,8 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
   };
   std::optional<Error> first;
   std::optional<Simplifier> best;
-  const bool again = sought.constant || given.size() <= kMostSearchedAgain;
+  const bool profile = sought.constant && !options.without_transitions;
+  const bool again = profile || given.size() <= kMostSearchedAgain;
   double tried = 0.0;  // of open points it is all the same where they begin
   for (const Attempt& attempt : kAttempts) {
     if (!options.closed && attempt.part == tried && attempt.fit == 1.0) continue;

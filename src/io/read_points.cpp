@@ -151,15 +151,13 @@ Vec2 rounding_of(RawPoints& raw) {
   return {half.x, half.y};
 }
 
-Error too_few(const RawPoints& raw, string_view name) {
+Error too_few(const RawPoints& raw, string_view name, const char* hint_of_two) {
   Error error;
   error.code = ErrorCode::kTooFewPoints;
   error.what = "a contour needs 3 distinct points, the file holds " +
                std::to_string(std::min<std::size_t>(raw.points.size(), 2));
   error.where = std::string(name);
-  if (raw.points.size() == 2)
-    error.hint =
-        "two do when both have a heading: --start-heading and --end-heading, or column heading_deg";
+  if (raw.points.size() == 2) error.hint = hint_of_two;
   error.value = static_cast<double>(raw.points.size());
   return error;
 }
@@ -186,7 +184,7 @@ Result<PointSeries> parse_points(string_view text, string_view name,
   OBVID_TRY(merge_duplicates(*raw, name));
   const bool two_do = raw->points.size() == 2 && options.two == TwoPoints::kDo;
   if (!has_enough_distinct(raw->points) && !two_do && !has_two_with_headings(*raw)) {
-    return fail(too_few(*raw, name));
+    return fail(too_few(*raw, name, options.hint_of_two));
   }
   PointSeries series;
   series.name = raw->title.empty() ? text::to_utf8(base_name(name)) : std::move(raw->title);

@@ -43,7 +43,18 @@ std::optional<double> middle_deviation(const std::vector<Vec2>& points) {
 
 Result<Scatter> scatter_of(const std::vector<Vec2>& points) {
   const Seen near = seen_at(points, 1), far = seen_at(points, 2);
-  if (near.places < kLeastPlaces || far.places < kLeastPlaces / 2) {
+  const bool few = near.places < kLeastPlaces || far.places < kLeastPlaces / 2;
+  constexpr std::size_t kBeside = 2;  // on each side of a place
+  if (few && points.size() >= kLeastPlaces + 2 * kBeside * 2) {
+    return error(ErrorCode::kTooFewPoints,
+                 "too few points lie between those before and behind them in the list to estimate "
+                 "their noise from")
+        .hint(
+            "say how far they may move; --unordered puts points in no order in that of their "
+            "curve")
+        .value(static_cast<double>(near.places));
+  }
+  if (few) {
     return error(ErrorCode::kTooFewPoints, "too few points to estimate their noise from")
         .hint("say how far they may move")
         .value(static_cast<double>(near.places));

@@ -157,6 +157,69 @@ TEST(Alignment, ElementsJoinWithCommonTangents) {
   }
 }
 
+const std::vector<RoadPart> kPipe = {
+    {10, 0, 0}, {2.36, 1 / 1.5, 1 / 1.5},   {8, 0, 0}, {1.18, -1 / 1.5, -1 / 1.5},
+    {7, 0, 0},  {2.36, -1 / 1.5, -1 / 1.5}, {9, 0, 0}};
+
+TEST(Alignment, WithoutTransitionsAPipeIsItsLinesAndElbows) {
+  const auto points = disturbed(road_points(kPipe, 0.25), 0.003);
+  AlignmentOptions options;
+  options.without_transitions = true;
+  const auto found = fit_alignment(points, std::vector<double>(points.size(), 0.012), options);
+  ASSERT_TRUE(found) << found.error().what;
+  ASSERT_EQ(found->elements.size(), kPipe.size());
+  for (std::size_t k = 0; k < kPipe.size(); ++k) {
+    const AlignmentElement& e = found->elements[k];
+    EXPECT_EQ(e.kind, kind_of_part(kPipe[k])) << k;
+    if (e.kind == AlignmentKind::kArc) {
+      EXPECT_NEAR(1.0 / e.start.kappa, 1.0 / kPipe[k].kappa0, 0.1) << k;
+    }
+  }
+  EXPECT_LE(found->largest_share, 1.0);
+}
+
+TEST(Alignment, WithoutTransitionsARoadThatHasThemIsArcsAndLinesWithCommonTangents) {
+  const auto points = disturbed(road_points(kRoad, 5.0), 0.002);
+  for (const bool closed : {false, true}) {
+    AlignmentOptions options;
+    options.without_transitions = true;
+    options.closed = closed;
+    options.without_steps = true;  // says nothing then
+    std::vector<Vec2> some = points;
+    if (closed) {  // two half circles and their tangents, with transitions between
+      some = disturbed(road_points({{60, 0, 0},
+                                    {20, 0, 0.04},
+                                    {25.0 * std::numbers::pi - 20.0, 0.04, 0.04},
+                                    {20, 0.04, 0},
+                                    {60, 0, 0},
+                                    {20, 0, 0.04},
+                                    {25.0 * std::numbers::pi - 20.0, 0.04, 0.04},
+                                    {20, 0.04, 0}},
+                                   3.0),
+                       0.002);
+      some.pop_back();
+    }
+    const auto found = fit_alignment(some, std::vector<double>(some.size(), 0.03), options);
+    ASSERT_TRUE(found) << found.error().what;
+    EXPECT_EQ(found->closed, closed);
+    EXPECT_LE(found->largest_share, 1.0);
+    Element at = found->elements.front().start;
+    for (const AlignmentElement& e : found->elements) {
+      EXPECT_LE(e.kind, AlignmentKind::kArc);
+      EXPECT_EQ(e.kappa1, e.start.kappa);
+      EXPECT_NEAR(norm(e.start.point - at.point), 0.0, 1e-9);
+      EXPECT_NEAR(e.start.theta, at.theta, 1e-9);
+      const double end = e.start.theta + e.kappa1 * e.length;
+      const Vec2 along = {std::sin(end) - std::sin(e.start.theta),
+                          std::cos(e.start.theta) - std::cos(end)};
+      const Vec2 straight = {std::cos(end), std::sin(end)};
+      at.point = e.start.point + (e.kappa1 == 0.0 ? e.length * straight : along / e.kappa1);
+      at.theta = end;
+    }
+    EXPECT_NEAR(norm(found->end.point - at.point), 0.0, 1e-9);
+  }
+}
+
 TEST(Alignment, ATransitionIsOneClothoid) {
   const auto points = road_points({{100, 1 / 300.0, 0}}, 1.0);
   const auto found = fit_alignment(points, std::vector<double>(points.size(), 0.05));

@@ -559,6 +559,31 @@ TEST(LandXmlWrite, SpiralsThroughAnInflectionAndLargeTurnsAreCut) {
   }
 }
 
+TEST(LandXmlWrite, ASpiralIsOneUpToAHundredAndFiftyDegrees) {
+  // (k0 + k1) / 2 * length: how far it turns
+  const auto parts = [](double k0, double k1, double degrees) {
+    const double length = degrees * std::numbers::pi / 180.0 / std::abs(0.5 * (k0 + k1));
+    const auto text = landxml_text(Road({{7.0, -3.0}, 0.4, k0}).add(k0, k1, length).take());
+    EXPECT_EQ(read_landxml_text(*text).curves[0].pieces.size(), 1U);  // one again when read
+    std::vector<double> turns;
+    const Drawing cut = read_landxml_text(without_names(*text));
+    for (const Piece& piece : cut.curves[0].pieces) {
+      const auto& one = std::get<ClothoidPiece>(piece);
+      turns.push_back(0.5 * (one.kappa0 + one.kappa1) * one.length * 180.0 / std::numbers::pi);
+    }
+    return turns;
+  };
+  EXPECT_EQ(parts(0.0, 0.02, 50.0).size(), 1U);
+  EXPECT_EQ(parts(0.02, 0.0, 100.0).size(), 1U);
+  EXPECT_EQ(parts(-0.01, -0.05, 149.0).size(), 1U);
+  for (const auto& [k0, k1] : {std::pair{0.0, 0.02}, std::pair{0.05, 0.01}}) {
+    const std::vector<double> turns = parts(k0, k1, 200.0);
+    ASSERT_EQ(turns.size(), 2U);
+    EXPECT_NEAR(turns[0], 100.0, 1e-6);
+    EXPECT_NEAR(turns[1], 100.0, 1e-6);
+  }
+}
+
 TEST(LandXmlWrite, OtherContoursAreRefusedWithTheWayOut) {
   Contour contour;
   contour.units = "m";

@@ -12,8 +12,20 @@
 namespace obvid {
 
 /// What surveyors call the elements of a horizontal alignment.
-enum class AlignmentKind { kLine, kArc, kClothoid, kBloss, kSine, kCosine, kHelmert, kCubic };
-inline constexpr std::size_t kAlignmentKinds = 8;
+/// The last one is none of theirs: a cubic of a drawing, in two coordinates over a parameter
+/// (OpenDRIVE's paramPoly3 and poly3), which no alignment that is formed has.
+enum class AlignmentKind {
+  kLine,
+  kArc,
+  kClothoid,
+  kBloss,
+  kSine,
+  kCosine,
+  kHelmert,
+  kCubic,
+  kPolynomial
+};
+inline constexpr std::size_t kAlignmentKinds = 9;
 
 /// The law of an element whose curvature changes; that of clothoids for all others.
 [[nodiscard]] Transition transition_of(AlignmentKind kind);
@@ -62,6 +74,9 @@ struct AlignmentOptions {
   /// What takes the place of clothoids between lines and arcs, and at the ends, wherever the
   /// tolerance allows it; others stay clothoids.
   Transition transitions = Transition::kClothoid;
+  /// Lines and arcs alone, with common tangents: `transitions` and `without_steps` say nothing
+  /// then.
+  bool without_transitions = false;
   /// Curvature goes on without steps (G2): clothoids, or transitions of the wanted kind, are put
   /// between elements of different curvatures. There are more elements then.
   bool without_steps = false;

@@ -15,9 +15,14 @@ namespace obvid {
 /// Whether two distinct points are enough: they are when somebody else gives headings at both.
 enum class TwoPoints { kTooFew, kDo };
 
+/// What two points lack, for who gives headings by options.
+inline constexpr const char* kTwoWithHeadings =
+    "two do when both have a heading: --start-heading and --end-heading, or column heading_deg";
+
 /// What somebody says of a list of points beside what stands in it.
 struct PointListOptions {
   TwoPoints two = TwoPoints::kTooFew;
+  const char* hint_of_two = kTwoWithHeadings;  ///< where two are too few; lasts as long
   std::size_t skip = 0;  ///< lines at the beginning that are not looked at; errors count them
   std::optional<std::array<std::size_t, 2>>
       columns{};         ///< of x and y, from 0, whatever their names

@@ -39,19 +39,23 @@ struct AlignmentJob {
                                   ///< as rounding x and y may have moved it. Points with a
                                   ///< tolerance of their own keep that
   bool noise_from_scatter = false;  ///< estimated from the points, in place of `noise`
+  bool noise_of_digits = false;     ///< that of nothing was asked for: heights have theirs, too
   double least_length = 0.0;  ///< of each element, units; 0: a quarter of the points' distance
   double least_radius = 0.0;  ///< of each place, units; 0: any
   Closing closing = Closing::kAutomatic;  ///< whether it goes around a loop
   std::optional<double> first_station{};  ///< of the first point, units; nothing: as `road` says
   DrawnRoad road{};  ///< what the file of the points says: station, and a profile that stays
   Transition transitions = Transition::kClothoid;  ///< wanted between lines and arcs
-  bool without_steps = false;                      ///< of the curvature: G2 joints
-  std::optional<double> acceleration{};            ///< to the side, m/s^2: what limits the speed
-  std::optional<StationHeights> heights{};         ///< in place of those of the points
+  bool without_transitions = false;         ///< lines and arcs alone; no `without_steps` then
+  bool without_steps = false;               ///< of the curvature: G2 joints
+  std::optional<double> acceleration{};     ///< to the side, m/s^2: what limits the speed
+  std::optional<StationHeights> heights{};  ///< in place of those of the points
   std::optional<double>
-      profile_noise{};  ///< how far the profile may pass a height, units; nothing:
-                        ///< half a unit of the last printed digit of heights
-  bool profile_noise_from_scatter = false;  ///< estimated from the heights, in place of that
+      profile_noise{};  ///< how far the profile may pass a height, units; nothing: `noise` of
+                        ///< heights of the points, where it is given; else estimated from the
+                        ///< heights, and where that cannot be, as `profile_noise_of_digits`
+  bool profile_noise_from_scatter = false;  ///< estimated from the heights or an error
+  bool profile_noise_of_digits = false;     ///< half a unit of the last printed digit of heights
   ProfileOptions profile{};                 ///< curves, least length of its elements
 };
 

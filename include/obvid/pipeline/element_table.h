@@ -15,8 +15,9 @@
 namespace obvid {
 
 /// The elements of a contour as surveyors list them, stations counted from `first_station`
-/// (units). Clothoids that stand for a transition are that. Nothing where a piece is no line, arc
-/// or clothoid.
+/// (units). Clothoids that stand for a transition are that. Cubics over a parameter
+/// have the curvatures of their ends, NaN where there is none (`is_singular_end`). Nothing where a
+/// piece is none of these.
 [[nodiscard]] std::optional<std::vector<AlignmentElement>> elements_of(
     const Contour& contour, double first_station,
     const std::vector<PlacedTransition>& transitions = {});
@@ -47,7 +48,7 @@ void add_profile(JsonText& json, const VerticalProfile& profile);
 /// "grade", "crest", "sag".
 [[nodiscard]] const char* to_string(ProfileKind kind);
 
-/// "line", "arc", "clothoid", "bloss", "sine", "cosine", "helmert", "cubic".
+/// "line", "arc", "clothoid", "bloss", "sine", "cosine", "helmert", "cubic", "cubic curve".
 [[nodiscard]] const char* to_string(AlignmentKind kind);
 /// Parameter of a clothoid, sqrt(length / |change of curvature|), units; 0 of other elements.
 [[nodiscard]] double clothoid_parameter(const AlignmentElement& element);

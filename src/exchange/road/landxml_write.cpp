@@ -18,8 +18,10 @@
 namespace obvid {
 namespace {
 
-// What turns by more than this is cut: tangents of a part then meet at a good angle.
-constexpr double kMostTangentTurn = 0.5 * std::numbers::pi;
+// What turns by more than this (150 degrees) is cut: beyond, tangents meet at an angle whose sine
+// is below one half, so that the rounding of an end moves the PI by more than twice as much, and at
+// half a turn they meet nowhere.
+constexpr double kMostTangentTurn = 5.0 / 6.0 * std::numbers::pi;
 // An arc has a centre in place of them: its ends and its sense tell it up to half a turn.
 constexpr double kMostCurveTurn = std::numbers::pi;
 constexpr double kMostElementParts = 10000.0;  // of one element: what turns more often is no road
@@ -47,18 +49,27 @@ RoadElement part_of_element(const RoadElement& e, double from, double to) {
   return part;
 }
 
-/// Parts of equal length between two parameters that turn little enough.
+/// Where on the way a piece whose curvature goes from k0 to k1, of one sign, has turned by a part
+/// of its turn: of its length.
+double at_part_of_turn(double k0, double k1, double part) {
+  const double root = std::sqrt(k0 * k0 + part * (k1 * k1 - k0 * k0));
+  return part * std::abs(k0 + k1) / (std::abs(k0) + root);
+}
+
+/// Parts between two parameters that turn alike, and little enough. No inflection lies within.
 void cut_turns(const RoadElement& e, double from, double to, std::vector<RoadElement>& out) {
   const double k0 = e.kappa0 + from * (e.kappa1 - e.kappa0);
   const double k1 = e.kappa0 + to * (e.kappa1 - e.kappa0);
-  const double steepest = std::max(std::abs(k0), std::abs(k1)) * (to - from) * e.length;
+  const double turn = 0.5 * std::abs(k0 + k1) * (to - from) * e.length;
   const double most = e.kappa0 == e.kappa1 ? kMostCurveTurn : kMostTangentTurn;
-  const int count =
-      static_cast<int>(std::clamp(std::ceil(steepest / most), 1.0, kMostElementParts));
-  for (int k = 0; k < count; ++k) {
-    const double a = from + (to - from) * k / count;
-    const double b = k + 1 == count ? to : from + (to - from) * (k + 1) / count;
+  const int count = static_cast<int>(std::clamp(std::ceil(turn / most), 1.0, kMostElementParts));
+  double a = from;
+  for (int k = 1; k <= count; ++k) {
+    const double b =
+        k == count ? to
+                   : from + (to - from) * at_part_of_turn(k0, k1, static_cast<double>(k) / count);
     out.push_back(part_of_element(e, a, b));
+    a = b;
   }
 }
 

@@ -259,9 +259,15 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
   limits.least_length = job.least_length;
   limits.least_radius = job.least_radius;
   limits.transitions = job.transitions;
+  limits.without_transitions = job.without_transitions;
   limits.without_steps = job.without_steps;
   limits.closed = closed;
   auto alignment = fit_alignment(series.points, *tolerance, limits, run);
+  const bool in_no_order = pipeline_detail::follow_in_no_order(series.points);
+  if (in_no_order && alignment) out.warnings.emplace_back(pipeline_detail::kInNoOrder);
+  if (in_no_order && !alignment && alignment.error().code != ErrorCode::kCancelled) {
+    alignment.error().hint = pipeline_detail::kInNoOrder;
+  }
   OBVID_TRY(alignment);
   const double first = first_station(job, series.units, out.remarks);
   for (AlignmentElement& e : alignment->elements) e.station += first;

@@ -7,19 +7,31 @@
 #include <numbers>
 
 #include "alignment/profile_table.h"
+#include "obvid/curve/internal/contour_path.h"
 #include "obvid/curve/pieces.h"
 #include "obvid/geom/internal/angle.h"
 
 namespace obvid {
 namespace {
 
-DataCell radius_cell(double kappa) { return kappa == 0.0 ? DataCell() : DataCell(1.0 / kappa); }
+DataCell radius_cell(double kappa) {
+  return kappa == 0.0 || !std::isfinite(kappa) ? DataCell() : DataCell(1.0 / kappa);
+}
 
 std::optional<AlignmentKind> kind_of_element(const Piece& piece) {
   if (std::holds_alternative<LinePiece>(piece)) return AlignmentKind::kLine;
   if (std::holds_alternative<ArcPiece>(piece)) return AlignmentKind::kArc;
   if (std::holds_alternative<ClothoidPiece>(piece)) return AlignmentKind::kClothoid;
-  return std::nullopt;
+  const auto& bezier = std::get<RationalBezier>(piece);
+  constexpr int kCubicDegree = 3;
+  if (bezier.degree > kCubicDegree || !is_polynomial(bezier)) return std::nullopt;
+  return AlignmentKind::kPolynomial;
+}
+
+/// Of a cubic what its table of lengths tells; of others it is exact.
+double length_of_element(const Piece& piece, AlignmentKind kind) {
+  return kind == AlignmentKind::kPolynomial ? PieceLength(piece, kFinestLength).length()
+                                            : arc_length(piece, 0.0);
 }
 
 }  // namespace
@@ -41,7 +53,7 @@ std::optional<std::vector<AlignmentElement>> elements_of(
     e.station = station;
     e.start = element_at(piece, 0.0);
     e.kappa1 = element_at(piece, 1.0).kappa;
-    e.length = arc_length(piece, 0.0);  // exact: none of them is a Bezier piece
+    e.length = length_of_element(piece, *kind);
     if (stands_for) {
       e.kind = static_cast<AlignmentKind>(static_cast<int>(AlignmentKind::kClothoid) +
                                           static_cast<int>(next->kind));
@@ -136,7 +148,7 @@ const char* to_string(ProfileKind kind) {
 
 const char* to_string(AlignmentKind kind) {
   static constexpr std::array<const char*, kAlignmentKinds> kNames = {
-      "line", "arc", "clothoid", "bloss", "sine", "cosine", "helmert", "cubic"};
+      "line", "arc", "clothoid", "bloss", "sine", "cosine", "helmert", "cubic", "cubic curve"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

@@ -45,6 +45,7 @@ Result<StationHeights> read_heights(const std::string& path) {
 
 ImportOptions with_heights(ImportOptions import) {
   import.list.heights = true;
+  import.list.hint_of_two = "an alignment needs three points";
   return import;
 }
 
@@ -68,18 +69,71 @@ Result<ProfileReport> heights_of_points(const PointSeries& series, const Alignme
   return out;
 }
 
-Result<double> height_tolerance(const std::vector<Vec2>& heights, double rounding,
+std::string scatter_text(const Scatter& seen, const char* what, const Units& units) {
+  return fmt::format(
+      "{} may be {} {} off, {} times their scatter of {} about cubics through four neighbours each "
+      "(median of {} points)",
+      what, significant(seen.bound, 4), units.text(), significant(seen.bound_factor, 3),
+      significant(seen.deviation, 4), seen.places);
+}
+
+/// The tolerance of the points is that of their heights, but for digits that are coarser.
+double tolerance_as_points(const std::vector<Vec2>& heights, double noise, double rounding,
+                           const Units& units, std::vector<std::string>& remarks) {
+  if (rounding > noise) {
+    remarks.push_back(
+        fmt::format("heights within {} {}, half a unit of their last digit: more than --noise",
+                    significant(rounding, 3), units.text()));
+    return rounding;
+  }
+  std::string said =
+      fmt::format("heights within {} {} as --noise", significant(noise, 3), units.text());
+  if (const auto seen = scatter_of(heights); seen && seen->bound > noise) {
+    said += fmt::format("; their own scatter of {} may reach {} (--profile-noise auto)",
+                        significant(seen->deviation, 3), significant(seen->bound, 3));
+  }
+  remarks.push_back(std::move(said));
+  return noise;
+}
+
+/// Where no tolerance is given at all; 0: none can be told.
+double tolerance_of_scatter(const std::vector<Vec2>& heights, double rounding, const Units& units,
+                            std::vector<std::string>& remarks) {
+  const auto seen = scatter_of(heights);
+  if (seen && seen->bound > rounding) {
+    remarks.push_back(
+        fmt::format("without --profile-noise: {}", scatter_text(*seen, "heights", units)));
+    return seen->bound;
+  }
+  if (rounding > 0.0) {
+    remarks.push_back(fmt::format(
+        "heights within {} {}, half a unit of their last digit: {}; --profile-noise says another",
+        significant(rounding, 3), units.text(),
+        seen ? "they scatter by no more" : seen.error().what));
+  }
+  return rounding;
+}
+
+/// How far the profile may pass heights; 0: nothing says it.
+Result<double> height_tolerance(const std::vector<Vec2>& heights, double rounding, bool of_points,
                                 const Units& units, const AlignmentJob& job,
                                 std::vector<std::string>& remarks) {
   if (job.profile_noise_from_scatter) {
     return estimated_noise(heights, units, "--profile-noise auto", remarks);
   }
-  const double tolerance = job.profile_noise.value_or(rounding);
-  if (tolerance > 0.0 && std::isfinite(tolerance)) return tolerance;
-  return error(ErrorCode::kBadOption, "a profile needs a tolerance")
-      .where("--profile-noise")
-      .hint("say how far it may pass the heights")
-      .value(tolerance);
+  if (job.profile_noise_of_digits) return rounding;
+  if (job.profile_noise) {
+    if (*job.profile_noise > 0.0 && std::isfinite(*job.profile_noise)) return *job.profile_noise;
+    return error(ErrorCode::kBadOption, "the tolerance of heights must be a positive length")
+        .where("--profile-noise")
+        .hint("say how far it may pass the heights")
+        .value(*job.profile_noise);
+  }
+  if (of_points && job.noise) {
+    return tolerance_as_points(heights, *job.noise, rounding, units, remarks);
+  }
+  if (of_points && job.noise_of_digits) return rounding;
+  return tolerance_of_scatter(heights, rounding, units, remarks);
 }
 
 /// Whether the last height of a loop is that of the first point again; an error where it is another
@@ -211,28 +265,12 @@ std::optional<ProfileReport> profile_of_file(const PointSeries& series, const Al
   return out;
 }
 
-}  // namespace
-
-Result<double> estimated_noise(const std::vector<Vec2>& points, const Units& units,
-                               const char* option, std::vector<std::string>& remarks) {
-  auto seen = scatter_of(points);
-  if (!seen) {
-    seen.error().where = option;
-    return fail(seen.error());
-  }
-  remarks.push_back(fmt::format(
-      "{}: points may be {} {} off, {} times their scatter of {} about cubics through four "
-      "neighbours each (median of {} points)",
-      option, significant(seen->bound, 4), units.text(), significant(seen->bound_factor, 3),
-      significant(seen->deviation, 4), seen->places));
-  return seen->bound;
-}
-
-Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
-                                                    const Alignment& alignment,
-                                                    const AlignmentJob& job,
-                                                    std::vector<std::string>& remarks,
-                                                    const RunContext& run) {
+/// The profile of the heights that there are.
+Result<std::optional<ProfileReport>> profile_of_heights(const PointSeries& series,
+                                                        const Alignment& alignment,
+                                                        const AlignmentJob& job,
+                                                        std::vector<std::string>& remarks,
+                                                        const RunContext& run) {
   const bool any = std::any_of(series.fixed.begin(), series.fixed.end(),
                                [](const FixedData& f) { return f.height.has_value(); });
   if (!job.heights && !any) {
@@ -251,14 +289,6 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
     auto own = heights_of_points(series, alignment);
     OBVID_TRY(own);
     out = std::move(*own);
-    const bool no_tolerance =
-        rounding == 0.0 && !job.profile_noise && !job.profile_noise_from_scatter;
-    if (no_tolerance) {
-      remarks.emplace_back(
-          "the points have heights, but nothing says how exact they are (the digits of receivers "
-          "and maps do not): no profile (--profile-noise with a length or auto makes one)");
-      return std::optional<ProfileReport>();
-    }
     // drawings fill a column that nobody measured
     if (std::all_of(out.heights.begin(), out.heights.end(),
                     [](const Vec2& at) { return at.y == 0.0; })) {
@@ -283,8 +313,20 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   });
   std::vector<Vec2> ascending;
   for (const std::size_t i : order) ascending.push_back(out.heights[i]);
-  const auto tolerance = height_tolerance(ascending, rounding, series.units, job, remarks);
+  const auto tolerance =
+      height_tolerance(ascending, rounding, out.of_points, series.units, job, remarks);
   OBVID_TRY(tolerance);
+  if (*tolerance == 0.0 && out.of_points) {
+    remarks.emplace_back(
+        "the points have heights, but nothing says how exact they are (the digits of receivers "
+        "and maps do not): no profile (--profile-noise with a length or auto makes one)");
+    return std::optional<ProfileReport>();
+  }
+  if (*tolerance == 0.0) {
+    return error(ErrorCode::kBadOption, "a profile needs a tolerance")
+        .where("--profile-noise")
+        .hint("say how far it may pass the heights");
+  }
   out.tolerance = *tolerance;
   if (ascending.size() > 1) {
     // those of the points before the first one lie before its station
@@ -306,6 +348,36 @@ Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
   profile->offsets = std::move(offsets);
   out.profile = std::move(*profile);
   return std::optional(std::move(out));
+}
+
+}  // namespace
+
+Result<double> estimated_noise(const std::vector<Vec2>& points, const Units& units,
+                               const char* option, std::vector<std::string>& remarks) {
+  auto seen = scatter_of(points);
+  if (!seen) {
+    seen.error().where = option;
+    return fail(seen.error());
+  }
+  remarks.push_back(fmt::format("{}: {}", option, scatter_text(*seen, "points", units)));
+  return seen->bound;
+}
+
+Result<std::optional<ProfileReport>> profile_report(const PointSeries& series,
+                                                    const Alignment& alignment,
+                                                    const AlignmentJob& job,
+                                                    std::vector<std::string>& remarks,
+                                                    const RunContext& run) {
+  auto made = profile_of_heights(series, alignment, job, remarks, run);
+  // heights of receivers and maps, of which nothing was said, refuse no alignment
+  const bool said = job.heights || job.profile_noise || job.profile_noise_from_scatter ||
+                    job.profile_noise_of_digits || series.height_rounding > 0.0;
+  if (made || said || made.error().code == ErrorCode::kCancelled) return made;
+  remarks.push_back(
+      fmt::format("no profile of the heights: {} (--profile-noise with a length or "
+                  "auto may make one)",
+                  made.error().what));
+  return std::optional<ProfileReport>();
 }
 
 }  // namespace pipeline_detail

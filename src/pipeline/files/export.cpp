@@ -369,10 +369,11 @@ void tell_of_parts(const ContourExport& e, std::string_view text,
     for (auto at = text.find(tag); at != text.npos; at = text.find(tag, at + 1)) ++written;
   }
   if (written <= elements) return;
-  remarks.push_back(fmt::format(
-      "{} for {} of the curve: arcs of more than half a turn, and spirals that turn by more than a "
-      "right angle or through an inflection, are in parts there",
-      counted(written, "element", "elements"), elements));
+  remarks.push_back(
+      fmt::format("{} for {} of the curve: arcs of more than half a turn, and spirals that turn by "
+                  "more than 150 "
+                  "degrees or pass an inflection, are in parts there",
+                  counted(written, "element", "elements"), elements));
 }
 
 /// What is written flat.

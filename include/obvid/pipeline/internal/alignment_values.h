@@ -15,7 +15,7 @@ struct AlignmentValues {
   std::string profile_noise;   ///< likewise
   std::string profile_curves;  ///< parabolas or arcs
   std::string joints;          ///< G1 or G2
-  std::string transitions;     ///< clothoid, bloss, sine, cosine, helmert or cubic
+  std::string transitions;     ///< clothoid, bloss, sine, cosine, helmert, cubic or none
 };
 
 /// Errors: E203 what is none of these; `where` names the option.
