@@ -23,7 +23,7 @@ constexpr std::size_t kExchangesEach = 20, kFewestExchanges = 1000, kStopsCopied
 /// Of a mean way between stops, how much longer a tour may become by them, less and less.
 constexpr double kMayBeLonger = 0.5;
 /// Of the whole way: rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kRoundingOfWay = 1e-12;
 
 class Search {
  public:
@@ -34,7 +34,7 @@ class Search {
         waits_(stops.size()),
         watch_(watch) {
     place(0, tour_.size());
-    least_gain_ = kRounding * way_between(stops_, tour_);
+    least_gain_ = kRoundingOfWay * way_between(stops_, tour_);
     ordered_ = std::any_of(stops_.begin(), stops_.end(),
                            [](const Stop& stop) { return !stop.first.empty(); });
     find_neighbours();
