@@ -227,7 +227,11 @@ class Work : public ProgramRuns {
     const Path path(std::move(spans));
     // STEP says how exact it is: kernels leave shorter edges out
     const bool step = !unit_kept && mine;
-    const Real accuracy = step ? kStepAccuracy / static_cast<Real>(*mine) : 0.0L;
+    const Real edge = step ? kStepAccuracy / static_cast<Real>(*mine) : 0.0L;
+    const auto shorter =
+        std::count_if(course.path.spans().begin(), course.path.spans().end(),
+                      [&](const Span& s) { return norm(s.point(1.0L) - s.point(0.0L)) < edge; });
+    const Real accuracy = edge * std::max<Real>(1.0L, static_cast<Real>(shorter));
     const Real limit = std::max(static_cast<Real>(part) * course.ends.size, accuracy) +
                        4e-15L * course.ends.coordinate + course.resolution() * 1e-3L;
     Real most = 0.0L;
