@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -27,9 +26,10 @@
 #include "obvid/contour/common/internal/carry.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/curve/internal/runs.h"
-#include "obvid/numeric/internal/median.h"
+#include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/region/internal/refine.h"
 #include "verify/against_spirals.h"
+#include "obvid/series/internal/order.h"
 #include "verify/report.h"
 
 namespace obvid {
@@ -465,25 +465,6 @@ bool misses_a_point(const Contour& contour, Watch& watch) {
   return false;
 }
 
-/// Whether, for the most part, the next point of the list is far beyond the nearest one.
-bool follow_in_no_order(const std::vector<Vec2>& points) {
-  constexpr std::size_t kFewest = 12, kMostLooked = 200;  // points
-  constexpr double kBeyondNearest =
-      4.0;  // of the distance of the nearest: rows have 1, combs some 2
-  const std::size_t n = points.size();
-  if (n < kFewest) return false;
-  std::vector<double> beyond;
-  const std::size_t every = std::max<std::size_t>(1, n / kMostLooked);
-  for (std::size_t i = 0; i + 1 < n; i += every) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < n; ++k) {
-      if (k != i) nearest = std::min(nearest, norm(points[k] - points[i]));
-    }
-    if (nearest > 0.0) beyond.push_back(norm(points[i + 1] - points[i]) / nearest);
-  }
-  return !beyond.empty() && median_of(std::move(beyond)) > kBeyondNearest;
-}
-
 /// Points that moved so far that they change places, or turn the contour round between them.
 bool lost_by_moves(const Result<Formed>& formed, Watch& watch) {
   if (formed) return !points_out_of_order(formed->contour, watch).empty();
@@ -728,10 +709,8 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
   }
   if (!formed) {
     Error error = formed.error();
-    if (follow_in_no_order(prepared.points)) {
-      error.hint =
-          "the points follow each other in no order, as it seems: neighbours in the list are far "
-          "beyond the nearest points; --unordered puts them in that of their curve";
+    if (auto hint = no_order_hint(prepared.points)) {
+      error.hint = std::move(*hint);
     } else if (!prepared.polygon.empty()) {
       error.hint += (error.hint.empty() ? "" : "; ") + prepared.polygon;
     }

@@ -15,6 +15,7 @@
 #include "obvid/core/units.h"
 #include "obvid/numeric/internal/median.h"
 #include "obvid/series/internal/coarse_polygon.h"
+#include "obvid/series/internal/order.h"
 #include "obvid/series/internal/scatter.h"
 
 namespace obvid::pipeline_detail {
@@ -223,6 +224,11 @@ class Preparation {
     }
     out_.warnings.push_back(fmt::format(
         "--noise auto: points may move {} {}, {} times their scatter of {} about cubics through "
+      if (auto hint = no_order_hint(out_.points)) {
+        seen = error(ErrorCode::kOutOfOrder,
+                     "noise shows between neighbours, and these do not follow one another")
+                   .hint(std::move(*hint));
+      }
         "four neighbours each (median of {} points)",
         significant(seen->bound, 4), series_.units.text(), significant(seen->bound_factor, 3),
         significant(seen->deviation, 4), seen->places));
