@@ -21,6 +21,7 @@
 #include "fit/section_chain.h"
 #include "fit/slope_step.h"
 #include "fit/waviness.h"
+#include "fit/whole_sections.h"
 #include "obvid/certify/certify.h"
 #include "obvid/chain/internal/smooth_chain.h"
 #include "obvid/contour/common/internal/carry.h"
@@ -186,12 +187,17 @@ class SectionForming {
  public:
   SectionForming(const Prepared& series, const FitJob& job, double tolerance, FoundChains& chains,
                  Watch& watch)
-      : series_(series),
+      : series_(with_whole_sections(series)),
         job_(job),
         tolerance_(tolerance),
         chains_(chains),
         watch_(watch),
         have_spirals_(job.measure_against_spirals) {}
+
+  static Prepared with_whole_sections(Prepared series) {
+    lay_whole_sections(series);
+    return series;
+  }
 
   /// Runs of these parts keep their G2 spirals.
   SectionForming& keeping(const KeptParts& parts) {
@@ -422,7 +428,7 @@ class SectionForming {
     return contour;
   }
 
-  const Prepared& series_;
+  const Prepared series_;
   const FitJob& job_;
   double tolerance_;
   FoundChains& chains_;

@@ -30,6 +30,8 @@ namespace {
 
 /// Points of a loop that are looked at beyond its seam, on both sides.
 constexpr std::size_t kOverlap = 16;
+/// An arc that is a whole section comes in parts that turn by no more than this, rad.
+constexpr double kMostTurn = 3.0;
 /// Points taken off the ends of primitives beside which no transition fits.
 constexpr int kMostTrims = 40;
 /// Fewer points than this lie on one circle: there is nothing to choose.
@@ -97,8 +99,10 @@ class SectionChooser {
     const std::size_t last = loop_ ? series.points.size() - 1 : section.last;
     for (std::size_t k = section.first; k <= last; ++k) {
       index_.push_back(series.split.point_at(k));
-      points_.push_back(series.points[index_.back()]);
+      points_.push_back(series.placed.empty() ? series.points[index_.back()]
+                                              : series.placed[index_.back()]);
     }
+    whole_ = series.whole_of(section);
     goes_on_ = series_.period && !series_.closed && points_.size() == series_.points.size();
   }
 
@@ -243,10 +247,13 @@ class SectionChooser {
     out_ = {};
     moves_ = std::any_of(index_.begin(), index_.end(),
                          [&](std::size_t i) { return series_.reach[i] > 0.0; });
-    auto chain =
-        moves_ && points_.size() >= kFewestForFairing && !lies_on_one_circle() ? within_tolerances()
-        : loop_ || (goes_on_ && !central_)                                     ? around_loop()
-                                           : through_points(points_, constraints(), index_);
+    const auto whole = whole_chain();
+    auto chain = whole ? Result<SeriesChain>(*whole)
+                 : moves_ && points_.size() >= kFewestForFairing && !lies_on_one_circle()
+                     ? within_tolerances()
+                 : loop_ || (goes_on_ && !central_)
+                     ? around_loop()
+                     : through_points(points_, constraints(), index_);
     if (!chain) chain = fail(in_whole_series(chain.error()));
     if (chain) {
       for (auto& source : chain->source) {
@@ -692,6 +699,28 @@ class SectionChooser {
     return measured.meant;
   }
 
+  /// The line or arc that the section is, from end to end.
+  std::optional<SeriesChain> whole_chain() {
+    if (!whole_) return std::nullopt;
+    FairedSeries faired;
+    const Element& start = whole_->start;
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(whole_->turn) / kMostTurn)));
+    for (int k = 0; k <= parts; ++k) {
+      const double turn = whole_->turn * k / parts;
+      const Vec2 chord =
+          (2.0 * std::sin(0.5 * turn) / start.kappa) * unit_at(start.theta + 0.5 * turn);
+      faired.elements.push_back({start.point + chord, start.theta + turn, start.kappa});
+      faired.source.emplace_back();
+      if (k > 0) faired.direction.push_back(0);
+    }
+    faired.elements.front() = start;
+    faired.elements.back() = whole_->end;
+    faired.source.front() = 0;
+    faired.source.back() = points_.size() - 1;
+    auto chain = follow(faired, {});
+    return chain ? std::optional(std::move(*chain)) : std::nullopt;
+  }
+
   /// Of a loop whose points lie within their tolerances of one circle, which has no vertex.
   std::optional<SeriesChain> whole_circle(MeasuredSeries measured) {
     if (!loop_ || measured.primitives || has_data() || !lies_near_one_circle(measured)) {
@@ -990,6 +1019,7 @@ class SectionChooser {
   std::map<std::size_t, double> held_;       // headings by points of the whole series, rad
   std::map<std::size_t, FixedData> bounds_;  // ends of ranges that hold, likewise
   std::optional<double> cap_;                // largest curvature at any point
+  std::optional<WholePiece> whole_;          // that the section is
   bool central_ = false;
   bool turns_alone_known_ = false;
   std::optional<ChainTurns> turns_alone_;
@@ -1017,9 +1047,16 @@ void FoundChains::begin_another() {
 Result<SectionChain> FoundChains::chain(const Prepared& series, const Section& section,
                                         Watch& watch) {
   using Clock = std::chrono::steady_clock;
-  Asked asked{section.first, section.last,  series.split.smooth_loop,
-              series.thin,   series.convex, series.prefer,
-              series.points, series.reach,  series.fixed};
+  Asked asked{section.first,
+              section.last,
+              series.split.smooth_loop,
+              series.thin,
+              series.convex,
+              series.prefer,
+              series.placed.empty() ? series.points : series.placed,
+              series.reach,
+              series.fixed,
+              series.whole_of(section)};
   for (Found& one : found_) {
     if (!(one.asked == asked)) continue;
     spared_ += std::exchange(one.counts, false) ? one.seconds : 0.0;

@@ -49,6 +49,7 @@ class FoundChains {
     std::vector<Vec2> points;
     std::vector<double> reach;
     std::vector<FixedData> fixed;
+    std::optional<WholePiece> whole;
 
     bool operator==(const Asked&) const = default;
   };
