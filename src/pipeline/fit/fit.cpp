@@ -29,8 +29,8 @@
 #include "obvid/curve/internal/runs.h"
 #include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/region/internal/refine.h"
-#include "verify/against_spirals.h"
 #include "obvid/series/internal/order.h"
+#include "verify/against_spirals.h"
 #include "verify/report.h"
 
 namespace obvid {
@@ -212,6 +212,7 @@ class SectionForming {
     if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
     tell_bare_sections();
     out_.contour = finished(assembly_, job_.carrier);
+    tell_given_up();
     if (steps_everywhere(out_.contour)) {
       claim_slopes(out_.contour, false);
       out_.chain.slope_step_g2.reset();
@@ -246,6 +247,21 @@ class SectionForming {
     out_.warnings.push_back(no_primitives_text(where));
   }
 
+  /// Lines and arcs that are not kept, of all sections, beside those that the table has.
+  void tell_given_up() {
+    if (given_up_ == 0) return;
+    const std::size_t kept = lines_and_arcs(out_.contour).size();
+    out_.warnings.push_back(fmt::format(
+        "{}the points mean {} that {} not kept: beside {} no transition was found that stays "
+        "within the tolerance{}",
+        kept == 0
+            ? ""
+            : "beside the " + counted(kept, "line or arc", "lines and arcs") + " of the contour ",
+        counted(given_up_, kept == 0 ? "line or arc" : "more",
+                kept == 0 ? "lines and arcs" : "more"),
+        given_up_ == 1 ? "is" : "are", given_up_ == 1 ? "it" : "them", strays_));
+  }
+
   Result<void> form_one(std::size_t k) {
     const auto count = static_cast<double>(series_.split.sections.size());
     const ProgressShare share(watch_, static_cast<double>(k) / count,
@@ -258,6 +274,8 @@ class SectionForming {
     auto chain = chains_.chain(series_, section, watch_);
     OBVID_TRY(chain);
     if (chain->is_bare) bare_.push_back(k);
+    given_up_ += chain->given_up;
+    if (strays_.empty()) strays_ = chain->strays;
     auto spirals = spirals_of(*chain);
     if (!spirals && (carrier.needs == CarrierNeeds::kSpirals || !follows_spirals(job_.carrier))) {
       return fail(spirals.error());
@@ -437,6 +455,8 @@ class SectionForming {
   Assembly assembly_, spirals_;
   Waviness waviness_g2_{watch_};
   KeptParts kept_;
+  std::size_t given_up_ = 0;       ///< lines and arcs of all sections
+  std::string strays_;             ///< that break them, of the first section that has such
   std::vector<std::size_t> bare_;  ///< sections without a line or arc that were asked for
   bool have_spirals_;              // as long as they are asked for, and all sections have them
 };

@@ -760,18 +760,14 @@ class SectionChooser {
   }
 
   void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {
-    if (meant.size() > static_cast<std::size_t>(faired.primitives)) {
-      out_.warnings.push_back(missing_text(faired, meant) + strays_text());
+    const std::string missing = meant.size() > static_cast<std::size_t>(faired.primitives)
+                                    ? missing_text(faired, meant)
+                                    : std::string{};
+    if (!missing.empty()) {
+      out_.warnings.push_back(missing + strays_text());
     } else if (meant.empty() && faired.given_up > 0) {
-      const auto all = static_cast<std::size_t>(faired.primitives + faired.given_up);
-      out_.warnings.push_back(fmt::format(
-          "the points mean {}, of which {} kept: beside the others no transition was found that "
-          "stays within the tolerance{}",
-          counted(all, "line or arc", "lines and arcs"),
-          faired.primitives == 0   ? "none is"
-          : faired.primitives == 1 ? "1 is"
-                                   : fmt::format("{} are", faired.primitives),
-          strays_text()));
+      out_.given_up = static_cast<std::size_t>(faired.given_up);
+      out_.strays = strays_text();
     } else if (faired.primitives == 0) {
       out_.is_bare = series_.split.sections.size() > 1;
       if (!out_.is_bare) out_.warnings.push_back(no_primitives_text() + strays_text());
@@ -801,7 +797,7 @@ class SectionChooser {
                        one ? "its" : "their", one ? "it" : "them");
   }
 
-  /// Names what the points mean and the contour does not have.
+  /// Names what the points mean and the contour does not have; empty: nothing.
   [[nodiscard]] std::string missing_text(const FairedSeries& faired,
                                          const std::vector<MeantPiece>& meant) const {
     std::string missing;
@@ -814,13 +810,16 @@ class SectionChooser {
                                                                  std::abs(1.0 / m.middle.kappa)),
                              index_[m.first % n] + 1, index_[m.last % n] + 1);
     }
+    if (missing.empty()) return {};
+    const MeantPiece& first = meant.front();
+    const bool all = !loop_ && meant.size() == 1 && first.first <= 1 && first.last + 2 >= n;
     return fmt::format(
-        "the points mean {}, of which the contour does not keep {}: no transitions beside them "
-        "were "
-        "found that stay within the tolerance; `obvid alignment` has them, with steps of the "
-        "curvature",
-        counted(meant.size(), "line or arc", "lines and arcs"),
-        missing.empty() ? std::string("all") : missing);
+        "the contour does not keep {}, which the points mean: {}", missing,
+        all ? (has_data() ? "none that has all points within their tolerances and what is given "
+                            "was found"
+                          : "none that has all points within their tolerances was found")
+            : "no transitions beside them were found that stay within the tolerance; `obvid "
+              "alignment` has them, with steps of the curvature");
   }
 
   /// Whether point i lies between the first and last point of a line or arc of the contour.
