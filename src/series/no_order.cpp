@@ -9,11 +9,11 @@
 namespace obvid {
 
 std::optional<std::string> no_order_hint(const std::vector<Vec2>& points) {
-  constexpr std::size_t kFewest = 12, kMostLooked = 200;  // points
+  constexpr std::size_t kFewestToTell = 12, kMostLooked = 200;  // points
   constexpr double kBeyondNearest =
       4.0;  // of the distance of the nearest: rows have 1, combs some 2
   const std::size_t n = points.size();
-  if (n < kFewest) return std::nullopt;
+  if (n < kFewestToTell) return std::nullopt;
   std::vector<double> beyond;
   const std::size_t every = std::max<std::size_t>(1, n / kMostLooked);
   for (std::size_t i = 0; i + 1 < n; i += every) {

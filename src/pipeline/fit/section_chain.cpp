@@ -31,7 +31,7 @@ namespace {
 /// Points of a loop that are looked at beyond its seam, on both sides.
 constexpr std::size_t kOverlap = 16;
 /// An arc that is a whole section comes in parts that turn by no more than this, rad.
-constexpr double kMostTurn = 3.0;
+constexpr double kMostTurnOfPart = 3.0;
 /// Points taken off the ends of primitives beside which no transition fits.
 constexpr int kMostTrims = 40;
 /// Fewer points than this lie on one circle: there is nothing to choose.
@@ -704,7 +704,8 @@ class SectionChooser {
     if (!whole_) return std::nullopt;
     FairedSeries faired;
     const Element& start = whole_->start;
-    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(whole_->turn) / kMostTurn)));
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(std::abs(whole_->turn) / kMostTurnOfPart)));
     for (int k = 0; k <= parts; ++k) {
       const double turn = whole_->turn * k / parts;
       const Vec2 chord =

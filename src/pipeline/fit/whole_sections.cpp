@@ -145,7 +145,7 @@ double most_used(const Shape& shape, const Points& points) {
 }
 
 /// Whether feet follow one another as far as the reaches tell.
-bool in_order(const Shape& shape, const Points& points) {
+bool feet_follow(const Shape& shape, const Points& points) {
   double before = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.at.size(); ++i) {
     const double s = shape.foot(points.at[i]);
@@ -173,7 +173,7 @@ std::optional<Shape> shape_within(const Points& points, bool arc) {
     shape = fitted(*shape, points, weight, arc, length);
     if (!shape) return std::nullopt;
     if (most_used(*shape, points) <= 1.0) {
-      return in_order(*shape, points) ? shape : std::nullopt;
+      return feet_follow(*shape, points) ? shape : std::nullopt;
     }
     double sum = 0.0, squares = 0.0;
     for (std::size_t i = 0; i < points.at.size(); ++i) {
