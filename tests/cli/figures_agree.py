@@ -332,9 +332,12 @@ class Subject:
 
     def gaps(self, facts, certificate):
         said = self.found("joint gaps", rf"^position ({NUMBER}) of the size, heading ({NUMBER}) rad"
-                          rf"(?:, curvature|; curvature steps up to) ({NUMBER}|unknown)",
+                          rf"(?:(?:, curvature|; curvature steps up to) ({NUMBER}|unknown))?",
                           facts.get("joint gaps"))
         for text, key in zip(said or [], ("position", "heading", "curvature")):
+            if text is None:  # arcs of which no two meet but in corners
+                self.same("a " + key + " gap", certificate["joint_gaps"][key], 0)
+                continue
             self.shows(key + " gap", text.replace("unknown", UNKNOWN),
                        certificate["joint_gaps"][key])
 
