@@ -9,6 +9,7 @@
 #include "obvid/core/units.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/series/internal/forced_vertices.h"
+#include "obvid/series/internal/order.h"
 
 namespace obvid {
 namespace {
@@ -309,14 +310,15 @@ void bound_error(const std::vector<Vec2>& points, Analysis& a) {
   }
 }
 
-Result<void> check_turning(const Analysis& a) {
+Result<void> check_turning(const Analysis& a, const std::vector<Vec2>& points) {
   if (a.largest_turning < kLargestTurning) return {};
   for (std::size_t i = 1; i < a.chords.size(); ++i) {
     const double turn = std::abs(a.chords[i].omega - a.chords[i - 1].omega);
     if (turn < kLargestTurning) continue;
     return error(ErrorCode::kChordReversal, "the series turns back on itself")
         .where("point " + std::to_string(i + 1))
-        .hint("add points around the bend, or remove the point that steps back")
+        .hint(no_order_hint(points).value_or(
+            "add points around the bend, or remove the point that steps back"))
         .point(i)
         .value(turn);
   }
@@ -428,7 +430,7 @@ Result<Analysis> measure_series(const std::vector<Vec2>& points) {
 Result<Analysis> analyse(const std::vector<Vec2>& points) {
   auto begun = measured_chords(points);
   if (!begun) return begun;
-  OBVID_TRY(check_turning(*begun));
+  OBVID_TRY(check_turning(*begun, points));
   return measured_circles(points, std::move(*begun));
 }
 

@@ -63,9 +63,10 @@ class Search {
       const auto r = residual(i);
       if (!r) {
         out_.untold.push_back(i);
-      } else if (r->off > limit_ * out_.deviation) {
-        out_.staying.push_back({i, r->off});
+        continue;
       }
+      const double off = off_neighbours(i, *r);
+      if (off > limit_ * out_.deviation) out_.staying.push_back({i, off});
     }
     return std::move(out_);
   }
@@ -144,6 +145,16 @@ class Search {
       five[kSide + k] = points_[right];
     }
     return five;
+  }
+  /// Distance from what lies nearest of all that neighbours say: the cubic over their chord, the
+  /// one along their way, the line between them. Beside long steps the cubics may swing far out.
+  [[nodiscard]] double off_neighbours(std::size_t i, const MiddleResidual& r) const {
+    const auto five = *five_around(i);
+    const Vec2 side = five[kSide + 1] - five[kSide - 1], from = points_[i] - five[kSide - 1];
+    const double part = std::clamp(dot(from, side) / dot(side, side), 0.0, 1.0);
+    double off = std::min(r.off, norm(from - part * side));
+    if (const auto along = residual_along_way(five)) off = std::min(off, along->off);
+    return off;
   }
   [[nodiscard]] bool is_beyond(const MiddleResidual& r, double deviations, std::size_t i) const {
     return r.in_deviations() > deviations * scale_[i];

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "end_parabola.h"
 #include "middle_residual.h"
 #include "obvid/geom/vec2.h"
 #include "obvid/numeric/internal/median.h"
@@ -74,21 +75,26 @@ class OrderedCurve {
     compared_ = sizes.size();
     if (compared_ >= kLeastCompared) deviation_ = deviation_of(std::move(sizes));
     limit_ = kClearly * bound_factor(row_.size());
+    goes_on_ = row_goes_on([this](std::size_t k) { return row_[k]; }, row_.size());
   }
 
   [[nodiscard]] bool tells() const { return compared_ >= kLeastCompared; }
   [[nodiscard]] double deviation() const { return deviation_; }
   [[nodiscard]] double limit() const { return limit_; }
 
-  /// As near as points of the curve are to each other.
-  [[nodiscard]] bool is_near(Vec2 q) const { return nearest(q).distance <= kFarther * step_; }
+  /// As near as points of the curve are to each other, or beyond an end, from where it goes on.
+  [[nodiscard]] bool may_belong(Vec2 q) const {
+    const Nearest at = nearest(q);
+    return at.beyond || at.distance <= kFarther * step_;
+  }
 
   /// How far a point lies off; nothing where it may belong to the curve.
   [[nodiscard]] std::optional<double> off(Vec2 q) const {
     const auto [chord, distance, beyond] = nearest(q);
     if (beyond) {
-      const bool far = distance > std::max(kFarther * step_, limit_ * scale(chord));
-      return far ? std::optional(distance) : std::nullopt;
+      if (!(distance > std::max(kFarther * step_, limit_ * scale(chord)))) return std::nullopt;
+      const auto one = seen_from_end(q, chord > 0);
+      return one && goes_on_.is_off(*one) ? std::optional(one->off) : std::nullopt;
     }
     const auto a = place(chord, -1), b = place(chord, 0), c = place(chord, 1), d = place(chord, 2);
     if (!a || !b || !c || !d) return std::nullopt;  // ends cannot be told
@@ -99,12 +105,16 @@ class OrderedCurve {
     const auto turns = [&](Vec2 other) {
       return dot(over, other) < kStraight * norm(over) * norm(other);
     };
-    if (turns(*b - *a) || turns(*d - *c)) return std::nullopt;
+    const auto before = apart(chord, 0, -1), behind = apart(chord, 1, 1);
+    if ((before && turns(*b - *before)) || (behind && turns(*behind - *c))) return std::nullopt;
+    const auto along = residual_along_way({*a, *b, q, *c, *d});
     for (const long k : {-1L, 0L, 1L, 2L}) {
-      const double own = size_[*index(chord, k)];
-      if (own > limit_ * scale(chord) || own > kRest * size) return std::nullopt;
+      const std::size_t i = *index(chord, k);
+      const bool follows = size_[i] <= limit_ * scale(chord) && size_[i] <= kRest * size;
+      if (!follows && !(along && follows_along_way(i, *along, scale(chord)))) return std::nullopt;
     }
-    return r ? r->off : distance;
+    // a cubic between close points says nothing of a place that is far beyond their steps
+    return r && distance <= kFarther * step_ ? std::min(r->off, distance) : distance;
   }
 
  private:
@@ -126,14 +136,43 @@ class OrderedCurve {
     return at ? std::optional(row_[*at]) : std::nullopt;
   }
 
-  [[nodiscard]] std::optional<MiddleResidual> residual(std::size_t i) const {
+  /// The first point from there on that is not too near to tell a direction.
+  [[nodiscard]] std::optional<Vec2> apart(std::size_t chord, long from, long by) const {
+    const Vec2 here = *place(chord, from);
+    for (long k = from + by; std::abs(k) < static_cast<long>(row_.size()); k += by) {
+      const auto p = place(chord, k);
+      if (!p || norm(*p - here) >= kApart * goes_on_.middle_step) return p;
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] std::optional<std::array<Vec2, 5>> five_around(std::size_t i) const {
     std::array<Vec2, 5> five{};
     for (long k = -2; k <= 2; ++k) {
       const auto p = place(i, k);
       if (!p) return std::nullopt;
       five[static_cast<std::size_t>(k + 2)] = *p;
     }
-    return middle_residual(five);
+    return five;
+  }
+  [[nodiscard]] std::optional<MiddleResidual> residual(std::size_t i) const {
+    const auto five = five_around(i);
+    return five ? middle_residual(*five) : std::nullopt;
+  }
+  /// Whether a point of the row follows along the way of its neighbours, and one beside it does
+  /// not: cubics over a chord miss the curve beside long steps.
+  [[nodiscard]] bool follows_along_way(std::size_t i, const MiddleResidual& other,
+                                       double deviation) const {
+    const auto five = five_around(i);
+    const auto own = five ? residual_along_way(*five) : std::nullopt;
+    return own && other.in_deviations() > limit_ * deviation &&
+           own->in_deviations() <= kRestAroundNose * other.in_deviations();
+  }
+  [[nodiscard]] std::optional<PastEnd> seen_from_end(Vec2 q, bool from_last) const {
+    const std::size_t n = row_.size();
+    const auto at = [&](std::size_t k) {
+      return k == 0 ? q : from_last ? row_[n - k] : row_[k - 1];
+    };
+    return past_end_at(at, n + 1, 0, 1, goes_on_.middle_step);
   }
 
   [[nodiscard]] Nearest nearest(Vec2 q) const {
@@ -163,6 +202,7 @@ class OrderedCurve {
   std::vector<double> size_;
   std::size_t compared_ = 0;
   double deviation_ = 0.0, limit_ = 0.0;
+  RowGoesOn goes_on_;
 };
 
 class StraySearch {
@@ -187,7 +227,7 @@ class StraySearch {
       for (const std::size_t i : gone) {
         if (const auto off = curve.off(points_[i])) {
           out.strays.points.push_back({i, *off});
-        } else if (curve.is_near(points_[i])) {
+        } else if (curve.may_belong(points_[i])) {
           back.insert(i);
         }
       }

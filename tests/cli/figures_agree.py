@@ -207,6 +207,7 @@ class Subject:
         self.stored_is_answered(stored, answer)
         self.report_agrees_with_itself(stored)
         self.table_of_fit(table, stored)
+        self.lines_of_fit(table.out, answer["lines_and_arcs"])
         self.captions(labels_of(self.read("fit.svg")), stored, "picture of fit")
         self.verdict(table, labels_of(self.read("fit.svg")))
         certificate = self.verify(table, stored)
@@ -331,9 +332,12 @@ class Subject:
 
     def gaps(self, facts, certificate):
         said = self.found("joint gaps", rf"^position ({NUMBER}) of the size, heading ({NUMBER}) rad"
-                          rf"(?:, curvature|; curvature steps up to) ({NUMBER}|unknown)",
+                          rf"(?:(?:, curvature|; curvature steps up to) ({NUMBER}|unknown))?",
                           facts.get("joint gaps"))
         for text, key in zip(said or [], ("position", "heading", "curvature")):
+            if text is None:  # arcs of which no two meet but in corners
+                self.same("a " + key + " gap", certificate["joint_gaps"][key], 0)
+                continue
             self.shows(key + " gap", text.replace("unknown", UNKNOWN),
                        certificate["joint_gaps"][key])
 
@@ -352,6 +356,28 @@ class Subject:
             self.shows(what + "points-only error", alone, row["points_only_error"])
             self.shows(what + "width", width, row["width"])
             self.same(what + "inserted", int(inserted), row["inserted"])
+
+    def lines_of_fit(self, text, answered):
+        """The table of lines and arcs has the rows of the JSON."""
+        rows = {("all, from %d" if one["points"][0] == one["points"][1] else "%d-%d")
+                % tuple(p + 1 for p in one["points"][:1 if one["points"][0] == one["points"][1] else 2]): one
+                for one in answered}
+        table = text.partition("\nline or arc ")[2].partition("\n\n")[0]
+        printed = re.findall(r"^(all, from \d+|\d+-\d+) +(\S+) +(\S+) +(\S+) +(\S+) +(\S+) +(\S+)$", table, re.M)
+        self.same("there is a table of lines and arcs", bool(printed), bool(rows))
+        for points, radius, x, y, heading, length, farthest in printed:
+            one = rows.get(points)
+            if one is None:
+                self.same("row of lines and arcs", points, sorted(rows)[:3])
+                continue
+            what = f"line or arc {points}: "
+            self.same(what + "kind", radius == "straight", one["kind"] == "line")
+            self.shows(what + "radius", UNKNOWN if radius == "straight" else radius, one["radius"])
+            self.shows(what + "centre x", x, one["centre_x"])
+            self.shows(what + "centre y", y, one["centre_y"])
+            self.shows(what + "heading", heading, math.degrees(one["heading"]))
+            self.shows(what + "length", length, one["length"])
+            self.shows(what + "farthest point", farthest, one["farthest_point"])
 
     def captions(self, labels, stored, what):
         """A caption of a picture says what the report says."""
@@ -827,9 +853,9 @@ def jobs_of(data, own, every_file, everything):
         for path in files:
             turn += 1
             some = ["spiral", CARRIERS[1 + turn % (len(CARRIERS) - 1)]]
-            choices = [[], ["--noise", "rounding"]]
+            choices = [[], ["--noise", "rounding"], ["--noise", "rounding", "--primitives"]]
             jobs += [(path, options, CARRIERS if everything else some)
-                     for options in (choices if everything else [choices[turn % 2]])]
+                     for options in (choices if everything else [choices[turn % len(choices)]])]
     for pattern, choices, count in SERIES:
         files = sorted(p for p in data.glob(pattern) if p.is_file())
         there += len(files)

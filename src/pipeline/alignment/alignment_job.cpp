@@ -20,6 +20,7 @@
 #include "obvid/picture/internal/alignment_svg.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/element_table.h"
+#include "obvid/series/internal/order.h"
 #include "obvid/series/internal/sections.h"
 
 namespace obvid {
@@ -263,10 +264,12 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
   limits.without_steps = job.without_steps;
   limits.closed = closed;
   auto alignment = fit_alignment(series.points, *tolerance, limits, run);
-  const bool in_no_order = pipeline_detail::follow_in_no_order(series.points);
-  if (in_no_order && alignment) out.warnings.emplace_back(pipeline_detail::kInNoOrder);
-  if (in_no_order && !alignment && alignment.error().code != ErrorCode::kCancelled) {
-    alignment.error().hint = pipeline_detail::kInNoOrder;
+  if (auto hint = no_order_hint(series.points)) {
+    if (alignment) {
+      out.warnings.push_back(std::move(*hint));
+    } else if (alignment.error().code != ErrorCode::kCancelled) {
+      alignment.error().hint = std::move(*hint);
+    }
   }
   OBVID_TRY(alignment);
   const double first = first_station(job, series.units, out.remarks);

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "obvid/core/internal/near_name.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/audit.h"
+#include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/pipeline/internal/promise.h"
 #include "obvid/pipeline/internal/summary.h"
 #include "verify/false_claim.h"
@@ -87,6 +89,22 @@ void add_taken_over(JsonText& json, const Contour& contour) {
   json.pair("ellipse_arcs", kept.ellipses).pair("clothoids", kept.clothoids).end_object();
 }
 
+/// The rows of the table of lines and arcs.
+void add_lines_and_arcs(JsonText& json, const Contour& contour) {
+  json.key("lines_and_arcs").begin_array();
+  for (const LineOrArc& one : lines_and_arcs(contour)) {
+    const bool line = one.kappa == 0.0;
+    const auto of_arc = [&](double value) { return line ? kUnknownFigure : value; };
+    json.begin_object().pair("kind", line ? "line" : "arc");
+    json.key("points").begin_array().value(one.from).value(one.to).end_array();
+    json.pair("centre_x", of_arc(one.centre.x)).pair("centre_y", of_arc(one.centre.y));
+    json.pair("radius", line ? kUnknownFigure : 1.0 / one.kappa)
+        .pair("heading", principal_angle(one.theta));
+    json.pair("length", one.length).pair("farthest_point", one.off).end_object();
+  }
+  json.end_array();
+}
+
 }  // namespace
 
 std::string fit_report_json(const Fit& fit, const Written& written, Watch* watch) {
@@ -100,6 +118,7 @@ std::string fit_report_json(const Fit& fit, const Written& written, Watch* watch
   }
   json.pair("points", fit.contour.points.size()).pair("pieces", fit.contour.pieces.size());
   add_taken_over(json, fit.contour);
+  add_lines_and_arcs(json, fit.contour);
   json.key("report").raw(report_to_json(fit.report, watch));
   add_certificate(json, fit.certificate, watch);
   add_list(json, "warnings", fit.warnings);

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
-#include <utility>
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/numeric/internal/median.h"
@@ -48,24 +46,6 @@ std::optional<std::string> hint_at_closing(const std::vector<Vec2>& points, cons
       near ? "hardly farther than neighbours"
            : fmt::format("{} % of its length", significant(kPercent * apart / length, 2)),
       goes_on ? "" : ", around a tip");
-}
-
-bool follow_in_no_order(const std::vector<Vec2>& points) {
-  constexpr std::size_t kFewest = 12, kMostLooked = 200;  // points
-  constexpr double kBeyondNearest =
-      4.0;  // of the distance of the nearest: rows have 1, combs some 2
-  const std::size_t n = points.size();
-  if (n < kFewest) return false;
-  std::vector<double> beyond;
-  const std::size_t every = std::max<std::size_t>(1, n / kMostLooked);
-  for (std::size_t i = 0; i + 1 < n; i += every) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < n; ++k) {
-      if (k != i) nearest = std::min(nearest, norm(points[k] - points[i]));
-    }
-    if (nearest > 0.0) beyond.push_back(norm(points[i + 1] - points[i]) / nearest);
-  }
-  return !beyond.empty() && median_of(std::move(beyond)) > kBeyondNearest;
 }
 
 }  // namespace obvid::pipeline_detail

@@ -17,11 +17,4 @@ namespace obvid::pipeline_detail {
 [[nodiscard]] std::optional<std::string> hint_at_closing(const std::vector<Vec2>& points,
                                                          const Units& units);
 
-/// Whether, for the most part, the next point of the list is far beyond the nearest one.
-[[nodiscard]] bool follow_in_no_order(const std::vector<Vec2>& points);
-
-inline constexpr const char* kInNoOrder =
-    "the points follow each other in no order, as it seems: neighbours in the list are far beyond "
-    "the nearest points; --unordered puts them in that of their curve";
-
 }  // namespace obvid::pipeline_detail

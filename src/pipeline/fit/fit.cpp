@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "fit/assemble.h"
-#include "fit/closing_hint.h"
 #include "fit/excursion.h"
 #include "fit/form.h"
 #include "fit/given.h"
@@ -22,12 +21,15 @@
 #include "fit/section_chain.h"
 #include "fit/slope_step.h"
 #include "fit/waviness.h"
+#include "fit/whole_sections.h"
 #include "obvid/certify/certify.h"
 #include "obvid/chain/internal/smooth_chain.h"
 #include "obvid/contour/common/internal/carry.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/curve/internal/runs.h"
+#include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/region/internal/refine.h"
+#include "obvid/series/internal/order.h"
 #include "verify/against_spirals.h"
 #include "verify/report.h"
 
@@ -182,12 +184,17 @@ class SectionForming {
  public:
   SectionForming(const Prepared& series, const FitJob& job, double tolerance, FoundChains& chains,
                  Watch& watch)
-      : series_(series),
+      : series_(with_whole_sections(series)),
         job_(job),
         tolerance_(tolerance),
         chains_(chains),
         watch_(watch),
         have_spirals_(job.measure_against_spirals) {}
+
+  static Prepared with_whole_sections(Prepared series) {
+    lay_whole_sections(series);
+    return series;
+  }
 
   /// Runs of these parts keep their G2 spirals.
   SectionForming& keeping(const KeptParts& parts) {
@@ -202,6 +209,7 @@ class SectionForming {
     if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
     tell_bare_sections();
     out_.contour = finished(assembly_, job_.carrier);
+    tell_given_up();
     if (steps_everywhere(out_.contour)) {
       claim_slopes(out_.contour, false);
       out_.chain.slope_step_g2.reset();
@@ -236,6 +244,21 @@ class SectionForming {
     out_.warnings.push_back(no_primitives_text(where));
   }
 
+  /// Lines and arcs that are not kept, of all sections, beside those that the table has.
+  void tell_given_up() {
+    if (given_up_ == 0) return;
+    const std::size_t kept = lines_and_arcs(out_.contour).size();
+    out_.warnings.push_back(fmt::format(
+        "{}the points mean {} that {} not kept: beside {} no transition was found that stays "
+        "within the tolerance{}",
+        kept == 0
+            ? ""
+            : "beside the " + counted(kept, "line or arc", "lines and arcs") + " of the contour ",
+        counted(given_up_, kept == 0 ? "line or arc" : "more",
+                kept == 0 ? "lines and arcs" : "more"),
+        given_up_ == 1 ? "is" : "are", given_up_ == 1 ? "it" : "them", strays_));
+  }
+
   Result<void> form_one(std::size_t k) {
     const auto count = static_cast<double>(series_.split.sections.size());
     const ProgressShare share(watch_, static_cast<double>(k) / count,
@@ -248,6 +271,8 @@ class SectionForming {
     auto chain = chains_.chain(series_, section, watch_);
     OBVID_TRY(chain);
     if (chain->is_bare) bare_.push_back(k);
+    given_up_ += chain->given_up;
+    if (strays_.empty()) strays_ = chain->strays;
     auto spirals = spirals_of(*chain);
     if (!spirals && (carrier.needs == CarrierNeeds::kSpirals || !follows_spirals(job_.carrier))) {
       return fail(spirals.error());
@@ -418,7 +443,7 @@ class SectionForming {
     return contour;
   }
 
-  const Prepared& series_;
+  const Prepared series_;
   const FitJob& job_;
   double tolerance_;
   FoundChains& chains_;
@@ -427,6 +452,8 @@ class SectionForming {
   Assembly assembly_, spirals_;
   Waviness waviness_g2_{watch_};
   KeptParts kept_;
+  std::size_t given_up_ = 0;       ///< lines and arcs of all sections
+  std::string strays_;             ///< that break them, of the first section that has such
   std::vector<std::size_t> bare_;  ///< sections without a line or arc that were asked for
   bool have_spirals_;              // as long as they are asked for, and all sections have them
 };
@@ -705,8 +732,8 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
   }
   if (!formed) {
     Error error = formed.error();
-    if (follow_in_no_order(prepared.points)) {
-      error.hint = kInNoOrder;
+    if (auto hint = no_order_hint(prepared.points)) {
+      error.hint = std::move(*hint);
     } else if (!prepared.polygon.empty()) {
       error.hint += (error.hint.empty() ? "" : "; ") + prepared.polygon;
     }

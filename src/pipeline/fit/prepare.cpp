@@ -15,6 +15,7 @@
 #include "obvid/core/units.h"
 #include "obvid/numeric/internal/median.h"
 #include "obvid/series/internal/coarse_polygon.h"
+#include "obvid/series/internal/order.h"
 #include "obvid/series/internal/scatter.h"
 
 namespace obvid::pipeline_detail {
@@ -211,6 +212,11 @@ class Preparation {
 
   /// The noise of all points alike: what was said, what the digits say, or what the points show.
   Result<Vec2> common_noise() {
+    if (job_.noise_from_rounding && job_.primitives) {
+      // a line that was built passes its points as far as half the diagonal of their cells
+      const double diagonal = norm(series_.rounding);
+      return Vec2{diagonal, diagonal};
+    }
     if (job_.noise_from_rounding) return series_.rounding;
     if (!job_.noise_from_scatter) {
       const double noise = job_.noise.value_or(0.0);
@@ -218,6 +224,11 @@ class Preparation {
     }
     auto seen = scatter_of(out_.points);
     if (!seen) {
+      if (auto hint = no_order_hint(out_.points)) {
+        seen = error(ErrorCode::kOutOfOrder,
+                     "noise shows between neighbours, and these do not follow one another")
+                   .hint(std::move(*hint));
+      }
       seen.error().where = "--noise auto";
       return fail(seen.error());
     }

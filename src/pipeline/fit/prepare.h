@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,19 @@
 #include "obvid/series/internal/sections.h"
 
 namespace obvid::pipeline_detail {
+
+/// A line or arc from the beginning to the end of a section.
+struct WholePiece {
+  Element start, end;
+  double turn = 0.0;  ///< from end to end, rad
+
+  bool operator==(const WholePiece& other) const {
+    const auto same = [](const Element& a, const Element& b) {
+      return a.point == b.point && a.theta == b.theta && a.kappa == b.kappa;
+    };
+    return same(start, other.start) && same(end, other.end) && turn == other.turn;
+  }
+};
 
 /// A series ready to be formed: cleaned, its tolerances known, cut at its corners.
 struct Prepared {
@@ -26,15 +40,26 @@ struct Prepared {
   double above_least = 0.0;  ///< as in the job, with its default
   bool central = false;      ///< each in the middle of what is left to it, when ranges ask for it
   bool primitives = false;
-  bool thin = true;  ///< fewer joints than points where points with tolerances are dense
+  bool thin = true;   ///< fewer joints than points where points with tolerances are dense
   double part = 1.0;  ///< of the tolerances that `reach` uses
   bool closed = false;
   std::optional<Vec2> period{};  ///< as in the job
   SplitSeries split;
+  /// What `lay_whole_sections` found: where each point that is a corner lies, and of each section
+  /// the line or arc that it is. Empty without any.
+  std::vector<Vec2> placed{};
+  std::vector<std::optional<WholePiece>> whole{};
   std::vector<std::string> warnings;
   std::string polygon;  ///< what is said when the points may be corners of a polygon; mostly empty
 
   [[nodiscard]] bool exact() const { return tolerance.empty(); }
+  /// The line or arc that a section is.
+  [[nodiscard]] std::optional<WholePiece> whole_of(const Section& section) const {
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+      if (split.sections[k].first == section.first) return whole[k];
+    }
+    return std::nullopt;
+  }
 };
 
 /// Merges equal neighbours, gathers fixed data and tolerances from series and job, decides whether

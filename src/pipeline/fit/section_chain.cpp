@@ -29,6 +29,8 @@ namespace {
 
 /// Points of a loop that are looked at beyond its seam, on both sides.
 constexpr std::size_t kOverlap = 16;
+/// An arc that is a whole section comes in parts that turn by no more than this, rad.
+constexpr double kMostTurnOfPart = 3.0;
 /// Points taken off the ends of primitives beside which no transition fits.
 constexpr int kMostTrims = 40;
 /// Fewer points than this lie on one circle: there is nothing to choose.
@@ -95,8 +97,10 @@ class SectionChooser {
     const std::size_t last = loop_ ? series.points.size() - 1 : section.last;
     for (std::size_t k = section.first; k <= last; ++k) {
       index_.push_back(series.split.point_at(k));
-      points_.push_back(series.points[index_.back()]);
+      points_.push_back(series.placed.empty() ? series.points[index_.back()]
+                                              : series.placed[index_.back()]);
     }
+    whole_ = series.whole_of(section);
     goes_on_ = series_.period && !series_.closed && points_.size() == series_.points.size();
   }
 
@@ -241,10 +245,13 @@ class SectionChooser {
     out_ = {};
     moves_ = std::any_of(index_.begin(), index_.end(),
                          [&](std::size_t i) { return series_.reach[i] > 0.0; });
-    auto chain =
-        moves_ && points_.size() >= kFewestForFairing && !lies_on_one_circle() ? within_tolerances()
-        : loop_ || (goes_on_ && !central_)                                     ? around_loop()
-                                           : through_points(points_, constraints(), index_);
+    const auto whole = whole_chain();
+    auto chain = whole ? Result<SeriesChain>(*whole)
+                 : moves_ && points_.size() >= kFewestForFairing && !lies_on_one_circle()
+                     ? within_tolerances()
+                 : loop_ || (goes_on_ && !central_)
+                     ? around_loop()
+                     : through_points(points_, constraints(), index_);
     if (!chain) chain = fail(in_whole_series(chain.error()));
     if (chain) {
       for (auto& source : chain->source) {
@@ -690,6 +697,29 @@ class SectionChooser {
     return measured.meant;
   }
 
+  /// The line or arc that the section is, from end to end.
+  std::optional<SeriesChain> whole_chain() {
+    if (!whole_) return std::nullopt;
+    FairedSeries faired;
+    const Element& start = whole_->start;
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(std::abs(whole_->turn) / kMostTurnOfPart)));
+    for (int k = 0; k <= parts; ++k) {
+      const double turn = whole_->turn * k / parts;
+      const Vec2 chord =
+          (2.0 * std::sin(0.5 * turn) / start.kappa) * unit_at(start.theta + 0.5 * turn);
+      faired.elements.push_back({start.point + chord, start.theta + turn, start.kappa});
+      faired.source.emplace_back();
+      if (k > 0) faired.direction.push_back(0);
+    }
+    faired.elements.front() = start;
+    faired.elements.back() = whole_->end;
+    faired.source.front() = 0;
+    faired.source.back() = points_.size() - 1;
+    auto chain = follow(faired, {});
+    return chain ? std::optional(std::move(*chain)) : std::nullopt;
+  }
+
   /// Of a loop whose points lie within their tolerances of one circle, which has no vertex.
   std::optional<SeriesChain> whole_circle(MeasuredSeries measured) {
     if (!loop_ || measured.primitives || has_data() || !lies_near_one_circle(measured)) {
@@ -729,18 +759,14 @@ class SectionChooser {
   }
 
   void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {
-    if (meant.size() > static_cast<std::size_t>(faired.primitives)) {
-      out_.warnings.push_back(missing_text(faired, meant) + strays_text());
+    const std::string missing = meant.size() > static_cast<std::size_t>(faired.primitives)
+                                    ? missing_text(faired, meant)
+                                    : std::string{};
+    if (!missing.empty()) {
+      out_.warnings.push_back(missing + strays_text());
     } else if (meant.empty() && faired.given_up > 0) {
-      const auto all = static_cast<std::size_t>(faired.primitives + faired.given_up);
-      out_.warnings.push_back(fmt::format(
-          "the points mean {}, of which {} kept: beside the others no transition was found that "
-          "stays within the tolerance{}",
-          counted(all, "line or arc", "lines and arcs"),
-          faired.primitives == 0   ? "none is"
-          : faired.primitives == 1 ? "1 is"
-                                   : fmt::format("{} are", faired.primitives),
-          strays_text()));
+      out_.given_up = static_cast<std::size_t>(faired.given_up);
+      out_.strays = strays_text();
     } else if (faired.primitives == 0) {
       out_.is_bare = series_.split.sections.size() > 1;
       if (!out_.is_bare) out_.warnings.push_back(no_primitives_text() + strays_text());
@@ -770,7 +796,7 @@ class SectionChooser {
                        one ? "its" : "their", one ? "it" : "them");
   }
 
-  /// Names what the points mean and the contour does not have.
+  /// Names what the points mean and the contour does not have; empty: nothing.
   [[nodiscard]] std::string missing_text(const FairedSeries& faired,
                                          const std::vector<MeantPiece>& meant) const {
     std::string missing;
@@ -783,13 +809,16 @@ class SectionChooser {
                                                                  std::abs(1.0 / m.middle.kappa)),
                              index_[m.first % n] + 1, index_[m.last % n] + 1);
     }
+    if (missing.empty()) return {};
+    const MeantPiece& first = meant.front();
+    const bool all = !loop_ && meant.size() == 1 && first.first <= 1 && first.last + 2 >= n;
     return fmt::format(
-        "the points mean {}, of which the contour does not keep {}: no transitions beside them "
-        "were "
-        "found that stay within the tolerance; `obvid alignment` has them, with steps of the "
-        "curvature",
-        counted(meant.size(), "line or arc", "lines and arcs"),
-        missing.empty() ? std::string("all") : missing);
+        "the contour does not keep {}, which the points mean: {}", missing,
+        all ? (has_data() ? "none that has all points within their tolerances and what is given "
+                            "was found"
+                          : "none that has all points within their tolerances was found")
+            : "no transitions beside them were found that stay within the tolerance; `obvid "
+              "alignment` has them, with steps of the curvature");
   }
 
   /// Whether point i lies between the first and last point of a line or arc of the contour.
@@ -988,6 +1017,7 @@ class SectionChooser {
   std::map<std::size_t, double> held_;       // headings by points of the whole series, rad
   std::map<std::size_t, FixedData> bounds_;  // ends of ranges that hold, likewise
   std::optional<double> cap_;                // largest curvature at any point
+  std::optional<WholePiece> whole_;          // that the section is
   bool central_ = false;
   bool turns_alone_known_ = false;
   std::optional<ChainTurns> turns_alone_;
@@ -1015,9 +1045,16 @@ void FoundChains::begin_another() {
 Result<SectionChain> FoundChains::chain(const Prepared& series, const Section& section,
                                         Watch& watch) {
   using Clock = std::chrono::steady_clock;
-  Asked asked{section.first, section.last,  series.split.smooth_loop,
-              series.thin,   series.convex, series.prefer,
-              series.points, series.reach,  series.fixed};
+  Asked asked{section.first,
+              section.last,
+              series.split.smooth_loop,
+              series.thin,
+              series.convex,
+              series.prefer,
+              series.placed.empty() ? series.points : series.placed,
+              series.reach,
+              series.fixed,
+              series.whole_of(section)};
   for (Found& one : found_) {
     if (!(one.asked == asked)) continue;
     spared_ += std::exchange(one.counts, false) ? one.seconds : 0.0;

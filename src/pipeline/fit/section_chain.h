@@ -17,6 +17,8 @@ struct SectionChain {
   NodeData seam{};  ///< what was given where a smooth loop begins; the chain holds that element
   std::vector<std::string> warnings;
   bool at_the_edge = false;  ///< of `edge_chain`: what is given leaves no fairer one that was found
+  std::size_t given_up = 0;  ///< lines and arcs that the points mean and that are not kept
+  std::string strays{};      ///< what is said of points that break them
   bool is_bare = false;      ///< one of several sections, without a line or arc that were asked for
 };
 
@@ -49,6 +51,7 @@ class FoundChains {
     std::vector<Vec2> points;
     std::vector<double> reach;
     std::vector<FixedData> fixed;
+    std::optional<WholePiece> whole;
 
     bool operator==(const Asked&) const = default;
   };

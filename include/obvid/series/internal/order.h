@@ -2,6 +2,8 @@
 #pragma once  // reentrant: docs/threads.md
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "obvid/core/result.h"
@@ -35,5 +37,10 @@ struct CurveOrder {
 /// Errors: E304 fewer than 3 points; E307 more than 20,000; E313 points that coincide, and points
 /// without a certain order: that scatter more than they are apart, curves that meet.
 [[nodiscard]] Result<CurveOrder> order_along_curve(const std::vector<Vec2>& points);
+
+/// What is said of points that follow each other in no order: where, of 12 points or more, the next
+/// one of the list is beyond four times the distance of the nearest one, for the most part. Else
+/// nothing. O(n), of 200 points.
+[[nodiscard]] std::optional<std::string> no_order_hint(const std::vector<Vec2>& points);
 
 }  // namespace obvid
