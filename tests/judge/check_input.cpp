@@ -51,7 +51,14 @@ Expected expected_of(const Input& input, const ContourFile& file) {
   // the first point again, as sums and products of doubles give it
   const bool exact = apart <= 16.0 * 0x1p-53 * (std::abs(first.point.x) + std::abs(first.point.y));
   const double rounding = input.rounding ? rounding_of(input.points) : 0.0;
-  const double reach = std::max(2.0 * rounding, reach_of(first, input) + reach_of(last, input));
+  double reach = std::max(2.0 * rounding, reach_of(first, input) + reach_of(last, input));
+  // so little is left to the rounding of coordinates (docs/methods/series.md)
+  constexpr double kToldFromRounding = 64.0 * 0x1p-53;
+  double largest = 0.0;
+  for (const GivenPoint& p : input.points) {
+    largest = std::max(largest, std::abs(p.point.x) + std::abs(p.point.y));
+  }
+  if (file.tolerance.empty() && reach < 2.0 * kToldFromRounding * largest) reach = 0.0;
   constexpr double kLastDigits = 1.0 + 1e-9;
   const bool one_less = file.closed && file.points.size() + 1 == out.points.size();
   const bool leaves_a_loop = out.points.size() > 3;

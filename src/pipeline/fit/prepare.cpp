@@ -250,7 +250,16 @@ class Preparation {
     // all alike: some points that are met and some that move by roundings would be no contour's
     // gain
     constexpr double kWorthMoving = 4.0;
-    if (std::max(common.x, common.y) < kWorthMoving * least) common = {};
+    const double asked = std::max(common.x, common.y);
+    if (asked < kWorthMoving * least) {
+      common = {};
+      if (job_.noise.value_or(0.0) > 0.0 && !job_.noise_from_scatter) {
+        out_.warnings.push_back(fmt::format(
+            "--noise {:.4g} says nothing here: moves below {:.2g} {} cannot be told from the "
+            "rounding of coordinates as large as these, and the points are met as they are",
+            asked, kWorthMoving * least, series_.units.text()));
+      }
+    }
     for (std::size_t i = 0; i < out_.points.size(); ++i) {
       const FixedData& f = fixed_[i].data;
       const double reach = beside_kept(i) ? 0.0 : f.tolerance ? *f.tolerance : across(i, common);
