@@ -17,7 +17,7 @@ Result<Fit> fit_within(const PointSeries& series, FitJob job, double tolerance, 
   job.noise_from_scatter = false;
   PointSeries allowed = series;
   for (FixedData& data : allowed.fixed) {
-    if (data.tolerance) data.tolerance = std::max(*data.tolerance, tolerance);
+    if (data.tolerance && *data.tolerance < tolerance) data.tolerance.reset();
   }
   return fit(allowed, job, watch);
 }
