@@ -9,6 +9,7 @@
 #include "obvid/alignment/transition.h"
 #include "obvid/cad/internal/cad.h"
 #include "obvid/exchange/internal/dxf/read.h"
+#include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/exchange/internal/gcode/path.h"
 #include "obvid/exchange/internal/geo/geojson.h"
 #include "obvid/exchange/internal/geo/gpx.h"
@@ -18,6 +19,7 @@
 #include "obvid/exchange/internal/road/opendrive.h"
 #include "obvid/exchange/internal/svg/drawing.h"
 #include "obvid/exchange/internal/svg/read.h"
+#include "obvid/exchange/internal/whole_arcs.h"
 #include "obvid/io/contour_json.h"
 #include "obvid/io/internal/private_copy.h"
 #include "obvid/io/read_sections.h"
@@ -118,6 +120,7 @@ OBVID_LATER(Result<Exported> export_together(const std::vector<TitledContour>&, 
                                              const ExportOptions&, const RunContext&))
 OBVID_LATER(Result<GcodeText> gcode_text(const Contour&, const GcodeOptions&, Watch*))
 OBVID_LATER(std::vector<Piece> exchange::whole_arcs(const std::vector<Piece>&))
+OBVID_LATER(const char* exchange::machine_unit(const Units&))
 OBVID_LATER(std::size_t elements_in(std::size_t, const std::vector<PlacedTransition>&))
 OBVID_LATER(DataTable profile_rows(const VerticalProfile&))
 OBVID_LATER(std::string_view landxml_unit(std::string_view))

@@ -575,7 +575,7 @@ TEST(JudgeTexts, KnowsHowFarPointsMayMoveThatScatterKnownly) {
   const double residual = (8.0 / 3.0) / std::sqrt(35.0 / 18.0);
   const double sigma = std::sqrt(256.0 / 255.0) * residual / 0.6744897501960817;
   const double reach = std::sqrt(2.0 * std::log(41.0 / 0.05)) * sigma;
-  const auto found = reach_of_scatter(points);
+  const auto found = reach_of_scatter(points, 0.0);
   ASSERT_TRUE(found.has_value());
   EXPECT_NEAR(found->least, reach, 1e-9 * reach);
   EXPECT_NEAR(found->greatest, reach, 1e-9 * reach);
