@@ -13,6 +13,8 @@
 namespace obvid::cutting {
 namespace {
 
+/// Up to so many tracks each order is measured with places chosen for it; more would take long.
+constexpr std::size_t kMostPlacedAnew = 40;
 /// Places where tracks begin change with the order of visits, which changes with them: so often.
 constexpr int kMostRounds = 6;
 /// Quarters of circles lead in and out.
@@ -268,14 +270,66 @@ class Ordering {
     return sum;
   }
 
-  /// With starts as they are tracks change places, then starts move to where the ways are short.
   void shorten() {
-    tour_ = with_better_starts(tour_);
-    for (int round = 0; round < kMostRounds && !watch_.cancelled(); ++round) {
-      const Tour other = with_better_starts(reordered(tour_));
-      if (!(way(other) < way(tour_) * (1.0 - kLittle))) break;
-      tour_ = other;
+    const Tour first = tour_;
+    tour_ = with_better_starts(first);
+    tour_ = shortened(tour_);
+    if (tour_.size() > kMostPlacedAnew) return;
+    for (const Tour& from : {tour_, first}) {
+      const Tour other = shortened(with_better_starts(moved_one_by_one(from)));
+      if (way(other) < way(tour_) * (1.0 - kLittle)) tour_ = other;
     }
+  }
+
+  /// With starts as they are tracks change places, then starts move to where the ways are short.
+  [[nodiscard]] Tour shortened(Tour tour) const {
+    for (int round = 0; round < kMostRounds && !watch_.cancelled(); ++round) {
+      Tour other = with_better_starts(reordered(tour));
+      if (!(way(other) < way(tour) * (1.0 - kLittle))) break;
+      tour = std::move(other);
+    }
+    return tour;
+  }
+
+  /// Begun as near as they can to where the tool comes from.
+  [[nodiscard]] Tour placed_anew(Tour tour) const {
+    Vec2 at{};
+    for (Planned& planned : tour) {
+      planned.start = best_start(planned.track, {at, {}});
+      at = planned.start.end;
+    }
+    return tour;
+  }
+
+  [[nodiscard]] bool is_allowed(const Tour& tour) const {
+    std::vector<bool> done(tracks_.size());
+    for (const Planned& planned : tour) {
+      if (!may_be_next(planned.track, done)) return false;
+      done[planned.track] = true;
+    }
+    return true;
+  }
+
+  /// One track at a time goes to another turn, all placed anew, as long as that helps.
+  [[nodiscard]] Tour moved_one_by_one(const Tour& from_tour) const {
+    Tour best = placed_anew(from_tour);
+    for (bool better = true; better && !watch_.cancelled();) {
+      better = false;
+      for (std::size_t from = 0; from < best.size() && !watch_.cancelled(); ++from) {
+        for (std::size_t to = 0; to < best.size(); ++to) {
+          Tour trial = best;
+          const Planned moved = trial[from];
+          trial.erase(trial.begin() + static_cast<std::ptrdiff_t>(from));
+          trial.insert(trial.begin() + static_cast<std::ptrdiff_t>(to), moved);
+          if (from == to || !is_allowed(trial)) continue;
+          trial = placed_anew(std::move(trial));
+          if (!(way(trial) < way(best) * (1.0 - kLittle))) continue;
+          best = std::move(trial);
+          better = true;
+        }
+      }
+    }
+    return best;
   }
 
   [[nodiscard]] Tour reordered(const Tour& tour) const {
