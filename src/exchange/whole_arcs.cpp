@@ -11,17 +11,18 @@ namespace obvid::exchange {
 namespace {
 
 /// Whether one arc from the start of the first is both, but for what rounding leaves of coordinates
-/// and directions: far from the origin that is more than of the arcs themselves.
+/// and directions: far from the origin that is more than of the arcs themselves. Curvatures do not
+/// know how far that is.
 bool is_one_arc(const ArcPiece& first, const ArcPiece& second) {
   constexpr double kSameCircle = 1e-10;  // of the length: what offsetting makes of rounding
   constexpr double kRoundings = 64.0 * numeric::kUnitRoundoff;  // of coordinates
   const double length = second.length;
   const double turn = std::abs(first.kappa) * (first.length + length);
   const double step = first.theta0 + first.kappa * first.length - second.theta0;
-  const double off = norm(first.end - second.start) + std::abs(principal_angle(step)) * length +
-                     0.5 * std::abs(first.kappa - second.kappa) * length * length;
+  const double off = norm(first.end - second.start) + std::abs(principal_angle(step)) * length;
   const double room = kSameCircle * length + kRoundings * (norm(second.start) + norm(second.end));
-  return off <= room && turn <= kFullTurn + std::abs(first.kappa) * room;
+  const bool bent_alike = 0.5 * std::abs(first.kappa - second.kappa) * length <= kSameCircle;
+  return bent_alike && off <= room && turn <= kFullTurn + std::abs(first.kappa) * room;
 }
 
 }  // namespace

@@ -94,8 +94,10 @@ class Work : public ProgramRuns {
   /// A contour that stays G2 although G3 was asked for says why; the scatter is told as it is used.
   void told_options(const Course& course, const Run& fit, const Input& input) {
     if (input.continuity == "G3" && course.file.continuity != "G3") {
-      const bool said = fit.out.find("G2 because") != std::string::npos ||
-                        fit.err.find("not proved, so this one is G2") != std::string::npos;
+      const bool said =
+          fit.out.find("G2 because") != std::string::npos ||
+          fit.err.find("not proved, so this one is G2") != std::string::npos ||
+          std::regex_search(fit.err, std::regex(R"(was found at (\d+) of \1 joints)"));
       out_.sheet.expect(said, "continuity", course.file.continuity,
                         std::string("G3 was asked for, and nothing says why not"), "");
     }
