@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "obvid/alignment/alignment.h"
+#include "obvid/geom/internal/circle.h"
 #include "obvid/series/internal/scatter.h"
 
 namespace obvid::pipeline_detail {
@@ -109,11 +110,9 @@ class AlignedLines {
     const double size = norm(inward);
     if (!(size > 0.0)) return true;  // places fall together
     const double kappa = 2.0 * std::abs(area) / size;
-    const Vec2 normal = (std::copysign(1.0, area) / size) * inward;
+    const Vec2 tangent = (std::copysign(1.0, area) / size) * -left_normal(inward);
     for (std::size_t i = first; i <= last; ++i) {
-      const Vec2 w = points_[i] - begin;
-      const double power = kappa * dot(w, w) - 2.0 * dot(normal, w);
-      const double off = power / (1.0 + std::sqrt(std::max(0.0, 1.0 + kappa * power)));
+      const double off = distance_beside_circle(begin, tangent, kappa, points_[i]);
       if (!(std::abs(off) <= kThroughThree * tolerance[i])) return false;
     }
     return true;

@@ -20,6 +20,7 @@
 #include "obvid/core/internal/figures.h"
 #include "obvid/fairing/internal/fairing.h"
 #include "obvid/geom/internal/angle.h"
+#include "obvid/geom/internal/circle.h"
 #include "obvid/series/analysis.h"
 #include "obvid/series/internal/outliers.h"
 #include "obvid/series/internal/scatter.h"
@@ -734,25 +735,11 @@ class SectionChooser {
     return whole ? std::move(chain) : std::nullopt;
   }
 
-  /// The circle of least squares of the squares of distances: around it, it is nearly the one of
-  /// the distances.
   static bool lies_near_one_circle(const MeasuredSeries& measured) {
-    const auto n = static_cast<double>(measured.points.size());
-    Vec2 middle{};
-    for (const Vec2 p : measured.points) middle = middle + p / n;
-    double xx = 0.0, xy = 0.0, yy = 0.0, x_square = 0.0, y_square = 0.0, square = 0.0;
-    for (const Vec2 p : measured.points) {
-      const Vec2 d = p - middle;
-      const double s = dot(d, d);
-      xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
-      x_square += d.x * s, y_square += d.y * s, square += s;
-    }
-    const double det = 2.0 * (xx * yy - xy * xy);
-    if (!(det > 0.0)) return false;
-    const Vec2 off = Vec2{yy * x_square - xy * y_square, xx * y_square - xy * x_square} / det;
-    const double radius = std::sqrt(square / n + dot(off, off));
+    const auto circle = circle_of_squares(measured.points);
+    if (!circle) return false;
     for (std::size_t i = 0; i < measured.points.size(); ++i) {
-      const double away = norm(measured.points[i] - middle - off) - radius;
+      const double away = norm(measured.points[i] - circle->centre) - circle->radius;
       if (!(std::abs(away) <= measured.reach[i])) return false;
     }
     return true;

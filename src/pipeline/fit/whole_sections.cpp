@@ -107,21 +107,9 @@ std::optional<Shape> first_guess(const Points& points, bool arc) {
     if (first == last) return std::nullopt;
     return Shape{0.5 * (first + last), heading(last - first), 0.0};
   }
-  const auto n = static_cast<double>(points.at.size());
-  Vec2 middle{};
-  for (const Vec2 p : points.at) middle = middle + p / n;
-  double xx = 0.0, xy = 0.0, yy = 0.0, x_square = 0.0, y_square = 0.0, square = 0.0;
-  for (const Vec2 p : points.at) {
-    const Vec2 d = p - middle;
-    const double s = dot(d, d);
-    xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
-    x_square += d.x * s, y_square += d.y * s, square += s;
-  }
-  const double det = 2.0 * (xx * yy - xy * xy);
-  if (!(det > 0.0)) return std::nullopt;
-  const Vec2 off = Vec2{yy * x_square - xy * y_square, xx * y_square - xy * x_square} / det;
-  const double radius = std::sqrt(square / n + dot(off, off));
-  const Vec2 centre = middle + off;
+  const auto circle = circle_of_squares(points.at);
+  if (!circle) return std::nullopt;
+  const auto& [centre, radius] = *circle;
   double turned = 0.0;
   for (std::size_t i = 1; i < points.at.size(); ++i) {
     turned += cross(points.at[i - 1] - centre, points.at[i] - centre);

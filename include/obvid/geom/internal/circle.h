@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "obvid/geom/vec2.h"
 
@@ -17,6 +19,31 @@ namespace obvid {
 /// The same with a heading, without a sign.
 [[nodiscard]] inline double distance_from_circle(Vec2 start, double theta, double kappa, Vec2 p) {
   return std::abs(distance_beside_circle(start, unit_at(theta), kappa, p));
+}
+
+struct LeastSquaresCircle {
+  Vec2 centre;
+  double radius = 0.0;
+};
+
+/// The circle of least squares of the squares of distances: around a circle, it is nearly
+/// the one of the distances. Nothing of points on a line.
+[[nodiscard]] inline std::optional<LeastSquaresCircle> circle_of_squares(
+    const std::vector<Vec2>& points) {
+  const auto n = static_cast<double>(points.size());
+  Vec2 middle{};
+  for (const Vec2 p : points) middle = middle + p / n;
+  double xx = 0.0, xy = 0.0, yy = 0.0, x_square = 0.0, y_square = 0.0, square = 0.0;
+  for (const Vec2 p : points) {
+    const Vec2 d = p - middle;
+    const double s = dot(d, d);
+    xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
+    x_square += d.x * s, y_square += d.y * s, square += s;
+  }
+  const double det = 2.0 * (xx * yy - xy * xy);
+  if (!(det > 0.0)) return std::nullopt;
+  const Vec2 off = Vec2{yy * x_square - xy * y_square, xx * y_square - xy * x_square} / det;
+  return LeastSquaresCircle{middle + off, std::sqrt(square / n + dot(off, off))};
 }
 
 }  // namespace obvid
