@@ -76,6 +76,19 @@ std::string curves_table(const CurveComparison& compared) {
   return table.text();
 }
 
+/// How much of the first curve was measured; 100.0 where nothing is left.
+std::string measured_percent(const CurveDeviation& one) {
+  constexpr double kTenths = 1000.0;
+  return percent(std::floor(one.measured * kTenths) / kTenths, 1);
+}
+
+/// Places of the first curve at which others were looked for.
+std::size_t most_places(const CurveComparison& compared) {
+  std::size_t most = 0;
+  for (const CurveDeviation& one : compared.as_they_lie) most = std::max(most, one.places.size());
+  return most;
+}
+
 /// `unit`: what deviations are multiplied by.
 void add_rows(Table& table, const CurveComparison& compared,
               const std::vector<CurveDeviation>& deviations, const char* how, double unit) {
@@ -94,7 +107,7 @@ void add_rows(Table& table, const CurveComparison& compared,
     } else {
       row.insert(row.end(), compared.airfoils ? 6 : 4, "-");
     }
-    row.push_back(percent(one.measured, 1));
+    row.push_back(measured_percent(one));
     table.row(std::move(row));
   }
 }
@@ -119,8 +132,9 @@ std::string deviations_table(const CurveComparison& compared) {
     add_rows(table, compared, compared.on_one_chord, "on one chord, % of it",
              100.0 / first.airfoil->chord);
   }
-  return fmt::format("from {}, along its normals, {} positive\n{}", first.name,
-                     compared.outward ? "outward" : "to the left", table.text());
+  return fmt::format("from {}, along its normals at {} places, {} positive\n{}", first.name,
+                     most_places(compared), compared.outward ? "outward" : "to the left",
+                     table.text());
 }
 
 std::string compared_text(const CurveComparison& compared) {
@@ -148,7 +162,7 @@ void add_deviation_figures(const CurveComparison& compared,
                            double unit, ReportPage& page) {
   for (const CurveDeviation& one : deviations) {
     const std::string label = "deviation of " + compared.curves[one.curve].name + ", " + how;
-    const std::string part = " (" + percent(one.measured, 1) + " % of the curve measured)";
+    const std::string part = " (" + measured_percent(one) + " % of the curve measured)";
     page.figures.emplace_back(
         label + ", root mean square",
         (one.largest ? significant(unit * one.root_mean_square, kCurveDigits) : "-") + part);
@@ -191,8 +205,9 @@ std::string curves_page(const CurveComparison& compared, const CompareOptions& o
   std::vector<std::string> names;
   for (const ComparedCurve& curve : compared.curves) names.push_back(curve.name);
   page.title = listed(names);
-  page.verdict = fmt::format("deviations from {}, along its normals, {} positive", names.front(),
-                             compared.outward ? "outward" : "to the left");
+  page.verdict =
+      fmt::format("deviations from {}, along its normals at {} places, {} positive", names.front(),
+                  most_places(compared), compared.outward ? "outward" : "to the left");
   page.pictures.push_back(curves_svg(compared, options.enlarge));
   page.figures = {{"asked for", options.asked}, {"lengths in", compared.units.text()}};
   page.warnings = warnings;

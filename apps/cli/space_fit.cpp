@@ -103,8 +103,11 @@ std::string spatial_text(const SpaceFit& fit, const std::vector<std::size_t>& nu
                                    number(fit.least_torsion), number(fit.largest_torsion), unit,
                                    fit.torsion_places, number(fit.torsion_step)));
   if (fit.plan.contour.continuity == Continuity::kG2) {
-    facts.add("", fit.seam ? "--continuity G3 makes the torsion continuous but at the seam"
-                           : "--continuity G3 makes the torsion continuous");
+    facts.add("", fit.seam
+                      ? "--continuity G3 makes the torsion continuous but at the seam, and at "
+                        "joints whose slope of curvature it says to step"
+                      : "--continuity G3 makes the torsion continuous but at joints whose slope "
+                        "of curvature it says to step");
   }
   if (fit.seam) facts.add("seam", seam_words(*fit.seam, fit.plan.contour));
   if (fit.largest_move > 0.0) {

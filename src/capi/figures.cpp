@@ -16,6 +16,11 @@ void add_count(int& sum, int one) {
   if (one != kNotCounted) sum = std::max(sum, 0) + one;
 }
 
+/// The largest of all parts; unknown where it is unknown of one.
+void add_largest(double& sum, double one, bool first) {
+  sum = first ? one : (std::isnan(sum) ? sum : std::isnan(one) ? one : std::max(sum, one));
+}
+
 }  // namespace
 
 obvid_figures no_figures() {
@@ -47,15 +52,16 @@ obvid_figures figures_of(const Contour& contour, const FitReport* report,
 }
 
 void add_figures(obvid_figures& sum, const obvid_figures& one) {
+  const bool first = sum.pieces == kNotCounted;
   add_count(sum.points, one.points);
   add_count(sum.pieces, one.pieces);
   add_count(sum.vertices, one.vertices);
   add_count(sum.inflections, one.inflections);
   add_count(sum.bound, one.bound);
   add_count(sum.corners, one.corners);
-  sum.error = std::fmax(sum.error, one.error);
-  sum.move = std::fmax(sum.move, one.move);
-  sum.width = std::fmax(sum.width, one.width);
+  add_largest(sum.error, one.error, first);
+  add_largest(sum.move, one.move, first);
+  add_largest(sum.width, one.width, first);
   sum.proved = sum.proved == kNotCounted ? one.proved : std::min(sum.proved, one.proved);
 }
 

@@ -55,7 +55,7 @@ std::vector<SurfacePatch> unseamed_halves(const SurfacePatch& patch, double size
 struct PatchDone {
   std::optional<Error> error;
   std::vector<SurfacePatch> left;
-  std::size_t cut = 0;
+  std::size_t whole = 0, cut = 0, dropped = 0;  // of its halves, where it was halved
   double deviation = 0.0;
 };
 
@@ -83,8 +83,8 @@ class Trimmer {
       if (one.error) return fail(std::move(*one.error));
       out.cut += one.cut;
       out.deviation = std::max(out.deviation, one.deviation);
-      if (one.left.empty()) ++out.dropped;
-      if (one.cut == 0 && !one.left.empty()) ++out.whole;
+      out.whole += one.whole;
+      out.dropped += one.dropped;
       for (SurfacePatch& patch : one.left) out.model.patches.push_back(std::move(patch));
     }
     if (out.model.patches.empty()) {
@@ -99,7 +99,9 @@ class Trimmer {
   Result<void> trim(const SurfacePatch& patch, const RunContext& run, PatchDone& out) const {
     OBVID_TRY(check(patch));
     if (const int side = side_(patch.surface); side != 0) {
-      if ((side > 0) == options_.keep_positive) out.left.push_back(patch);
+      const bool kept = (side > 0) == options_.keep_positive;
+      ++(kept ? out.whole : out.dropped);
+      if (kept) out.left.push_back(patch);
       return {};
     }
     const std::vector<SurfacePatch> halves = unseamed_halves(patch, size_);
@@ -109,7 +111,6 @@ class Trimmer {
           .where(patch.name)
           .hint("divide it at its seam first, or trim it in another system");
     }
-    std::size_t whole = 0;
     for (const SurfacePatch& half : halves) {
       auto lines = lines_(half, run);
       OBVID_TRY(lines);
@@ -117,18 +118,21 @@ class Trimmer {
                                 kTrimSmall * size_);
       OBVID_TRY(made);
       out.deviation = std::max(out.deviation, made->deviation);
-      if (!made->there) continue;
-      if (made->cut) {
-        ++out.cut;
-      } else {
-        ++whole;
+      if (!made->there) {
+        ++out.dropped;
+        continue;
       }
+      ++(made->cut ? out.cut : out.whole);
       SurfacePatch left = half;
       left.trims = std::move(made->trims);
       left.trims_within = std::max(patch.trims_within, made->deviation);
       out.left.push_back(std::move(left));
     }
-    if (whole == halves.size()) out.left = {patch};
+    if (out.whole == halves.size()) {  // on one side: no need to halve it
+      out.left = {patch};
+      out.whole = 1;
+    }
+    if (out.dropped == halves.size()) out.dropped = 1;
     return {};
   }
 

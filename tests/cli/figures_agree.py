@@ -304,7 +304,7 @@ class Subject:
             self.same("no promise, no bound", report["largest_deviation"], None)
             return
         said = self.found("largest error", rf"^({NUMBER}|unknown)(?: \S+)? from the points alone"
-                          rf"(?: \(points (\d+)-\d+\))?; ({NUMBER}|unknown)(?: \S+)? with these tangents and "
+                          rf"(?: \(points (\d+)-\d+(?:, unknown over (\d+) segments?)?\))?; ({NUMBER}|unknown)(?: \S+)? with these tangents and "
                           rf"curvatures(?: \(points (\d+)-\d+, at ({NUMBER}), ({NUMBER})\))?$",
                           facts["largest error"])
         if said:
@@ -313,14 +313,15 @@ class Subject:
             if alone == 0 and None in each:
                 alone = None  # lines and circles alone say nothing of what lies between them
             self.shows("points-only error", said[0].replace("unknown", UNKNOWN), alone)
-            self.shows("error bound", said[2].replace("unknown", UNKNOWN), report["largest_deviation"])
-            for text, key in ((said[1], "points_only_error"), (said[3], "deviation")):
+            self.shows("error bound", said[3].replace("unknown", UNKNOWN), report["largest_deviation"])
+            self.same("segments left open", int(said[2] or 0), each.count(None) if said[1] else 0)
+            for text, key in ((said[1], "points_only_error"), (said[4], "deviation")):
                 if text:
                     value = largest(r[key] for r in report["segments"])
                     at = [r for r in report["segments"] if r[key] == value]
                     self.same("where the error is", int(text), at[0]["points"][0] + 1)
                     if key == "deviation":
-                        for shown, there in zip(said[4:6], at[0]["deviation_at"]):
+                        for shown, there in zip(said[5:7], at[0]["deviation_at"]):
                             self.shows("place of the error", shown, there)
         said = self.found("largest width", rf"^({NUMBER}|unknown)(?: \S+)? \(tolerance ({NUMBER})\)$",
                           facts.get("largest width"))

@@ -253,7 +253,9 @@ class PageCheck {
     } else if (s.shape == "# corner") {
       is("picture corners", first, figure(certificate_, "corners").value);
     } else if (s.shape == "point at most # U from the contour") {
-      is("picture largest move", first, figure(certificate_, "largest_move").value);
+      const auto move = figure(certificate_, "largest_move").value;
+      sheet_.expect(bounds(first, move), "page: picture largest move", first,
+                    move ? shown(*move) : std::string("-"), "");
     } else if (s.shape == "region width # U") {
       is("picture width", first, figure(report_, "largest_width").value);
     } else if (!s.figures.empty()) {

@@ -411,11 +411,12 @@ class TextCheck {
     std::optional<double> value;
     std::vector<std::size_t> rows;
   };
-  [[nodiscard]] static bool unknown_rows(const Json& rows, const char* name) {
+  [[nodiscard]] static std::size_t unknown_rows(const Json& rows, const char* name) {
+    std::size_t count = 0;
     for (std::size_t k = 0; rows.is_array() && k < rows.size(); ++k) {
-      if (!figure(rows[k], name).known()) return true;
+      count += figure(rows[k], name).known() ? 0 : 1;
     }
-    return false;
+    return count;
   }
   [[nodiscard]] Largest largest(const char* name) const {
     Largest out;
@@ -427,7 +428,7 @@ class TextCheck {
       if (*f.value == *out.value) out.rows.push_back(k);
     }
     if (name == std::string_view("points_only_error") && out.value == 0.0 &&
-        unknown_rows(rows, name)) {
+        unknown_rows(rows, name) > 0) {
       return {};  // lines and circles alone say nothing of what lies between them
     }
     return out;
@@ -444,6 +445,14 @@ class TextCheck {
     if (course_.parts.size() != member(report_, "segments").size()) return;
     say(named, std::string("largest error place ") + what, s.figures[1],
         static_cast<double>(most.rows.front() + 1));
+  }
+
+  /// Of a largest error that is one of some segments the number of the others is told.
+  void open_rows(const Sentence& s, std::size_t unknown) {
+    const bool told = s.shape.find("unknown over # segment") != std::string::npos;
+    if (s.figures.size() < 3) return;  // 0 everywhere: no segment is named
+    say(told ? s.number(3) == static_cast<double>(unknown) : unknown == 0,
+        "largest error unknown over", told ? s.figures[3] : "none", static_cast<double>(unknown));
   }
 
   void gaps(const Sentence& s, std::size_t count) {
@@ -482,6 +491,7 @@ class TextCheck {
           largest("points_only_error").value);
     } else if (key.starts_with("largest error: # U from the point alone")) {
       error(s, "points_only_error", "from the points");
+      open_rows(s, unknown_rows(member(report_, "segments"), "points_only_error"));
     } else if (key == "largest error: unknown with these tangents and curvature") {
       say(!largest("deviation").value, "largest error with tangents", "unknown",
           largest("deviation").value);

@@ -155,4 +155,9 @@ bool prints(const std::string& printed, std::optional<double> value) {
   return same_side && off >= -0.5 * step - own_rounding && off <= step + own_rounding;
 }
 
+bool bounds(const std::string& printed, std::optional<double> value) {
+  if (!prints(printed, value) || !value) return false;
+  return std::strtod(printed.c_str(), nullptr) >= *value * (1.0 - 0x1p-50);
+}
+
 }  // namespace judge

@@ -30,5 +30,7 @@ std::vector<std::string> words_of(const std::string& text);
 
 /// Whether a printed figure is this value to the digits shown (bounds may be rounded up).
 bool prints(const std::string& printed, std::optional<double> value);
+/// The same of what stands behind "at most" and "within": never rounded down.
+bool bounds(const std::string& printed, std::optional<double> value);
 
 }  // namespace judge

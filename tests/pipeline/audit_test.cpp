@@ -132,6 +132,34 @@ TEST(Audit, AnEllipseHasItsFourVerticesAtItsAxes) {
   EXPECT_EQ(count(a, AuditPlace::Kind::kInflection), 0);
 }
 
+TEST(Audit, TheVerticesOfAFlatEllipseAreWhereItIsFlattest) {
+  // beside the largest curvature a / b^2 that of the flat sides, b / a^2, changes by rounding only
+  for (const double b : {10.0, 5.0, 0.1}) {
+    const double a = 1000.0;
+    DrawnCurve curve{"ELLIPSE", {}, true};
+    // quarters between the axes' ends: the flat vertices are inside of two pieces
+    const auto at = [&](double u) { return Vec2{a * std::cos(u), b * std::sin(u)}; };
+    for (int k = 0; k < 4; ++k) {
+      const double from = 0.25 * kPi * (2 * k - 1), middle = from + 0.25 * kPi;
+      RationalBezier piece;
+      piece.degree = 2;
+      piece.offset = {at(from), std::sqrt(2.0) * at(middle), at(from + 0.5 * kPi)};
+      piece.weight = {1.0, std::sqrt(0.5), 1.0};
+      curve.pieces.emplace_back(piece);
+    }
+    const CurveAudit audited = audit(curve, "mm");
+    int flat = 0;
+    for (const AuditPlace& place : audited.places) {
+      if (place.kind != AuditPlace::Kind::kVertex || place.kappa_before > 1.0 / a) continue;
+      ++flat;
+      EXPECT_NEAR(place.point.x, 0.0, 1e-3) << b;
+      EXPECT_NEAR(std::abs(place.point.y), b, 1e-9 * b);
+      EXPECT_NEAR(place.kappa_before * a * a / b, 1.0, 1e-8);
+    }
+    EXPECT_EQ(flat, 2) << b;
+  }
+}
+
 TEST(Audit, NothingIsCountedWhereTheCurvatureHasNoBound) {
   // the first leg of the cubic has no length: its curvature grows as 1 / t towards the start
   RationalBezier cubic;

@@ -68,6 +68,13 @@ struct RegionPart {
   bool loop = false;  ///< closed without corners: the last point is the first one again
 };
 
+/// The largest width of a table, of the segments that have one.
+struct WidestRow {
+  std::optional<double> width;  ///< nothing where no segment has one
+  std::size_t unknown = 0;      ///< segments without
+};
+[[nodiscard]] WidestRow widest_row(const RegionPart& part);
+
 /// How tangents that are not given are chosen.
 enum class TangentRule {
   kFair,        ///< as `fit` does: the fairest chain

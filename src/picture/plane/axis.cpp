@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "obvid/core/internal/figures.h"
+
 namespace obvid {
 namespace {
 
@@ -122,6 +124,10 @@ double round_down(double value) {
     if (factor * base <= value * (1.0 + kTickSlack)) return factor * base;
   }
   return base;
+}
+
+std::string readable_bound(double bound, int digits) {
+  return readable_number(std::stod(significant_above(bound, digits)), digits);
 }
 
 std::string readable_number(double value, int digits) {

@@ -37,6 +37,8 @@ struct PictureAxis {
 /// Number for reading: `digits` significant digits, no trailing zeros, powers of ten as 10^n with
 /// raised figures outside 1e-4 .. 1e6.
 [[nodiscard]] std::string readable_number(double value, int digits);
+/// The same of a bound: rounded up.
+[[nodiscard]] std::string readable_bound(double bound, int digits);
 
 /// "", "10^-3 " with raised figures: what stands before the unit in an axis title.
 [[nodiscard]] std::string power_prefix(int exponent);

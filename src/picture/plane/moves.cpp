@@ -202,7 +202,7 @@ void draw_moves(PictureCanvas& canvas, PictureFrame frame, const PictureTrack& t
   canvas.label(
       {kPictureMargin, frame.top - 11.0}, "start", "axis-title",
       "Points beside the contour, in units of " + moves.limit + " (left +), at most " +
-          readable_number(moves.largest, 2) + " " + units +
+          readable_bound(moves.largest, 2) + " " + units +
           (coloured ? ", RMS " + readable_number(moves.root_mean_square, 2) + " " + units : ""));
   draw_grid(canvas, frame, false);
   draw_joints(canvas, frame, track);

@@ -114,7 +114,7 @@ std::string measured_facts(const StoredContour& stored) {
   if (!is_measured(stored)) return {};
   std::vector<std::string> facts;
   if (stored.certificate && stored.certificate->largest_move > 0.0) {
-    facts.push_back("points at most " + readable_number(stored.certificate->largest_move, 2) + " " +
+    facts.push_back("points at most " + readable_bound(stored.certificate->largest_move, 2) + " " +
                     stored.contour.units.text() + " from the contour");
   }
   if (const std::size_t corners = corner_count(stored.contour)) {

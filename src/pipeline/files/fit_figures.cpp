@@ -53,20 +53,22 @@ std::string beside(double value, double chord) {
 std::string error_text(const FitReport& report, const std::string& units) {
   LargestError points_only;
   LargestError chosen;
-  bool everywhere = true;
+  std::size_t unknown = 0;  // segments of which the points alone say nothing
   for (const SegmentReport& segment : report.segments) {
     points_only.meet(segment.points_only_error, segment);
     chosen.meet(segment.deviation, segment);
-    everywhere = everywhere && !std::isnan(segment.points_only_error);
+    unknown += std::isnan(segment.points_only_error) ? 1 : 0;
   }
   // lines and circles alone say nothing of what lies between them
-  if (points_only.segment == nullptr && !everywhere) points_only.known = false;
+  if (points_only.segment == nullptr && unknown > 0) points_only.known = false;
   const auto text_of = [&units](const LargestError& error) {
     return error.known ? known_length(error.value, units) : "unknown";
   };
   std::string text = text_of(points_only) + " from the points alone";
   if (points_only.segment != nullptr) {
-    text += fmt::format(" (points {})", points_of_segment(*points_only.segment));
+    text += fmt::format(" (points {}", points_of_segment(*points_only.segment));
+    text += unknown > 0 ? fmt::format(", unknown over {})", counted(unknown, "segment", "segments"))
+                        : ")";
   }
   text += fmt::format("; {} with these tangents and curvatures", text_of(chosen));
   if (chosen.segment != nullptr) {

@@ -28,6 +28,12 @@ SummaryCell with_bound(const char* name, int count, int bound, const char* one, 
           std::to_string(count)};
 }
 
+/// A length, or that it is not known.
+std::string known(double length, const std::string& unit) {
+  if (std::isnan(length)) return "unknown";
+  return fmt::format("{} {}", significant(length, kErrorDigits), unit);
+}
+
 SummaryCell bound_cell(const char* name, int bound) { return {name, "", std::to_string(bound)}; }
 
 }  // namespace
@@ -72,10 +78,6 @@ std::string summary_json(const std::string& input, const std::optional<std::size
 
 std::vector<SummaryCell> summary_cells(const Fit& fit) {
   const FitReport& r = fit.report;
-  double error = 0.0;
-  for (const SegmentReport& segment : r.segments) {
-    error = std::isnan(segment.deviation) ? error : std::max(error, segment.deviation);
-  }
   const std::string unit = fit.contour.units.text();
   return {count_cell("points", fit.contour.points.size(), "point", "points"),
           count_cell("pieces", fit.contour.pieces.size(), "piece", "pieces"),
@@ -88,8 +90,8 @@ std::vector<SummaryCell> summary_cells(const Fit& fit) {
                ? fmt::format("moves up to {} {}", significant(r.largest_move, kErrorDigits), unit)
                : "",
            csv_cell(r.largest_move)},
-          {"largest_error", fmt::format("error {} {}", significant(error, kErrorDigits), unit),
-           csv_cell(error)}};
+          {"largest_error", "error " + known(r.largest_deviation, unit),
+           csv_cell(r.largest_deviation)}};
 }
 
 std::vector<SummaryCell> summary_cells(const PointSeries& series, const Analysis& a) {
@@ -150,15 +152,18 @@ std::vector<SummaryCell> summary_cells(const AlignmentReport& made) {
 }
 
 std::vector<SummaryCell> summary_cells(const PointSeries& series, const RegionTable& region) {
-  double widest = 0.0;
-  for (const RegionRow& row : region.last().rows)
-    widest = std::max(widest, row.width.value_or(0.0));
-  return {
-      count_cell("points", series.points.size(), "point", "points"),
-      count_cell("segments", region.last().rows.size(), "segment", "segments"),
-      {"widest",
-       fmt::format("at most {} {} wide", significant(widest, kErrorDigits), series.units.text()),
-       csv_cell(widest)}};
+  const WidestRow widest = widest_row(region.last());
+  const std::string unit = series.units.text();
+  return {count_cell("points", series.points.size(), "point", "points"),
+          count_cell("segments", region.last().rows.size(), "segment", "segments"),
+          {"widest",
+           widest.width ? fmt::format("at most {} {} wide",
+                                      significant_above(*widest.width, kErrorDigits), unit)
+                        : "",
+           widest.width ? csv_cell(*widest.width) : ""},
+          {"unknown_segments",
+           widest.unknown > 0 ? fmt::format("width unknown over {}", widest.unknown) : "",
+           std::to_string(widest.unknown)}};
 }
 
 }  // namespace obvid

@@ -864,8 +864,12 @@ bool keep_unproved(const Fit& fit, KeptParts& kept) {
 std::optional<Fit> with_told_steps(const Fit& smooth, bool warns, Watch& watch) {
   if (smooth.certificate.loose_slopes.empty()) return std::nullopt;
   Fit out = smooth;
-  for (const std::size_t i : smooth.certificate.loose_slopes)
+  double largest = 0.0;
+  for (const std::size_t i : smooth.certificate.loose_slopes) {
     out.contour.joints[i].slope_step = true;
+    const std::vector<Piece>& pieces = out.contour.pieces;
+    largest = std::max(largest, slope_step_before(pieces, i % pieces.size()));
+  }
   out.certificate = certify(out.contour, watch);
   if (!out.certificate.proved) return std::nullopt;
   auto report = measure(out.contour, smooth.report.tolerance, watch);
@@ -876,8 +880,9 @@ std::optional<Fit> with_told_steps(const Fit& smooth, bool warns, Watch& watch) 
   out.report = std::move(*report);
   if (warns) {
     out.warnings.push_back(fmt::format(
-        "rounding leaves a step of the slope of curvature at {} of the joints: G2 there",
-        out.certificate.slope_steps));
+        "the slope of curvature steps at {}, by {} of the largest beside it: G2 there",
+        counted(static_cast<std::size_t>(out.certificate.slope_steps), "joint", "joints"),
+        significant(largest, 2)));
   }
   return out;
 }

@@ -372,15 +372,9 @@ std::vector<std::string> region_legend(const RegionTable& table) {
 
 FigureRows region_figures(const RegionPart& part, const Units& units) {
   constexpr int kWidthDigits = 4;
-  double largest = 0.0;
-  std::size_t unknown = 0;
-  for (const RegionRow& row : part.rows) {
-    largest = std::max(largest, row.width.value_or(0.0));
-    if (!row.width) ++unknown;
-  }
-  const bool known = unknown < part.rows.size();
+  const auto [width, unknown] = widest_row(part);
   FigureRows out = {
-      {"largest delta", known ? significant(largest, kWidthDigits) + " " + units.text() : "-"}};
+      {"largest delta", width ? significant(*width, kWidthDigits) + " " + units.text() : "-"}};
   if (unknown > 0) {
     out.emplace_back("unknown",
                      fmt::format("over {}, where a vertex or half a turn lies between points, "

@@ -24,6 +24,8 @@ using pipeline_detail::SpaceShape;
 
 /// Planar is what leaves its plane by no more than this part of its size: rounding of doubles.
 constexpr double kPlanarPart = 1e-9;
+/// What evaluating a height may cost, of the distance from the origin of the plane.
+constexpr double kHeightRoundings = 8.0 * 0x1p-53;
 /// Between two joints: places where curvature and torsion are looked at.
 constexpr int kPlacesOfSpan = 32;
 /// Places among which the one nearest to a moved point is sought before it is refined.
@@ -414,7 +416,8 @@ Result<SpaceFit> planar_fit(const SpaceSeries& series, const SpaceJob& job, cons
   auto made = fit(flat, plane_job, run);
   OBVID_TRY(made);
   out.plan = std::move(*made);
-  out.largest_move = flatness + largest_of(out.plan.report.moves) + closing_gap(out);
+  // across the plane and in it
+  out.largest_move = std::hypot(flatness, largest_of(out.plan.report.moves)) + closing_gap(out);
   out.warnings = out.plan.warnings;
   return out;
 }
@@ -451,7 +454,9 @@ PlaneOfSpace plane_of_space(const SpaceSeries& series, const SpaceJob& job, cons
   const double allowed = std::max(
       {kPlanarPart * farthest_from_first(series.points), across, job.fit.noise.value_or(0.0)});
   for (const Vec3& p : series.points) {
-    out.flatness = std::max(out.flatness, std::abs(out.frame.height(p)));
+    const double height = std::abs(out.frame.height(p));
+    if (height == 0.0) continue;  // in a plane along the axes, exactly
+    out.flatness = std::max(out.flatness, height + kHeightRoundings * norm(p - out.frame.origin));
   }
   const bool line = pinned && series.points.size() == 2;
   out.holds = line || (!job.along && out.flatness <= allowed && !fixes_columns(job));

@@ -373,7 +373,7 @@ class Auditor {
   void place_vertices() {
     find_proved(out_.vertices, [this](double least) {
       extrema(least, [this](const Level& level) {
-        const Sample& at = sample((level.first + level.last) / 2);
+        const Sample& at = extreme_of(level);
         if (beside_singular_end(at)) return;  // no extremum: it grows without bound
         const Sample there = is_plateau(level) ? middle_of(level) : refined(at);
         out_.least_kappa = std::min(out_.least_kappa, there.kappa);
@@ -389,19 +389,37 @@ class Auditor {
     return count;
   }
 
-  /// Neighbouring samples of one curvature but for rounding, the first and the last; counted on
-  /// past the seam.
+  /// Neighbouring samples of one curvature but for what is rounding beside the largest of the
+  /// curve, the first and the last; counted on past the seam.
   struct Level {
     std::size_t first, last;
+    bool high = false;  ///< a maximum
   };
 
   [[nodiscard]] const Sample& sample(std::size_t i) const { return samples_[i % samples_.size()]; }
 
-  /// Whether the curvature stays as it is there: along a line, an arc, or for three samples.
+  /// Its largest curvature, or its least one; of several the middle.
+  [[nodiscard]] const Sample& extreme_of(const Level& level) const {
+    std::size_t best = (level.first + level.last) / 2;
+    for (std::size_t i = level.first; i <= level.last; ++i) {
+      const double beyond = sample(i).kappa - sample(best).kappa;
+      if (level.high ? beyond > 0.0 : beyond < 0.0) best = i;
+    }
+    return sample(best);
+  }
+
+  /// Whether the curvature stays as it is there, but for rounding of its own: along a line, an arc,
+  /// or for three samples.
   [[nodiscard]] bool is_plateau(const Level& level) const {
-    const Piece& piece = out_.contour.pieces[sample((level.first + level.last) / 2).piece];
-    return level.last > level.first + 1 || std::holds_alternative<LinePiece>(piece) ||
-           std::holds_alternative<ArcPiece>(piece);
+    const Sample& most = extreme_of(level);
+    const Piece& piece = out_.contour.pieces[most.piece];
+    if (std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece)) {
+      return true;
+    }
+    if (level.last <= level.first + 1) return false;
+    const double own = std::max(kRippleRounding * std::abs(most.kappa), flat_curvature(piece));
+    return std::abs(sample(level.first).kappa - most.kappa) <= own &&
+           std::abs(sample(level.last).kappa - most.kappa) <= own;
   }
   /// Half way along it.
   [[nodiscard]] Sample middle_of(const Level& level) const {
@@ -411,7 +429,8 @@ class Auditor {
     double middle = 0.5 * (from + to);
     if (middle > length) middle -= length;
     const ContourPath::Parameter found = path_->parameter(middle);
-    return {found.piece, found.t, middle, sample((level.first + level.last) / 2).kappa};
+    return {found.piece, found.t, middle,
+            accurate_curvature(out_.contour.pieces[found.piece], found.t)};
   }
 
   /// Calls `found` for each extremum that the curvature leaves by more than `least` on both sides:
@@ -425,13 +444,13 @@ class Auditor {
         closed ? static_cast<std::size_t>(
                      std::min_element(samples_.begin(), samples_.end(), below) - samples_.begin())
                : 0;
-    Level low{from, from}, high = low;
+    Level low{from, from}, high{from, from, true};
     std::optional<Level> start;  // what a closed curve comes back to
     int direction = 0;
     for (std::size_t i = from; i < from + samples_.size() + (closed ? 1 : 0); ++i) {
       const double now = sample(i).kappa;
       const auto follow = [&](Level& level, double beyond) {
-        if (beyond > rounding_) level = {i, i};
+        if (beyond > rounding_) level = {i, i, level.high};
         if (std::abs(beyond) <= rounding_ && level.last + 1 == i) level.last = i;
       };
       if (questions_.end()) return;
@@ -443,7 +462,7 @@ class Auditor {
       if (direction != 0) found(left);
       if (direction == 0) start = left;
       direction = falls ? -1 : 1;
-      (falls ? low : high) = {i, i};
+      (falls ? low : high) = {i, i, !falls};
     }
     if (closed && start) found(*start);
   }

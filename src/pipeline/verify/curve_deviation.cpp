@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "obvid/curve/internal/nearest_along.h"
 #include "obvid/numeric/internal/golden.h"
 
 namespace obvid::pipeline_detail {
@@ -121,20 +122,50 @@ struct PlaceAlong {
   double s = 0.0, weight = 0.0;
 };
 
-/// Middles of equal parts of every piece.
-std::vector<PlaceAlong> places_along(const ContourPath& path) {
+/// Arc lengths of the first curve beside which something of the other one begins or ends: its
+/// joints and ends.
+std::vector<double> beside_joints(const ContourPath& path, std::span<const Piece> other,
+                                  const Similarity& to_other) {
+  NearestAlong follower(path.pieces());
+  std::vector<double> out;
+  const auto add = [&](Vec2 p) {
+    const NearestAlong::Place place = follower.next(to_other.back(p));
+    out.push_back(path.length_at(place.piece, place.t));
+  };
+  for (const Piece& piece : other) add(start_point(piece));
+  if (!other.empty()) add(end_point(other.back()));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// Middles of parts of every piece, which are equal but for those that `beside` cuts in two; at
+/// these and at both ends places that stand for no length.
+std::vector<PlaceAlong> places_along(const ContourPath& path, const std::vector<double>& beside) {
   const std::size_t pieces = path.pieces().size();
-  std::vector<PlaceAlong> out;
+  std::vector<PlaceAlong> out = {{0.0, 0.0}};
+  auto cut = beside.begin();
+  const auto add = [&](double from, double to) {
+    if (to > from) out.push_back({0.5 * (from + to), to - from});
+  };
   for (std::size_t i = 0; i < pieces; ++i) {
-    const double from = path.joint(i), length = path.joint(i + 1) - from;
+    const double start = path.joint(i), length = path.joint(i + 1) - start;
     const double wanted = std::ceil(kPlacesWanted * length / path.length());
     const std::size_t least = pieces > kManyPieces ? 1 : kLeastOfPiece;
     const std::size_t n = std::max(least, static_cast<std::size_t>(std::max(wanted, 0.0)));
-    const double step = length / static_cast<double>(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      out.push_back({from + (static_cast<double>(k) + 0.5) * step, step});
+    double from = start;
+    for (std::size_t k = 1; k <= n; ++k) {
+      const double to = start + length * static_cast<double>(k) / static_cast<double>(n);
+      for (; cut != beside.end() && *cut < to; ++cut) {
+        if (!(*cut > from)) continue;
+        add(from, *cut);
+        out.push_back({*cut, 0.0});
+        from = *cut;
+      }
+      add(from, to);
+      from = to;
     }
   }
+  out.push_back({path.length(), 0.0});
   return out;
 }
 
@@ -168,8 +199,8 @@ class Measuring {
 
   /// Around a place, by amount.
   [[nodiscard]] DeviationPlace largest_between(double a, double b) const {
-    const auto amount = [&](double s) { return std::abs(at({s, 0.0}).deviation.value_or(0.0)); };
-    return at({highest_place(a, b, amount), 0.0});
+    const auto amount_at = [&](double s) { return std::abs(at({s, 0.0}).deviation.value_or(0.0)); };
+    return at({highest_place(a, b, amount_at), 0.0});
   }
 
  private:
@@ -187,34 +218,48 @@ class Measuring {
   bool against_ = false;
 };
 
+/// 0 where nothing is measured.
+double amount(const DeviationPlace& place) { return std::abs(place.deviation.value_or(0.0)); }
+
 }  // namespace
 
 Result<CurveDeviation> deviation_from(const FirstCurve& first, std::span<const Piece> other,
                                       const Similarity& to_other, const RunContext& run) {
   const OtherCurve there(other);
   Measuring measuring(first, there, to_other);
-  const std::vector<PlaceAlong> places = places_along(first.path);
+  const std::vector<PlaceAlong> places =
+      places_along(first.path, beside_joints(first.path, other, to_other));
   measuring.look_which_way(places);
   CurveDeviation out;
-  double squares = 0.0, measured = 0.0, most = -1.0;
-  std::size_t where = 0;
+  double squares = 0.0, measured = 0.0, missed = 0.0;
   for (std::size_t k = 0; k < places.size(); ++k) {
     if (k % kPlacesBetweenQuestions == 0) OBVID_TRY(may_go_on(run));
-    out.places.push_back(measuring.at(places[k]));
-    const auto& away = out.places.back().deviation;
-    if (!away) continue;
-    squares += *away * *away * places[k].weight;
-    measured += places[k].weight;
-    if (std::abs(*away) > most) most = std::abs(*away), where = k;
+    const DeviationPlace& place = out.places.emplace_back(measuring.at(places[k]));
+    if (!place.deviation) {
+      missed += place.weight;
+      continue;
+    }
+    squares += *place.deviation * *place.deviation * place.weight;
+    measured += place.weight;
+    if (amount(place) > (out.largest ? amount(*out.largest) : -1.0)) out.largest = place;
   }
-  out.measured = std::min(measured / first.path.length(), 1.0);
-  if (!(most >= 0.0)) return out;
-  out.root_mean_square = std::sqrt(squares / measured);
-  out.largest = out.places[where];
-  const double from = places[where > 0 ? where - 1 : 0].s;
-  const double to = places[std::min(where + 1, places.size() - 1)].s;
-  const DeviationPlace between = measuring.largest_between(from, to);
-  if (between.deviation && std::abs(*between.deviation) > most) out.largest = between;
+  out.measured = std::max(0.0, 1.0 - missed / first.path.length());
+  if (!out.largest) return out;
+  out.root_mean_square = measured > 0.0 ? std::sqrt(squares / measured) : amount(*out.largest);
+  // between places: beside each that is larger than both neighbours, and may lead beyond the
+  // largest of all, as far as it is above them
+  const double most = amount(*out.largest);
+  for (std::size_t k = 0; k < out.places.size(); ++k) {
+    const std::size_t before = k > 0 ? k - 1 : k, after = std::min(k + 1, out.places.size() - 1);
+    const double here = amount(out.places[k]);
+    const double least = std::min(amount(out.places[before]), amount(out.places[after]));
+    if (here < amount(out.places[before]) || here < amount(out.places[after])) continue;
+    if (!(here > 0.0) || here + (here - least) < most) continue;
+    OBVID_TRY(may_go_on(run));
+    const DeviationPlace between =
+        measuring.largest_between(out.places[before].s, out.places[after].s);
+    if (amount(between) > amount(*out.largest)) out.largest = between;
+  }
   return out;
 }
 

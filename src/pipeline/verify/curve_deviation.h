@@ -18,6 +18,10 @@ struct Similarity {
 
   [[nodiscard]] Vec2 vector(Vec2 v) const { return complex_product(turn, v); }
   [[nodiscard]] Vec2 point(Vec2 p) const { return to + scale * vector(p - from); }
+  /// The point that `point` takes there.
+  [[nodiscard]] Vec2 back(Vec2 p) const {
+    return from + complex_product({turn.x, -turn.y}, p - to) / scale;
+  }
 };
 
 /// The first of the curves, and how places on it are told.

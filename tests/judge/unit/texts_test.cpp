@@ -44,6 +44,13 @@ TEST(JudgeTexts, ComparesFiguresToTheDigitsPrinted) {
   EXPECT_FALSE(prints("3", 2.0));  // one vertex more is no rounding
 }
 
+TEST(JudgeTexts, BoundsAreNeverRoundedDown) {
+  EXPECT_TRUE(bounds("0.011", 0.0105));
+  EXPECT_TRUE(bounds("0.0105", 0.0105));
+  EXPECT_FALSE(bounds("0.010", 0.0103));
+  EXPECT_FALSE(bounds("0.012", 0.0105));
+}
+
 TEST(JudgeTexts, TakesTheFiguresOutOfASentence) {
   const Sentence s = sentence_of("1.885 mm from the points alone (points 4-5)", "mm");
   EXPECT_EQ(s.shape, "# U from the point alone (point #-#)");

@@ -22,8 +22,9 @@ struct TrimOptions {
 struct TrimmedModel {
   SurfaceModel model;
   double deviation = 0.0;   ///< units: of trims from the exact cut along the surface, as measured
-  std::size_t whole = 0;    ///< patches that stay as they were
-  std::size_t cut = 0;      ///< patches (or halves) that are trimmed by this
+  // a patch that became two halves counts as two
+  std::size_t whole = 0;    ///< patches left as they were
+  std::size_t cut = 0;      ///< patches that are trimmed by this
   std::size_t dropped = 0;  ///< patches of which nothing is left
 };
 
