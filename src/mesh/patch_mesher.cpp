@@ -16,6 +16,8 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// A triangle whose height is below this part of its longest edge is none.
 constexpr double kNeedle = 1e-7;
 constexpr std::size_t kTogether = 1024;  // cells, and nodes, for the thread that takes them
+/// From here on nodes are middles of fans, numbered in the lot of cells that has them.
+constexpr std::uint32_t kCentres = std::uint32_t{1} << 31U;
 
 std::vector<std::size_t> blocks_of(const std::vector<bool>& edges) {
   std::vector<std::size_t> blocks(edges.size(), 0);
@@ -51,21 +53,96 @@ PatchMesher::PatchMesher(const PatchSampler& sampler, const CellTree& tree, cons
   for (const PatchSide side : kPatchSides) collect_border(side, patch, borders);
 }
 
+// Cells are drawn side by side, vertices are numbered one cell after another, and what has numbers
+// is put into the mesh side by side.
 Result<void> PatchMesher::run(const RunContext& run) {
-  constexpr std::size_t kCellsOfStep = 4096;  // between two questions
   OBVID_TRY(sample_nodes(run));
-  vertex_.assign(nodes_.size(), kNone);
-  mesh_.vertices.reserve(nodes_.size());
-  mesh_.triangles.reserve(2 * tree_.cells().size());
-  for (const Cell& cell : tree_.cells()) {
-    if (of_cells_.size() % kCellsOfStep == 0) OBVID_TRY(may_go_on(run));
-    const std::size_t before = mesh_.triangles.size();
-    add_cell(cell);
-    of_cells_.push_back(
-        {static_cast<std::uint32_t>(mesh_.triangles.size() - before), outline_of(cell)});
-  }
-  give_missing_normals();
+  std::vector<Drawn> lots((tree_.cells().size() + kTogether - 1) / kTogether);
+  OBVID_TRY(draw_cells(lots, run));
+  number_vertices(lots);
+  OBVID_TRY(fill_vertices(run));
+  OBVID_TRY(fill_triangles(lots, run));
+  const bool all_normals =
+      std::none_of(mesh_.vertices.begin(), mesh_.vertices.end(),
+                   [](const MeshVertex& vertex) { return vertex.normal == Vec3{}; });
+  if (!all_normals) give_missing_normals();
   return {};
+}
+
+Result<void> PatchMesher::draw_cells(std::vector<Drawn>& lots, const RunContext& run) {
+  const auto& cells = tree_.cells();
+  of_cells_.resize(cells.size());
+  return in_parallel(lots.size(), run, [&](std::size_t k) {
+    Drawn& lot = lots[k];
+    const std::size_t end = std::min(cells.size(), (k + 1) * kTogether);
+    for (std::size_t c = k * kTogether; c < end; ++c) {
+      const std::size_t before = lot.triangles.size();
+      lot.cell = static_cast<std::uint32_t>(c);
+      draw_cell(cells[c], lot);
+      of_cells_[c] = {static_cast<std::uint32_t>(lot.triangles.size() - before),
+                      outline_of(cells[c], lot.sides)};
+    }
+  });
+}
+
+void PatchMesher::number_vertices(std::vector<Drawn>& lots) {
+  const std::size_t plain = nodes_.size();
+  for (Drawn& lot : lots) {
+    lot.first_centre = static_cast<Id>(nodes_.size());
+    nodes_.insert(nodes_.end(), lot.centres.begin(), lot.centres.end());
+  }
+  vertex_.assign(nodes_.size(), kNone);
+  vertices_.reserve(nodes_.size());
+  for (const Drawn& lot : lots) {
+    for (Drawn::Use use : lot.uses) {
+      if (use.node >= kCentres) use.node = use.node - kCentres + lot.first_centre;
+      const auto number = static_cast<std::uint32_t>(vertices_.size());
+      bool fresh = false;
+      if (use.node < plain && nodes_[use.node].on_edge) {
+        fresh =
+            edge_vertex_.try_emplace(edge_key(tree_.cells()[use.cell], use.node), number).second;
+      } else if (vertex_[use.node] == kNone) {
+        vertex_[use.node] = number;
+        fresh = true;
+      }
+      if (fresh) vertices_.push_back(use);
+    }
+  }
+}
+
+Result<void> PatchMesher::fill_vertices(const RunContext& run) {
+  mesh_.vertices.resize(vertices_.size());
+  return in_lots(vertices_.size(), kTogether, run, [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) {
+      const auto [id, cell] = vertices_[k];
+      Node& node = nodes_[id];
+      const bool centre = id >= normals_.size();
+      const Sample s = !centre && !node.on_edge ? Sample{node.point, normals_[id]}
+                                                : sample_in(tree_.cells()[cell], node);
+      mesh_.vertices[k] = {centre ? s.point : node.point, s.normal, node.u, node.v};
+    }
+  });
+}
+
+Result<void> PatchMesher::fill_triangles(const std::vector<Drawn>& lots, const RunContext& run) {
+  std::vector<std::size_t> first{0};
+  for (const Drawn& lot : lots) first.push_back(first.back() + lot.triangles.size());
+  mesh_.triangles.resize(first.back());
+  return in_parallel(lots.size(), run, [&](std::size_t k) {
+    const Drawn& lot = lots[k];
+    const auto vertex_of = [&](Id id, std::size_t cell) {
+      if (id >= kCentres) return vertex_[id - kCentres + lot.first_centre];
+      if (!nodes_[id].on_edge) return vertex_[id];
+      return edge_vertex_.find(edge_key(tree_.cells()[cell], id))->second;
+    };
+    std::size_t cell = k * kTogether, of_cell = 0;
+    for (std::size_t t = 0; t < lot.triangles.size(); ++t, ++of_cell) {
+      for (; of_cell == of_cells_[cell].count; ++cell) of_cell = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        mesh_.triangles[first[k] + t][c] = vertex_of(lot.triangles[t][c], cell);
+      }
+    }
+  });
 }
 
 /// Where the surface has none (a line instead of an area around the point): those of triangles.
@@ -160,30 +237,31 @@ void PatchMesher::side_of(const Cell& c, PatchSide side, std::vector<Id>& out) c
   }
 }
 
-void PatchMesher::add_cell(const Cell& cell) {
-  for (const PatchSide side : kPatchSides) side_of(cell, side, side_[side]);
-  const bool more_along_u = side_[kVStart].size() > 2 || side_[kVEnd].size() > 2;
-  const bool more_along_v = side_[kUStart].size() > 2 || side_[kUEnd].size() > 2;
+void PatchMesher::draw_cell(const Cell& cell, Drawn& out) const {
+  Sides& sides = out.sides;
+  for (const PatchSide side : kPatchSides) side_of(cell, side, sides[side]);
+  const bool more_along_u = sides[kVStart].size() > 2 || sides[kVEnd].size() > 2;
+  const bool more_along_v = sides[kUStart].size() > 2 || sides[kUEnd].size() > 2;
   if (cell.fan || (more_along_u && more_along_v)) {
-    fan(cell);
+    fan(cell, out);
   } else if (more_along_u) {
-    strip(cell, side_[kVStart], side_[kVEnd], true);
+    strip(cell, sides[kVStart], sides[kVEnd], true, out);
   } else if (more_along_v) {
-    strip(cell, side_[kUStart], side_[kUEnd], false);
+    strip(cell, sides[kUStart], sides[kUEnd], false, out);
   } else {
-    quad(cell);
+    quad(cell, out);
   }
 }
 
 /// Parameters of the outline and the kind of drawing, mixed into one number (FNV, 64 bits).
-std::uint64_t PatchMesher::outline_of(const Cell& cell) const {
+std::uint64_t PatchMesher::outline_of(const Cell& cell, const Sides& sides) const {
   std::uint64_t mixed = 0xCBF29CE484222325U;
   const auto mix = [&](double t) {
     mixed = (mixed ^ std::bit_cast<std::uint64_t>(t)) * 0x100000001B3U;
     mixed ^= mixed >> 32U;
   };
   mix(cell.fan ? 1.0 : 0.0);
-  for (const auto& side : side_) {
+  for (const auto& side : sides) {
     for (const Id id : side) {
       mix(nodes_[id].u);
       mix(nodes_[id].v);
@@ -192,9 +270,10 @@ std::uint64_t PatchMesher::outline_of(const Cell& cell) const {
   return mixed;
 }
 
-void PatchMesher::quad(const Cell& cell) {
-  const Id a = side_[kVStart][0], b = side_[kVStart][1], c = side_[kVEnd][0], d = side_[kVEnd][1];
-  for (const Id id : {a, b, c, d}) static_cast<void>(vertex_of(cell, id));  // points become known
+void PatchMesher::quad(const Cell& cell, Drawn& out) const {
+  const Sides& sides = out.sides;
+  const Id a = sides[kVStart][0], b = sides[kVStart][1], c = sides[kVEnd][0], d = sides[kVEnd][1];
+  for (const Id id : {a, b, c, d}) out.uses.push_back({id, out.cell});
   const auto at = [&](Id id) { return nodes_[id].point; };
   const auto slim = [&](bool rising) {
     return rising ? std::min(slimness(at(a), at(b), at(d)), slimness(at(a), at(d), at(c)))
@@ -202,8 +281,8 @@ void PatchMesher::quad(const Cell& cell) {
   };
   const bool rising =
       slim(cell.rising) > kNeedle || slim(!cell.rising) <= kNeedle ? cell.rising : !cell.rising;
-  triangle(cell, a, b, rising ? d : c);
-  triangle(cell, rising ? a : b, d, c);
+  triangle(a, b, rising ? d : c, out);
+  triangle(rising ? a : b, d, c, out);
 }
 
 /// How far the middle of an inner edge is off the surface, along the normal.
@@ -220,11 +299,11 @@ double PatchMesher::height_of(const Cell& cell, Id a, Id b) const {
 /// Triangles between two rows of nodes that run the same way; of the two edges that may come next
 /// the one nearer to the surface does.
 void PatchMesher::strip(const Cell& cell, const std::vector<Id>& low, const std::vector<Id>& high,
-                        bool along_u) {
-  for (const Id id : low) static_cast<void>(vertex_of(cell, id));  // points become known
-  for (const Id id : high) static_cast<void>(vertex_of(cell, id));
+                        bool along_u, Drawn& out) const {
+  for (const Id id : low) out.uses.push_back({id, out.cell});
+  for (const Id id : high) out.uses.push_back({id, out.cell});
   const auto add = [&](Id a, Id b, Id c) {
-    along_u ? triangle(cell, a, b, c) : triangle(cell, a, c, b);
+    along_u ? triangle(a, b, c, out) : triangle(a, c, b, out);
   };
   std::size_t i = 0, j = 0;
   while (i + 1 < low.size() || j + 1 < high.size()) {
@@ -241,18 +320,25 @@ void PatchMesher::strip(const Cell& cell, const std::vector<Id>& low, const std:
   }
 }
 
-void PatchMesher::fan(const Cell& cell) {
+void PatchMesher::fan(const Cell& cell, Drawn& out) const {
   const Range u{sampler_.u().at(cell.u0), sampler_.u().at(cell.u1)};
   const Range v{sampler_.v().at(cell.v0), sampler_.v().at(cell.v1)};
-  const Id centre = static_cast<Id>(nodes_.size());
-  nodes_.push_back({u.at(0.5), v.at(0.5), {}, false, false});
-  vertex_.push_back(kNone);
-  const auto &low = side_[kVStart], &high = side_[kVEnd], &left = side_[kUStart],
-             &right = side_[kUEnd];
-  for (std::size_t k = 1; k < low.size(); ++k) triangle(cell, centre, low[k - 1], low[k]);
-  for (std::size_t k = 1; k < right.size(); ++k) triangle(cell, centre, right[k - 1], right[k]);
-  for (std::size_t k = 1; k < high.size(); ++k) triangle(cell, centre, high[k], high[k - 1]);
-  for (std::size_t k = 1; k < left.size(); ++k) triangle(cell, centre, left[k], left[k - 1]);
+  Node middle{u.at(0.5), v.at(0.5), {}, true, false};
+  middle.point = sample_in(cell, middle).point;
+  const Id centre = kCentres + static_cast<Id>(out.centres.size());
+  out.centres.push_back(middle);
+  out.uses.push_back({centre, out.cell});
+  const auto edge = [&](Id a, Id b) {
+    out.uses.push_back({a, out.cell});
+    out.uses.push_back({b, out.cell});
+    triangle(centre, a, b, out);
+  };
+  const auto &low = out.sides[kVStart], &high = out.sides[kVEnd], &left = out.sides[kUStart],
+             &right = out.sides[kUEnd];
+  for (std::size_t k = 1; k < low.size(); ++k) edge(low[k - 1], low[k]);
+  for (std::size_t k = 1; k < right.size(); ++k) edge(right[k - 1], right[k]);
+  for (std::size_t k = 1; k < high.size(); ++k) edge(high[k], high[k - 1]);
+  for (std::size_t k = 1; k < left.size(); ++k) edge(left[k], left[k - 1]);
 }
 
 /// Smooth parts of the surface, numbered.
@@ -286,43 +372,23 @@ Result<void> PatchMesher::sample_nodes(const RunContext& run) {
   return in_lots(nodes_.size(), kTogether, run, [&](std::size_t from, std::size_t to) {
     for (std::size_t id = from; id < to; ++id) {
       Node& node = nodes_[id];
-      if (node.on_edge || first[id] == kNone) continue;
+      if (first[id] == kNone || (node.on_edge && node.known)) continue;
       const Sample s = sample_in(cells[first[id]], node);
-      normals_[id] = s.normal;
+      normals_[id] = s.normal;  // of those on edges not used
       if (!node.known) node.point = s.point;
       node.known = true;
     }
   });
 }
 
-std::uint32_t PatchMesher::vertex_of(const Cell& cell, Id id) {
-  Node& node = nodes_[id];
-  const bool plain = !node.on_edge;
-  const std::uint64_t key = plain ? 0 : block_of(cell) << 32U | id;
-  if (plain && vertex_[id] != kNone) return vertex_[id];
-  if (!plain) {
-    if (const auto found = edge_vertex_.find(key); found != edge_vertex_.end())
-      return found->second;
-  }
-  const bool sampled = plain && id < normals_.size();
-  const Sample s = sampled ? Sample{node.point, normals_[id]} : sample_in(cell, node);
-  if (!node.known) {
-    node.point = s.point;
-    node.known = true;
-  }
-  const auto number = static_cast<std::uint32_t>(mesh_.vertices.size());
-  mesh_.vertices.push_back({node.point, s.normal, node.u, node.v});
-  (plain ? vertex_[id] : edge_vertex_[key]) = number;
-  return number;
-}
-
 /// Collapsed edges leave triangles without area out: two of their points are the same.
-void PatchMesher::triangle(const Cell& cell, Id a, Id b, Id c) {
-  const std::uint32_t va = vertex_of(cell, a), vb = vertex_of(cell, b), vc = vertex_of(cell, c);
-  const auto &pa = mesh_.vertices[va].point, &pb = mesh_.vertices[vb].point,
-             &pc = mesh_.vertices[vc].point;
+void PatchMesher::triangle(Id a, Id b, Id c, Drawn& out) const {
+  const auto at = [&](Id id) {
+    return id >= kCentres ? out.centres[id - kCentres].point : nodes_[id].point;
+  };
+  const Vec3 pa = at(a), pb = at(b), pc = at(c);
   if (pa == pb || pb == pc || pc == pa) return;
-  mesh_.triangles.push_back({va, vb, vc});
+  out.triangles.push_back({a, b, c});
 }
 
 }  // namespace obvid::mesh

@@ -14,6 +14,7 @@ namespace {
 constexpr std::uint32_t kLeaf = 4;  // triangles
 /// Boxes whose trees are built side by side: enough that threads end at about the same time.
 constexpr std::size_t kBoxesSharedOut = 64;
+constexpr std::size_t kTakenTogether = 4096;  // triangles, for the thread that takes them
 /// Boxes halve what they hold: 2^32 triangles are 32 deep, and each leaves one waiting.
 constexpr std::size_t kDeepestBox = 64;
 constexpr double kLeastLid = 0.1;  // z of unit normals: steeper lids gain nothing
@@ -70,18 +71,27 @@ void DropField::take(const std::vector<Mesh>& meshes, std::size_t threads) {
   for (const Mesh& mesh : meshes) count += mesh.triangles.size();
   triangles_ = large_list<FieldTriangle>(count, {}, threads);
   box_ = {};
-  auto next = triangles_.begin();
+  std::size_t first = 0;
   for (std::uint32_t m = 0; m < meshes.size(); ++m) {
-    for (std::uint32_t i = 0; i < meshes[m].triangles.size(); ++i) {
-      FieldTriangle& t = *next++;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 p = meshes[m].vertices[meshes[m].triangles[i][k]].point;
-        t.corners[k] = p;
-        box_.add(p);
+    const Mesh& mesh = meshes[m];
+    std::vector<Box3> boxes((mesh.triangles.size() + kTakenTogether - 1) / kTakenTogether);
+    in_lots(mesh.triangles.size(), kTakenTogether, threads, [&](std::size_t from, std::size_t to) {
+      Box3 box;
+      for (std::size_t i = from; i < to; ++i) {
+        FieldTriangle& t = triangles_[first + i];
+        for (std::size_t k = 0; k < 3; ++k) {
+          t.corners[k] = mesh.vertices[mesh.triangles[i][k]].point;
+          box.add(t.corners[k]);
+        }
+        t.mesh = m;
+        t.number = static_cast<std::uint32_t>(i);
       }
-      t.mesh = m;
-      t.number = i;
+      boxes[from / kTakenTogether] = box;
+    });
+    for (const Box3& box : boxes) {
+      box_.add_box(box);
     }
+    first += mesh.triangles.size();
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "deepest.h"
 #include "obvid/core/internal/parallel.h"
 #include "obvid/core/internal/questions.h"
 
@@ -21,8 +22,8 @@ Result<Leftover> Leftover::find(const Part& part, const CutterShape& earlier,
                                 std::size_t threads, const RunContext& run) {
   struct Found {
     std::vector<Vec3> tips;
-    double depth = 0.0, area = 0.0;
-    Vec3 place;
+    std::vector<HeldCell> cells;
+    double area = 0.0;
   };
   const Part before = part.with(earlier);
   const double most = 2.0 * earlier.radius;  // farther along a normal nothing is looked for
@@ -46,25 +47,24 @@ Result<Leftover> Leftover::find(const Part& part, const CutterShape& earlier,
           out.left_[i] = 1;
           if (came.reach == Reach::kHidden) continue;
           here.area += cell.area;
-          const double depth =
-              came.height < most ? came.height : std::numeric_limits<double>::infinity();
-          if (depth > here.depth) {
-            here.depth = depth;
-            here.place = cell.point;
-          }
+          here.cells.push_back({i, came, 0.0});
           reach[i] = nearest_to(part, cell.point, cell.normal);
           const auto rest = part.drop(reach[i].axis);
           here.tips.push_back(rest ? rest->tip : part.tip(cell.point, cell.normal));
         }
       }));
+  std::vector<HeldCell> left;
   for (const Found& here : found) {
     for (const Vec3 tip : here.tips) out.mark(tip);
     out.area_ += here.area;
-    if (here.depth > out.depth_) {
-      out.depth_ = here.depth;
-      out.place_ = here.place;
-    }
+    left.insert(left.end(), here.cells.begin(), here.cells.end());
   }
+  const auto deepest = deepest_of(before, cells, std::move(left), threads, run);
+  OBVID_TRY(deepest);
+  if (!(deepest->came.height > 0.0)) return out;
+  out.depth_ =
+      deepest->came.height < most ? deepest->came.height : std::numeric_limits<double>::infinity();
+  out.place_ = cells.cells()[deepest->cell].point;
   return out;
 }
 

@@ -21,10 +21,12 @@ constexpr double kMeasured = 0.25;      // radii: longer ways are not judged by 
 constexpr double kMeasuredBend = 0.25;  // of the share: how far these may lie off the chord
 /// Shorter rails, such as links, are walked on the calling thread: others take longer to start.
 constexpr std::size_t kStationsShared = 16;
-/// Of a pass, for the thread that takes them: it looks at their first station once more.
-constexpr std::size_t kStretchesTogether = 8;
-constexpr std::size_t kPointsTogether = 256;  // of a pass, for the thread that takes them
-constexpr std::size_t kIsoSteps = 64;         // to guess the length of a line of parameters
+/// Of a pass, for the thread that takes them, which looks at their first station once more: a
+/// part of those that are left, so that threads end at about the same time.
+constexpr std::size_t kStretchesTogether = 8, kPartOfLeft = 4;
+constexpr std::size_t kRailsTogether = 64;   // walked before their points are counted
+constexpr std::size_t kPointsTogether = 64;  // of a pass, for the thread that takes them
+constexpr std::size_t kIsoSteps = 64;        // to guess the length of a line of parameters
 /// Contacts that move so much faster than the cutter, to places that lean otherwise (change of the
 /// unit normal): it changes from one side of a valley to the other.
 constexpr double kJump = 10.0;
@@ -310,48 +312,114 @@ void Walker::fill_both(const Rail& rail, const Station& a, double ta, const Stat
   fill(rail, m, t, b, tb, depth + 1, out);
 }
 
+/// Neighbouring stretches that one thread walks.
+struct Walker::Lot {
+  std::size_t walk, first, end;
+};
+
 // Stretches between stations know nothing of each other: they are walked side by side.
-Result<Pass> Walker::walk(const Rail& rail) {
-  const auto ts = stations(rail);
-  const std::size_t threads = ts.size() < kStationsShared ? 1 : threads_;
-  std::vector<Station> ends(ts.size());
-  std::vector<Stretch> stretches(ts.size() - 1);
-  in_lots(stretches.size(), kStretchesTogether, threads, [&](std::size_t first, std::size_t end) {
-    Station from = at(rail, ts[first]);
-    if (first == 0) ends.front() = from;
-    for (std::size_t i = first; i < end; ++i) {
-      ends[i + 1] = at(rail, ts[i + 1]);
-      stretches[i].most = most_points_ - std::min(most_points_, points_);
-      fill(rail, from, ts[i], ends[i + 1], ts[i + 1], 0, stretches[i]);
-      from = ends[i + 1];
+struct Walker::Walk {
+  const Rail* rail = nullptr;
+  std::vector<double> ts;
+  Station front;
+  std::vector<Stretch> stretches;
+  std::size_t count = 0;  ///< points
+};
+
+std::vector<Walker::Lot> Walker::lots_of(const std::vector<Walk>& walks) {
+  std::size_t left = 0;
+  for (const Walk& walk : walks) left += walk.stretches.size();
+  std::vector<Lot> out;
+  for (std::size_t w = 0; w < walks.size(); ++w) {
+    const std::size_t count = walks[w].stretches.size();
+    for (std::size_t first = 0; first < count;) {
+      const std::size_t some = std::clamp<std::size_t>(left / kPartOfLeft, 1, kStretchesTogether);
+      const std::size_t end = std::min(count, first + some);
+      out.push_back({w, first, end});
+      left -= end - first;
+      first = end;
     }
-  });
+  }
+  return out;
+}
+
+void Walker::walk_lot(Walk& walk, const Lot& lot) const {
+  const Rail& rail = *walk.rail;
+  const auto& ts = walk.ts;
+  Station from = at(rail, ts[lot.first]);
+  if (lot.first == 0) walk.front = from;
+  for (std::size_t i = lot.first; i < lot.end; ++i) {
+    const Station to = at(rail, ts[i + 1]);
+    walk.stretches[i].most = most_points_ - std::min(most_points_, points_);
+    fill(rail, from, ts[i], to, ts[i + 1], 0, walk.stretches[i]);
+    from = to;
+  }
+}
+
+Pass Walker::pass_of(Walk& walk) {
   Pass pass;
-  pass.rail = rail;
+  pass.rail = *walk.rail;
   bool open = false;
   const auto append = [&](const Station& p) {
     if (p) {
       if (!open) pass.pieces.emplace_back();
       auto& piece = pass.pieces.back();
       piece.push_back(*p);
-      ++points_;
+      ++walk.count;
       if (piece.size() > 1 && changes_sides(piece[piece.size() - 2], *p))
         piece.back().lifted = true;
     }
     open = p.has_value();
   };
-  append(ends.front());
-  for (const Stretch& stretch : stretches) {
+  append(walk.front);
+  for (const Stretch& stretch : walk.stretches) {
     for (const Station& p : stretch.points) append(p);
-  }
-  if (points_ > most_points_) {
-    return error(ErrorCode::kToleranceNotReached,
-                 fmt::format("the passes need more than {} points", most_points_))
-        .hint("allow a larger tolerance, scallop or step")
-        .value(static_cast<double>(most_points_));
   }
   std::erase_if(pass.pieces, [](const auto& piece) { return piece.size() < 2; });
   return pass;
+}
+
+Result<void> Walker::count(const std::vector<Walk>& walks) {
+  for (const Walk& walk : walks) points_ += walk.count;
+  if (points_ <= most_points_) return {};
+  return error(ErrorCode::kToleranceNotReached,
+               fmt::format("the passes need more than {} points", most_points_))
+      .hint("allow a larger tolerance, scallop or step")
+      .value(static_cast<double>(most_points_));
+}
+
+Result<Pass> Walker::walk(const Rail& rail) {
+  std::vector<Walk> walks(1);
+  Walk& one = walks.front();
+  one.rail = &rail;
+  one.ts = stations(rail);
+  one.stretches.resize(one.ts.size() - 1);
+  const std::size_t threads = one.ts.size() < kStationsShared ? 1 : threads_;
+  const auto lots = lots_of(walks);
+  in_parallel(lots.size(), threads, [&](std::size_t k) { walk_lot(one, lots[k]); });
+  Pass pass = pass_of(one);
+  OBVID_TRY(count(walks));
+  return pass;
+}
+
+Result<std::vector<Pass>> Walker::walk(const std::vector<Rail>& rails, const RunContext& run) {
+  const RunContext shared = with_threads(run, threads_);
+  std::vector<Pass> out(rails.size());
+  for (std::size_t first = 0; first < rails.size(); first += kRailsTogether) {
+    std::vector<Walk> walks(std::min(kRailsTogether, rails.size() - first));
+    OBVID_TRY(in_parallel(walks.size(), shared, [&](std::size_t k) {
+      walks[k].rail = &rails[first + k];
+      walks[k].ts = stations(rails[first + k]);
+      walks[k].stretches.resize(walks[k].ts.size() - 1);
+    }));
+    const auto lots = lots_of(walks);
+    OBVID_TRY(in_parallel(lots.size(), shared,
+                          [&](std::size_t k) { walk_lot(walks[lots[k].walk], lots[k]); }));
+    OBVID_TRY(in_parallel(walks.size(), shared,
+                          [&](std::size_t k) { out[first + k] = pass_of(walks[k]); }));
+    OBVID_TRY(count(walks));
+  }
+  return out;
 }
 
 std::optional<std::vector<Vec3>> Walker::tips_of(const Rail& rail) {

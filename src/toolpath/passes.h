@@ -75,6 +75,9 @@ class Walker {
 
   /// Errors: E502 more points than allowed, in all passes so far.
   [[nodiscard]] Result<Pass> walk(const Rail& rail);
+  /// The same for many, side by side. Errors: as above, E103.
+  [[nodiscard]] Result<std::vector<Pass>> walk(const std::vector<Rail>& rails,
+                                               const RunContext& run);
   /// A straight way on the surface; nothing: it leads where there is nothing to go on.
   [[nodiscard]] std::optional<std::vector<Vec3>> link(Vec3 from, Vec3 to);
   /// Places of the tip over these of the axis, no lower than a floor, and between them as near to
@@ -92,6 +95,12 @@ class Walker {
     std::vector<Station> points;
     std::size_t most = 0;
   };
+  struct Walk;
+  struct Lot;
+  [[nodiscard]] static std::vector<Lot> lots_of(const std::vector<Walk>& walks);
+  void walk_lot(Walk& walk, const Lot& lot) const;
+  [[nodiscard]] static Pass pass_of(Walk& walk);
+  [[nodiscard]] Result<void> count(const std::vector<Walk>& walks);
   [[nodiscard]] Station at(const Rail& rail, double t) const;
   [[nodiscard]] Station touching(const Rail& rail, double t) const;
   [[nodiscard]] Station resting(const Rail& rail, double t) const;

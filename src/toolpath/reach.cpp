@@ -17,6 +17,7 @@ namespace {
 constexpr double kReached = 1.0 + kTriangleShare;
 constexpr double kFirstStep = 0.5, kLastStep = 0.02;  // of the radius
 constexpr double kNextStep = 0.125;                   // likewise, beside a place that is known
+constexpr double kFinestStep = 1e-4;                  // likewise, where the height is told
 constexpr double kLevel = 1e-6;   // size of x and y of normals: any place of a flat bottom touches
 constexpr double kBottom = 0.99;  // of a flat bottom's radius: the farthest such place
 constexpr int kDirections = 8;
@@ -40,15 +41,25 @@ class Search {
     if (normal_.z < kSteep && look({clear.x, clear.y})) return best_;
     const bool level = std::hypot(normal_.x, normal_.y) < kLevel && cutter.flat() > 0.0;
     if (level && around({tip.x, tip.y}, kBottom * cutter.flat())) return best_;
-    for (double step = first ? kNextStep : kFirstStep; step >= kLastStep;) {
-      const double before = best_.height;
-      if (around(best_.axis, step * cutter.radius)) return best_;
-      if (!(best_.height < before)) step *= 0.5;
-    }
+    descend(first ? kNextStep : kFirstStep, kLastStep);
+    return best_;
+  }
+
+  Nearest closer(const Nearest& known) {
+    best_ = known;
+    descend(kLastStep, kFinestStep);
     return best_;
   }
 
  private:
+  void descend(double step, double last) {
+    while (step >= last) {
+      const double before = best_.height;
+      if (around(best_.axis, step * part_.cutter().radius)) return;
+      if (!(best_.height < before)) step *= 0.5;
+    }
+  }
+
   /// True: reached.
   bool look(Vec2 axis) {
     const auto rest = part_.drop(axis);
@@ -120,6 +131,10 @@ Nearest nearest_to(const Part& part, Vec3 point, Vec3 normal, std::optional<Vec2
     return {Reach::kHidden, 0.0, {}};
   }
   return Search(part, point, normal).run(first);
+}
+
+Nearest closer_to(const Part& part, Vec3 point, Vec3 normal, const Nearest& known) {
+  return Search(part, point, normal).closer(known);
 }
 
 }  // namespace obvid::toolpath

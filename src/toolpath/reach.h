@@ -35,4 +35,8 @@ struct Nearest {
 [[nodiscard]] Nearest nearest_to(const Part& part, Vec3 point, Vec3 normal,
                                  std::optional<Vec2> first = std::nullopt);
 
+/// The same of a place that is held, on from what is known of it, by steps down to a ten thousandth
+/// of the radius.
+[[nodiscard]] Nearest closer_to(const Part& part, Vec3 point, Vec3 normal, const Nearest& known);
+
 }  // namespace obvid::toolpath

@@ -88,18 +88,31 @@ Result<std::size_t> ScallopSurvey::complete(Family& family, LevelPasses* levels,
     }
     const auto extra = wanted(family, *high, run);
     OBVID_TRY(extra);
-    for (std::size_t k = extra->size(); k-- > 0;) {  // from the end: numbers before stay
-      OBVID_TRY(may_go_on(run));
-      auto pass = walker_.walk((*extra)[k].rail);
-      OBVID_TRY(pass);
-      if (pass->empty()) continue;
-      append_sweeps(*pass, print_, sweeps);
-      ++count;
-      family.insert(family.begin() + static_cast<std::ptrdiff_t>((*extra)[k].behind + 1),
-                    std::move(*pass));
-    }
+    std::vector<Rail> rails;
+    for (auto one = extra->rbegin(); one != extra->rend(); ++one) rails.push_back(one->rail);
+    auto passes = walker_.walk(rails, run);
+    OBVID_TRY(passes);
+    append_sweeps(*passes, print_, walker_.threads(), sweeps);
+    std::reverse(passes->begin(), passes->end());
+    count += insert(family, *extra, std::move(*passes));
     if (sweeps.empty()) break;
   }
+  return count;
+}
+
+std::size_t ScallopSurvey::insert(Family& family, const std::vector<Wanted>& wanted,
+                                  std::vector<Pass> passes) {
+  std::size_t count = 0, next = 0;
+  Family out;
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    out.push_back(std::move(family[i]));
+    for (; next < wanted.size() && wanted[next].behind == i; ++next) {
+      if (passes[next].empty()) continue;
+      out.push_back(std::move(passes[next]));
+      ++count;
+    }
+  }
+  family = std::move(out);
   return count;
 }
 

@@ -46,6 +46,9 @@ class ScallopSurvey {
   [[nodiscard]] Result<std::vector<Wanted>> wanted(const Family& family,
                                                    const std::vector<HighSpot>& high,
                                                    const RunContext& run);
+  /// Passes behind those that they were wanted behind, those that lead nowhere left out; how many.
+  static std::size_t insert(Family& family, const std::vector<Wanted>& wanted,
+                            std::vector<Pass> passes);
   [[nodiscard]] Across across(const HighSpot& spot) const;
   [[nodiscard]] std::optional<double> across(const Rail& rail, const HighSpot& spot,
                                              double t) const;

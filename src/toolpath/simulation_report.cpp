@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "deepest.h"
 #include "obvid/core/internal/parallel.h"
 #include "simulation.h"
 
@@ -107,6 +108,7 @@ Result<void> Simulation::report_depth(double allowed, SimulationReport& out,
 Result<void> Simulation::report_reach(SimulationReport& out, const RunContext& run) {
   OBVID_TRY(look_into_reach(part_.tolerance(), run));
   Strokes hidden, held_at;
+  std::vector<HeldCell> held;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Cell& cell = cells_.cells()[i];
     out.area += cell.area;
@@ -121,12 +123,13 @@ Result<void> Simulation::report_reach(SimulationReport& out, const RunContext& r
     if (near.reach != Reach::kHeld) continue;
     held_at.add(cell);
     out.held_area += cell.area;
-    const double held =
-        std::max(near.height, std::isfinite(nodes_[i].depth) ? -nodes_[i].depth : near.height);
-    if (held > out.held) {
-      out.held = held;
-      out.held_place = cell.point;
-    }
+    held.push_back({i, near, std::isfinite(nodes_[i].depth) ? -nodes_[i].depth : 0.0});
+  }
+  const auto deepest = deepest_of(part_, cells_, std::move(held), threads_, run);
+  OBVID_TRY(deepest);
+  if (deepest->height() > 0.0) {
+    out.held = deepest->height();
+    out.held_place = cells_.cells()[deepest->cell].point;
   }
   out.hidden = hidden.count();
   out.held_places = held_at.count();

@@ -83,6 +83,9 @@ def main():
         # a scallop beside a place that counts as reached from its tolerance off
         limit = points + (1.02 * SCALLOP + REACHED) * normals
         _, tips = program(binary, folder, "--diameter", LARGE, "--scallop", SCALLOP, code=5)
+        # passes of a ball of radius r across the trough come to r^2 / 4 + 1 - r over the bottom, and keep to their tolerance
+        told, _ = program(binary, folder, "--diameter", 8.0, "--scallop", SCALLOP, code=5)
+        assert 1.0 - TOLERANCE < told["unreached_depth"] < 1.0 + TOLERANCE, told["unreached_depth"]
         before = depth_in(0.5 * LARGE, 0.5 * LARGE, tips, limit)
         edge = strip()
         high = abs(points[:, 0][before < 0.0])
@@ -103,10 +106,10 @@ def main():
             # cells at the strip's edges count by their middles
             wide = 2.0 * told["spacing"] / length(WIDE)
             assert abs(told["leftover_area"] / told["surface_area"] - share) < wide, (label, told["leftover_area"], share)
-            # no less than the closed form (the middle of a cell lies aside), no more than a search by steps of a fiftieth
-            # of the radius finds where the sides lean by sqrt(5) / 2
+            # that of the closed form (the middle of a cell lies aside); the search ends by a step of 1e-4 of the radius, up
+            # the sides where the ball rests, which lean by sqrt(5) / 2
             depth = told["leftover_depth"]
-            assert 0.24 < depth < 0.25 + 0.02 * 0.5 * LARGE * math.sqrt(5.0) / 2.0, (label, depth)
+            assert 0.25 - TOLERANCE < depth < 0.25 + 1e-4 * 0.5 * LARGE * math.sqrt(5.0) / 2.0 + TOLERANCE, (label, depth)
             both = np.maximum(before, depth_in(0.5 * SMALL, corner, rest, limit))
             assert both.min() >= 0.0, f"{label}: {(both < 0.0).sum()} places keep more than the scallop"
             gouge = depth_in(0.5 * SMALL, corner, rest, points).max()
