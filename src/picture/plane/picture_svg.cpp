@@ -25,9 +25,13 @@ constexpr std::size_t kLongestName = 50;
 static_assert(std::all_of(kCarriers.begin(), kCarriers.end(),
                           [](const CarrierInfo& info) { return *info.title != '\0'; }));
 
+constexpr const CarrierInfo& kAsDrawn =
+    *std::find_if(kCarriers.begin(), kCarriers.end(),
+                  [](const CarrierInfo& info) { return is_as_drawn(info.carrier); });
+
 /// What the curve is; `foreign`: another system drew it.
 std::string kind_of(const Contour& contour, bool foreign) {
-  std::string kind = info_of(foreign ? Carrier::kImported : contour.carrier).title;
+  std::string kind = (foreign ? kAsDrawn : info_of(contour.carrier)).title;
   if (contour.closed)
     kind = "Closed " + std::string(1, static_cast<char>(kind[0] - 'A' + 'a')) + kind.substr(1);
   if (!foreign) kind += " · " + counted(contour.points.size(), "point", "points");
