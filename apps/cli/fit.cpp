@@ -27,35 +27,37 @@
 namespace obvid {
 namespace {
 
-/// The formed contour, or the exit code of what was reported instead.
-struct Outcome {
-  std::optional<Fit> made;
-  int code = 0;
+/// Points that were read, what was formed of them, and what is written with it.
+struct Formed {
+  PointSeries series;
+  Result<Fit> made;
+  ExportOptions formats;
 };
 
-Outcome read_and_fit(const FitOptions& options, ExportOptions& formats, ProgressBar& bar) {
-  const auto stop = [&](const Error& error) {
-    bar.clear();
-    return Outcome{std::nullopt, report(error)};
-  };
-  bar.tell("reading", 0.0);
-  const Result<PointSeries> series = series_of(options);
-  if (!series) return stop(series.error());
+Result<Formed> read_and_fit(const FitOptions& options, const RunContext& run) {
+  Result<PointSeries> series = series_of(options);
+  OBVID_TRY(series);
+  ExportOptions formats = options.formats;
   formats.picture.name = series->name;
   formats.name = curve_name(*series, options.name());
-  Result<Fit> made = options.construction
-                         ? fit_construction(*series, *options.construction, bar.progress())
-                         : fit(*series, options.job, bar.progress());
-  if (made) return {std::move(*made), 0};
-  if (options.construction) {
-    return stop(explained(*series, *options.construction, made.error(), bar.progress()));
+  Result<Fit> made = options.construction ? fit_construction(*series, *options.construction, run)
+                                          : fit(*series, options.job, run);
+  return Formed{std::move(*series), std::move(made), std::move(formats)};
+}
+
+/// Of what was not formed; the exit code.
+int tell_failure(const FitOptions& options, const PointSeries& series, const Error& failure,
+                 ProgressBar& bar) {
+  if (!options.construction && category(failure.code) == ErrorCategory::kNoContour) {
+    return tell_refusal(options, series, failure, bar);
   }
-  if (category(made.error().code) == ErrorCategory::kNoContour) {
-    return {std::nullopt, tell_refusal(options, *series, made.error(), bar)};
+  Error told = failure;
+  if (options.construction) {
+    told = explained(series, *options.construction, failure, bar.progress());
   }
   bar.clear();
-  warn(series->warnings);  // a formed contour carries them itself
-  return stop(made.error());
+  if (!options.construction) warn(series.warnings);  // a formed contour carries them itself
+  return report(told);
 }
 
 /// Exit code 5 for what was formed but does not keep its promise.
@@ -101,17 +103,13 @@ Summary summary_of_fit(const FitOptions& all, const OneOf& one,
     return failed({ErrorCode::kBadOption, "points in space are formed one file at a time",
                    options.input, "--flat forms the contours in the plane of x and y"});
   }
-  const Result<PointSeries> series = series_of(options);
-  if (!series) return failed(series.error());
-  Result<Fit> made = options.construction ? fit_construction(*series, *options.construction)
-                                          : fit(*series, options.job);
+  auto formed = read_and_fit(options, {});
+  if (!formed) return failed(formed.error());
+  auto& [series, made, formats] = *formed;
   if (!made) {
-    out.warnings = series->warnings;
+    out.warnings = series.warnings;
     return failed(made.error());
   }
-  ExportOptions formats = options.formats;
-  formats.picture.name = series->name;
-  formats.name = curve_name(*series, options.name());
   const auto wanted = outputs_of(outputs, options.input);
   if (!wanted) return failed(wanted.error());
   const auto written = write_contour(*made, *wanted, formats, options.input, out.warnings);
@@ -122,7 +120,7 @@ Summary summary_of_fit(const FitOptions& all, const OneOf& one,
   out.verdict = made->certificate.proved ? "proved" : "formed";
   if (!options.construction) out.error = broken_promise(*made);
   if (together != nullptr) {
-    together->push_back(titled_contour(std::move(*made), *series, options.name()));
+    together->push_back(titled_contour(std::move(*made), series, options.name()));
     name_for_all(one, together->back());
   }
   return out;
@@ -152,10 +150,15 @@ int run(const FitOptions& given) {
   if (options.suggest) return suggest(options);
   Result<std::vector<Output>> outputs = outputs_of(options.outputs, options.input);
   if (!outputs) return report(outputs.error());
-  ExportOptions formats = options.formats;
   ProgressBar bar(options.progress && !options.quiet);
-  auto [made, code] = read_and_fit(options, formats, bar);
-  if (!made) return code;
+  bar.tell("reading", 0.0);
+  auto formed = read_and_fit(options, bar.progress());
+  if (!formed) {
+    bar.clear();
+    return report(formed.error());
+  }
+  auto& [series, made, formats] = *formed;
+  if (!made) return tell_failure(options, series, made.error(), bar);
 
   Written written;
   if (!options.profile.empty()) written.remarks.push_back(options.profile);

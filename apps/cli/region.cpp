@@ -205,30 +205,44 @@ Result<std::vector<NamedFile>> write_worksheet(const PointSeries& series, const 
   return files;
 }
 
-Summary summary_of_region(const RegionOptions& all, const OneOf& one,
-                          const std::vector<std::string>& outputs) {
+/// A worksheet, made and written.
+struct Worksheet {
+  PointSeries series;
+  RegionTable region;
+  std::vector<NamedFile> files;
+};
+
+/// Warnings are told of what fails, too; `at_length`: with all that may be said of why it does.
+Result<Worksheet> worksheet_of(const RegionOptions& options, bool at_length,
+                               std::vector<std::string>& warnings) {
+  Result<PointSeries> series = series_of(options);
+  OBVID_TRY(series);
+  warnings = series->warnings;
+  Result<RegionTable> region = region_table(*series, options.job);
+  if (!region && at_length) return fail(explained(*series, options.job, region.error(), {}));
+  OBVID_TRY(region);
+  warnings.insert(warnings.end(), region->warnings.begin(), region->warnings.end());
+  auto files = write_worksheet(*series, *region, options);
+  OBVID_TRY(files);
+  return Worksheet{std::move(*series), std::move(*region), std::move(*files)};
+}
+
+Summary summary_of_region(const RegionOptions& options) {
   Summary out;
-  const RegionOptions options = options_of_one(all, one, outputs);
-  const auto done = [&]() -> Result<void> {
-    const Result<PointSeries> series = series_of(options);
-    OBVID_TRY(series);
-    out.warnings = series->warnings;
-    const Result<RegionTable> region = region_table(*series, options.job);
-    OBVID_TRY(region);
-    out.warnings.insert(out.warnings.end(), region->warnings.begin(), region->warnings.end());
-    OBVID_TRY(write_worksheet(*series, *region, options));
-    out.cells = summary_cells(*series, *region);
-    out.verdict = "as told";
-    return {};
-  }();
-  if (!done) out.error = done.error();
+  const auto made = worksheet_of(options, false, out.warnings);
+  if (!made) {
+    out.error = made.error();
+    return out;
+  }
+  out.cells = summary_cells(made->series, made->region);
+  out.verdict = "as told";
   return out;
 }
 
 int region_of_several(const RegionOptions& options) {
   return run_each(options, options.import, true, options.outputs,
                   [&](const OneOf& one, const std::vector<std::string>& outputs) {
-                    return summary_of_region(options, one, outputs);
+                    return summary_of_region(options_of_one(options, one, outputs));
                   });
 }
 
@@ -239,26 +253,23 @@ int run(const RegionOptions& options) {
   if (auto free = check_outputs(options.outputs, {&options.input, 1}); !free) {
     return report(free.error());
   }
-  const Result<PointSeries> series = series_of(options);
-  if (!series) return report(series.error());
-  warn(series->warnings);
-  const Result<RegionTable> region = region_table(*series, options.job);
-  if (!region) return report(explained(*series, options.job, region.error(), {}));
-  warn(region->warnings);
-  const auto files = write_worksheet(*series, *region, options);
-  if (!files) return report(files.error());
+  std::vector<std::string> warnings;
+  const auto made = worksheet_of(options, true, warnings);
+  warn(warnings);
+  if (!made) return report(made.error());
+  const auto& [series, region, files] = *made;
   std::string text;
   if (options.json) {
-    auto json = region_json(*series, *region, {});
+    auto json = region_json(series, region, {});
     if (!json) return report(json.error());
     text = std::move(*json);
   } else if (options.csv) {
-    auto table = region_file("csv", *series, *region);
+    auto table = region_file("csv", series, region);
     if (!table) return report(table.error());
     text = std::move(table->text);
   } else if (!options.quiet) {
-    text = region_text(*series, *region);
-    for (const auto& [path, file] : *files) {
+    text = region_text(series, region);
+    for (const auto& [path, file] : files) {
       text +=
           fmt::format("written        {}{}\n", path, file.remark.empty() ? "" : ": " + file.remark);
     }

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "obvid/curve/internal/contour_path.h"
 #include "obvid/exchange/internal/gcode/motion_time.h"
 #include "obvid/exchange/internal/gcode/path.h"
 
@@ -23,52 +24,42 @@ constexpr double kMostWays = 100.0;
 /// A path by its length, around and around when it is closed.
 class Along {
  public:
-  explicit Along(const ArcPath& path) : path_(path), ends_{0.0} {
-    for (const Piece& piece : path.pieces) ends_.push_back(ends_.back() + length_of(piece));
-  }
-  [[nodiscard]] double length() const { return ends_.back(); }
+  explicit Along(const ArcPath& path) : path_(path.pieces), closed_(path.closed) {}
+  [[nodiscard]] double length() const { return path_.length(); }
 
   /// The place at a length, 0 or more.
   [[nodiscard]] Vec2 at(double length) const {
-    const auto [k, begin] = piece_at(std::fmod(length, ends_.back()));
-    return evaluate(path_.pieces[k], begin / (ends_[k + 1] - ends_[k])).point;
+    return path_.jet(std::fmod(length, path_.length())).point;
   }
 
   /// The pieces between two lengths, 0 <= from < to; beyond its end a closed path begins again.
   [[nodiscard]] std::vector<Piece> between(double from, double to) const {
     std::vector<Piece> out;
+    const std::span<const Piece> pieces = path_.pieces();
     const double whole = length();
-    const double turns = path_.closed ? std::floor(from / whole) : 0.0;
+    const double turns = closed_ ? std::floor(from / whole) : 0.0;
     double at = from - turns * whole, left = to - from;
-    auto k = piece_at(at).first;
+    std::size_t k = path_.parameter(at).piece;
     while (left > kNothing * whole) {
-      const double own = ends_[k + 1] - ends_[k], begin = std::max(0.0, at - ends_[k]);
-      const double end = std::min(own, begin + left);
+      const double own = path_.joint(k + 1) - path_.joint(k);
+      const double begin = std::max(0.0, at - path_.joint(k)), end = std::min(own, begin + left);
       if (end - begin > kNothing * whole) {
-        out.push_back(part_of(path_.pieces[k], begin <= kNothing * whole ? 0.0 : begin / own,
+        out.push_back(part_of(pieces[k], begin <= kNothing * whole ? 0.0 : begin / own,
                               own - end <= kNothing * whole ? 1.0 : end / own));
       }
       left -= end - begin;
-      if (++k == path_.pieces.size()) {
-        if (!path_.closed) break;
+      if (++k == pieces.size()) {
+        if (!closed_) break;
         k = 0;
       }
-      at = ends_[k];
+      at = path_.joint(k);
     }
     return out;
   }
 
  private:
-  /// A piece, and the length from its start.
-  [[nodiscard]] std::pair<std::size_t, double> piece_at(double length) const {
-    const auto behind = std::upper_bound(ends_.begin(), ends_.end(), length);
-    const auto k = static_cast<std::size_t>(std::distance(ends_.begin(), behind));
-    const std::size_t piece = std::min(k == 0 ? 0 : k - 1, path_.pieces.size() - 1);
-    return {piece, length - ends_[piece]};
-  }
-
-  const ArcPath& path_;
-  std::vector<double> ends_;
+  ContourPath path_;
+  bool closed_;
 };
 
 class Blocks {

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "obvid/curve/internal/contour_path.h"
 #include "obvid/curve/internal/curvature_extent.h"
 #include "obvid/curve/internal/path_distance.h"
 
@@ -57,17 +58,12 @@ class CubicOf {
         end_(end_point(path.back())),
         leaves_(unit_at(heading_at_start(path.front()))),
         arrives_(unit_at(heading_at_end(path.back()))) {
-    for (const Piece& piece : path) length_ += length_of(piece);
-    double done = 0.0;
-    int k = 1;
-    for (const Piece& piece : path) {
-      const double own = length_of(piece);
-      for (; k < kPlaces && length_ * k <= (done + own) * kPlaces; ++k) {
-        const Jet jet = evaluate(piece, std::clamp((length_ * k / kPlaces - done) / own, 0.0, 1.0));
-        places_.push_back(
-            {jet.point, left_normal(jet.d1 / norm(jet.d1)), static_cast<double>(k) / kPlaces});
-      }
-      done += own;
+    const ContourPath along(path);
+    length_ = along.length();
+    for (int k = 1; k < kPlaces; ++k) {
+      const double part = static_cast<double>(k) / kPlaces;
+      const Jet jet = along.jet(part * length_, true);
+      places_.push_back({jet.point, left_normal(jet.d1 / norm(jet.d1)), part});
     }
   }
 

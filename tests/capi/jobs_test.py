@@ -55,9 +55,8 @@ def formats():
     out = []
     for endings, words in re.findall(r'^OBVID_FORMAT\(\w+,\s*"\.(\S+?)[ "][^,]*,[^.]*(.*)\)$',
                                      source("include/obvid/pipeline/formats.inc"), re.MULTILINE):
-        # a contour is one handle here: files of several are the command line's (docs/formats.md)
         out += [(column, endings) for column in re.findall(r"\.(\w+) = ", words)
-                if column not in ("several", "rule", "files")]
+                if column not in ("rule", "files")]
     return out
 
 

@@ -81,14 +81,6 @@ class Recipes(unittest.TestCase):
         self.assertGreaterEqual(kinds, {path.name for path in EXAMPLES})
         self.assertGreaterEqual(len(EXAMPLES), 3)
 
-    def test_formats_of_several_contours_are_made_together_and_no_others(self):
-        table = (ROOT / "include/obvid/pipeline/formats.inc").read_text(encoding="utf-8")
-        several = re.findall(r"^OBVID_FORMAT\((k\w+),.*?\.several = ", table, re.MULTILINE)
-        self.assertGreater(len(several), 3)
-        source = (ROOT / "src/pipeline/files/export_together.cpp").read_text(encoding="utf-8")
-        made = re.search(r"^Result<Exported> made_together\(.*?^}", source, re.DOTALL | re.MULTILINE)[0]
-        self.assertEqual(sorted(re.findall(r"case FileFormat::(k\w+):", made)), sorted(several))
-
     def test_examples_touch_what_their_recipes_name_and_nothing_else(self):
         for example in EXAMPLES:
             with self.subTest(recipe=example.name), tempfile.TemporaryDirectory() as folder:

@@ -79,7 +79,7 @@ class Carriers(unittest.TestCase):
                            (ROOT / "web/studio/src/view/drawing.tsx").read_text(encoding="utf-8"), re.DOTALL)[1]
         text = TABLE.read_text(encoding="utf-8")
         promised = {name: monotone == "true" for name, monotone in
-                    re.findall(r", (\w+),(?: \.about = \"[^\"]*\",)? \.monotone = (true|false)", text)}
+                    re.findall(r", (\w+), \.title = \"[^\"]*\",(?: \.about = \"[^\"]*\",)? \.monotone = (true|false)", text)}
         self.assertEqual(set(promised), {name for _, name, _ in entries()})
         self.assertEqual(set(re.findall(r'"(\w+)"', silent)), {name for name, says in promised.items() if not says})
 

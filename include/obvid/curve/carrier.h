@@ -49,9 +49,10 @@ inline constexpr int kAnyDegree = -1;
 /// What is known of a carrier.
 struct CarrierInfo {
   Carrier carrier{};
-  const char* name = "";  ///< on the command line and in contour files
+  const char* name = "";   ///< on the command line and in contour files
+  const char* title = "";  ///< what a picture calls such a contour: "Arc contour"
   const char* about = "";  ///< two or three words for a list of carriers
-  bool monotone = false;  ///< promises monotone curvature on every run
+  bool monotone = false;   ///< promises monotone curvature on every run
   CarrierJoints joints{};
   CarrierNeeds needs{};
   CarrierPieces pieces{};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -23,15 +22,16 @@ constexpr std::size_t kLongestReason = 105;
 /// Titles longer than this would meet the facts beside them.
 constexpr std::size_t kLongestName = 50;
 
-/// In the order of the carriers.
-constexpr const char* kKinds[] = {"Spiral contour",       "Arc contour",      "Contour of conics",
-                                  "Contour of parabolas", "Clothoid contour", "B-spline contour",
-                                  "Cubic B-spline",       "CAD spline",       "Curve as drawn"};
-static_assert(std::size(kKinds) == kCarriers.size());
+static_assert(std::all_of(kCarriers.begin(), kCarriers.end(),
+                          [](const CarrierInfo& info) { return *info.title != '\0'; }));
+
+constexpr const CarrierInfo& kAsDrawn =
+    *std::find_if(kCarriers.begin(), kCarriers.end(),
+                  [](const CarrierInfo& info) { return is_as_drawn(info.carrier); });
 
 /// What the curve is; `foreign`: another system drew it.
 std::string kind_of(const Contour& contour, bool foreign) {
-  std::string kind = foreign ? "Curve as drawn" : kKinds[static_cast<std::size_t>(contour.carrier)];
+  std::string kind = (foreign ? kAsDrawn : info_of(contour.carrier)).title;
   if (contour.closed)
     kind = "Closed " + std::string(1, static_cast<char>(kind[0] - 'A' + 'a')) + kind.substr(1);
   if (!foreign) kind += " · " + counted(contour.points.size(), "point", "points");

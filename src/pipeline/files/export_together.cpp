@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -17,7 +18,6 @@
 
 namespace obvid {
 namespace pipeline_detail {
-namespace {
 
 /// Contours of one file, and what each of them is written with.
 struct Together {
@@ -28,6 +28,13 @@ struct Together {
 
   [[nodiscard]] const Units& units() const { return contours.front().stored.contour.units; }
 };
+
+#define OBVID_FORMAT(enumerator, endings, contours, surfaces, curves, together, ...) \
+  Result<Exported> together_as_##together(const Together& asked);
+#include "obvid/pipeline/formats.inc"
+#undef OBVID_FORMAT
+
+namespace {
 
 /// By what a contour without a layer is known.
 const std::string& id_of(const TitledContour& contour) {
@@ -41,45 +48,6 @@ const std::string& layer_named(const TitledContour& contour) {
 std::string within(double deviation, const Units& units) {
   if (!(deviation > 0.0)) return "exact";
   return fmt::format("at most {:.3g} {} from the contours", printable(deviation), units.text());
-}
-
-Result<Exported> layers_of_dxf(const Together& asked) {
-  const DxfProfile profile = asked.options.dxf;
-  const bool arcs = profile == DxfProfile::kArcs || profile == DxfProfile::kArcsR12;
-  std::vector<DxfCurve> curves;
-  for (std::size_t i = 0; i < asked.all.size(); ++i) {
-    const ContourExport& e = asked.all[i];
-    curves.push_back(
-        {e.contour, layer_named(asked.contours[i]), arcs ? e.arc_tolerance : e.tolerance});
-  }
-  auto made = dxf_text(curves, profile, &asked.watch);
-  OBVID_TRY(made);
-  Exported out{{{"", std::move(made->text)}}, {}, {}};
-  out.remarks.push_back(fmt::format("{} as {} on {}, {}", counted(curves.size(), "curve", "curves"),
-                                    counted(made->entities, "entity", "entities"),
-                                    counted(made->layers, "layer", "layers"),
-                                    within(made->deviation, asked.units())));
-  if (made->renamed > 0) {
-    out.remarks.push_back(fmt::format("{} called otherwise, for what DXF forbids in names",
-                                      counted(made->renamed, "layer is", "layers are")));
-  }
-  return out;
-}
-
-Result<Exported> paths_of_svg(const Together& asked) {
-  std::vector<SvgCurve> curves;
-  for (std::size_t i = 0; i < asked.all.size(); ++i) {
-    const ContourExport& e = asked.all[i];
-    const TitledContour& contour = asked.contours[i];
-    curves.push_back({e.contour, id_of(contour), contour.layer, e.arc_tolerance});
-  }
-  auto made = svg_drawing(curves, {}, &asked.watch);
-  OBVID_TRY(made);
-  Exported out{{{"", std::move(made->text)}}, {}, {}};
-  out.remarks.push_back(fmt::format("{} in true scale, a path each, {}",
-                                    counted(curves.size(), "curve", "curves"),
-                                    within(made->deviation, asked.units())));
-  return out;
 }
 
 /// What kernels would not keep is told once.
@@ -125,30 +93,82 @@ Result<Exported> curves_of_cad(const Together& asked, CadFormat format) {
   return out;
 }
 
-Result<Exported> made_together(const Together& asked, FileFormat format) {
-  switch (format) {
-    case FileFormat::kDxf:
-      return layers_of_dxf(asked);
-    case FileFormat::kPicture:
-      return paths_of_svg(asked);
-    case FileFormat::kStep:
-      return curves_of_cad(asked, asked.options.step);
-    case FileFormat::kIges:
-      return curves_of_cad(asked, CadFormat::kIges);
-    case FileFormat::kBrep:
-      return curves_of_cad(asked, CadFormat::kBrep);
-    default:
-      return fail(not_held_by_format());
-  }
-}
-
 std::string formats_of_several() {
   std::string out;
   for (const FormatRow& row : kFormats) {
-    if (*row.several == '\0') continue;
+    if (!row.several) continue;
     out += fmt::format("{}{}", out.empty() ? "" : ", ", row.ending());
   }
   return out;
+}
+
+}  // namespace
+
+/// A layer for each.
+Result<Exported> together_as_dxf(const Together& asked) {
+  const DxfProfile profile = asked.options.dxf;
+  const bool arcs = profile == DxfProfile::kArcs || profile == DxfProfile::kArcsR12;
+  std::vector<DxfCurve> curves;
+  for (std::size_t i = 0; i < asked.all.size(); ++i) {
+    const ContourExport& e = asked.all[i];
+    curves.push_back(
+        {e.contour, layer_named(asked.contours[i]), arcs ? e.arc_tolerance : e.tolerance});
+  }
+  auto made = dxf_text(curves, profile, &asked.watch);
+  OBVID_TRY(made);
+  Exported out{{{"", std::move(made->text)}}, {}, {}};
+  out.remarks.push_back(fmt::format("{} as {} on {}, {}", counted(curves.size(), "curve", "curves"),
+                                    counted(made->entities, "entity", "entities"),
+                                    counted(made->layers, "layer", "layers"),
+                                    within(made->deviation, asked.units())));
+  if (made->renamed > 0) {
+    out.remarks.push_back(fmt::format("{} called otherwise, for what DXF forbids in names",
+                                      counted(made->renamed, "layer is", "layers are")));
+  }
+  return out;
+}
+
+/// A path for each.
+Result<Exported> together_as_svg(const Together& asked) {
+  std::vector<SvgCurve> curves;
+  for (std::size_t i = 0; i < asked.all.size(); ++i) {
+    const ContourExport& e = asked.all[i];
+    const TitledContour& contour = asked.contours[i];
+    curves.push_back({e.contour, id_of(contour), contour.layer, e.arc_tolerance});
+  }
+  auto made = svg_drawing(curves, {}, &asked.watch);
+  OBVID_TRY(made);
+  Exported out{{{"", std::move(made->text)}}, {}, {}};
+  out.remarks.push_back(fmt::format("{} in true scale, a path each, {}",
+                                    counted(curves.size(), "curve", "curves"),
+                                    within(made->deviation, asked.units())));
+  return out;
+}
+
+Result<Exported> together_as_step(const Together& asked) {
+  return curves_of_cad(asked, asked.options.step);
+}
+
+Result<Exported> together_as_iges(const Together& asked) {
+  return curves_of_cad(asked, CadFormat::kIges);
+}
+
+Result<Exported> together_as_brep(const Together& asked) {
+  return curves_of_cad(asked, CadFormat::kBrep);
+}
+
+Result<Exported> together_as_none(const Together&) { return fail(not_held_by_format()); }
+
+namespace {
+
+Result<Exported> made_together(const Together& asked, FileFormat format) {
+  constexpr std::array kWriters = {
+#define OBVID_FORMAT(enumerator, endings, contours, surfaces, curves, together, ...) \
+  &together_as_##together,
+#include "obvid/pipeline/formats.inc"
+#undef OBVID_FORMAT
+  };
+  return kWriters[static_cast<std::size_t>(format)](asked);
 }
 
 }  // namespace
@@ -158,7 +178,7 @@ Result<void> can_export_together(FileFormat format, const ExportOptions& options
   using namespace pipeline_detail;
   const auto row = std::find_if(kFormats.begin(), kFormats.end(),
                                 [&](const FormatRow& one) { return one.format == format; });
-  if (*row->several == '\0') {
+  if (!row->several) {
     const std::string cut = format == FileFormat::kGcode
                                 ? "; `obvid cut` makes one program of all outlines of a drawing"
                                 : "";

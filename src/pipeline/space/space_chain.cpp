@@ -51,6 +51,13 @@ double blur_of(const SpaceSeries& series, const FitJob& job) {
                    chain_rounding(series.points)});
 }
 
+/// Whether points are met as they are.
+bool meets_points(const SpaceJob& job) {
+  const auto moves = [](const FixedData& f) { return f.tolerance.value_or(0.0) > 0.0; };
+  return !(job.fit.noise.value_or(0.0) > 0.0) && !job.fit.noise_from_rounding &&
+         std::none_of(job.fixed.begin(), job.fixed.end(), moves);
+}
+
 /// End of a curve: its place and tangent.
 struct SpaceEnd {
   Vec3 point, tangent;
@@ -153,6 +160,7 @@ class ChainForming {
     CornerConstraints constraints;
     constraints.find = job_.fit.find_corners;
     if (job_.fit.corner_angle) constraints.angle = *job_.fit.corner_angle;
+    constraints.exact = meets_points(job_);
     const std::size_t n = chain_.points.size();
     std::vector<std::size_t> marked;
     for (const PointConstraint& constraint : job_.fit.constraints) {

@@ -26,8 +26,8 @@ enum class UnitRule {
 struct FormatRow {
   FileFormat format{};
   const char* endings = "";    ///< ".step .stp"
+  bool several = false;        ///< whether one file holds several contours
   const char* contour = "";    ///< of a contour,
-  const char* several = "";    ///< several contours in one file,
   const char* surface = "";    ///< a surface,
   const char* space = "";      ///< a curve in space,
   const char* toolpath = "";   ///< a tool path,
@@ -52,8 +52,11 @@ struct FormatRow {
 using FilesOf = const char* FormatRow::*;
 
 inline constexpr std::array kFormats = {
-#define OBVID_FORMAT(enumerator, extensions, contours, surfaces, curves, ...) \
-  FormatRow{.format = FileFormat::enumerator, .endings = extensions, __VA_ARGS__},
+#define OBVID_FORMAT(enumerator, extensions, contours, surfaces, curves, together, ...) \
+  FormatRow{.format = FileFormat::enumerator,                                           \
+            .endings = extensions,                                                      \
+            .several = std::string_view(#together) != "none",                           \
+            __VA_ARGS__},
 #include "obvid/pipeline/formats.inc"
 #undef OBVID_FORMAT
 };

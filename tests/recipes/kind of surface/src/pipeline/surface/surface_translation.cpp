@@ -15,8 +15,9 @@ Result<MadeSurface> make_kind(const TranslationKind& /*kind*/, const SurfaceJob&
   SpaceCurve way = other->curve;
   const Vec3 start = way.points.front();
   for (Vec3& p : way.points) p = p - start;
-  auto made = made_of(TranslationSurface{one->curve, way}, "translation",
-                      size_of(one->curve.points) + size_of(way.points), job);
+  auto made =
+      made_of(TranslationSurface{one->curve, way}, "translation",
+              farthest_from_first(one->curve.points) + farthest_from_first(way.points), job);
   if (made) made->model.units = one->units;
   return made;
 }
