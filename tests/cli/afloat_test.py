@@ -228,6 +228,16 @@ class Afloat(unittest.TestCase):
             self.assertNotIn("whole box", done.stderr, name)
             self.assertAlmostEqual(json.loads(done.stdout)["patches"][face - 1]["area"], area, delta=near, msg=name)
 
+    def test_faces_in_a_plane_and_trims_that_it_touches(self):
+        bodies = self.bodies()
+        # (body, plane): branches, all closed; a rectangle with three holes, ends of tubes, a plane along the seam of a wall
+        for name, plane, count in (("plate", "0,0,1,-1", 4), ("plate", "0,0,1,1", 4), ("plate", "0,0,1,0", 4), ("plate", "1,0,0,0", 1),
+                                   ("lying", "0,1,0,-3", 1), ("lying", "0,1,0,3", 1), ("lying", "0,0,1,2", 0), ("lying", "1,0,0,2", 0),
+                                   ("frustum", "0,0,1,-2", 2), ("frustum", "0,0,1,3", 2), ("rounded_end", "0,0,1,1", 1), ("cap", "0,0,1,1", 1)):
+            done = self.run_it("surface", "cut", bodies / (name + ".step"), "--plane", plane, "--json")
+            branches = json.loads(done.stdout)["sections"][0]["branches"]
+            self.assertEqual([b["closed"] for b in branches], [True] * count, (name, plane))
+
     def test_faces_that_a_file_turns_differently(self):
         bodies = self.bodies()
         self.run_it("surface", "convert", bodies / "drilled.step", "-o", self.work / "drilled.json", "-q")
