@@ -21,7 +21,7 @@ constexpr double kAlongEachOther = 0.866;  ///< cosine
 constexpr double kNoChord = 1e-9;          ///< of the size: poles have no direction
 
 /// A short part of a boundary.
-struct Chord {
+struct BoundaryChord {
   std::size_t patch = 0, curve = 0;
   Range t;
   Vec3 from, to, middle;
@@ -101,7 +101,7 @@ std::vector<TrimLoop> oriented_loops(const SurfacePatch& patch) {
 /// Chords by the cells of a raster that their boxes are in.
 class ChordRaster {
  public:
-  ChordRaster(const std::vector<Chord>& chords, const Box3& box, double more) {
+  ChordRaster(const std::vector<BoundaryChord>& chords, const Box3& box, double more) {
     constexpr double kMostCells = 64.0;  // along a side: of some thousand chords few a cell
     step_ = std::max(box.diagonal() / kMostCells, 4.0 * more);
     low_ = box.low - Vec3{more, more, more};
@@ -148,7 +148,7 @@ class JointFinder {
     double widest = 0.0;
     for (const SurfacePatch& patch : model_.patches) widest = std::max(widest, patch.trims_within);
     Box3 box;
-    for (const Chord& chord : chords_) {
+    for (const BoundaryChord& chord : chords_) {
       box.add(chord.from);
       box.add(chord.to);
     }
@@ -172,7 +172,7 @@ class JointFinder {
       const std::vector<double> spans = distinct(curve.knots);
       for (std::size_t i = 1; i < spans.size(); ++i) {
         for (int k = 0; k < kChordsOfSpan; ++k) {
-          Chord chord;
+          BoundaryChord chord;
           const Range span{spans[i - 1], spans[i]};
           chord.patch = patch;
           chord.curve = boundaries_.size();
@@ -195,7 +195,7 @@ class JointFinder {
   }
 
   /// How far a place is from the curve of a chord, from the chord on.
-  [[nodiscard]] double distance(const Chord& chord, Vec3 p) const {
+  [[nodiscard]] double distance(const BoundaryChord& chord, Vec3 p) const {
     const NurbsCurve& curve = *boundaries_[chord.curve].curve;
     const NurbsSurface& s = model_.patches[chord.patch].surface;
     const Range all{curve.knots.front(), curve.knots.back()};
@@ -217,10 +217,10 @@ class JointFinder {
 
   /// Whether another boundary, or another part of the own one, runs there; notes which.
   bool look_at(std::size_t number, const std::vector<std::size_t>& others) {
-    const Chord& own = chords_[number];
+    const BoundaryChord& own = chords_[number];
     std::vector<std::pair<std::size_t, double>> there;  // boundary, and 1 or -1
     for (const std::size_t k : others) {
-      const Chord& other = chords_[k];
+      const BoundaryChord& other = chords_[k];
       if (k == number || k == own.next || other.next == number) continue;
       const double turn = dot(own.along, other.along);
       if (std::abs(turn) < kAlongEachOther) continue;
@@ -319,7 +319,7 @@ class JointFinder {
   double size_;
   TrimJoints out_;
   std::vector<Boundary> boundaries_;
-  std::vector<Chord> chords_;
+  std::vector<BoundaryChord> chords_;
   std::map<std::pair<std::size_t, std::size_t>, double> along_;
 };
 
