@@ -75,25 +75,26 @@ std::string faired_text(const MadeSection& section) {
 }
 
 /// "12.5 m^3, last step 3e-12"
-std::string figure_text(const MeasuredFigure& figure, const std::string& unit, int power) {
-  return fmt::format("{} {}{}, last step {}", significant(figure.value, 8), unit,
+std::string figure_text(const MeasuredFigure& figure, const std::string& unit, int power,
+                        bool trimmed) {
+  return fmt::format("{} {}{}, last step{} {}", significant(figure.value, 8), unit,
                      power == 1 ? std::string() : fmt::format("^{}", power),
-                     significant(figure.error, 2));
+                     trimmed ? " and trims" : "", significant(figure.error, 2));
 }
 
 void add_displaced(Facts& facts, const MadeSurfaceCut& made) {
   if (!made.displaced) return;
   const Displaced& d = *made.displaced;
   const std::string unit = made.units.text();
-  facts.add("volume", figure_text(d.volume, unit, 3));
+  facts.add("volume", figure_text(d.volume, unit, 3, d.trimmed));
   if (made.displacement) facts.add("displacement", significant(*made.displacement, 8));
-  facts.add("centre x", figure_text(d.centre_x, unit, 1));
-  facts.add("centre y", figure_text(d.centre_y, unit, 1));
-  facts.add("centre z", figure_text(d.centre_z, unit, 1));
-  facts.add("wetted", figure_text(d.wetted, unit, 2));
-  facts.add("waterplane", figure_text(d.waterplane, unit, 2));
-  facts.add("its centre x", figure_text(d.plane_x, unit, 1));
-  facts.add("its inertia", figure_text(d.inertia_x, unit, 4));
+  facts.add("centre x", figure_text(d.centre_x, unit, 1, d.trimmed));
+  facts.add("centre y", figure_text(d.centre_y, unit, 1, d.trimmed));
+  facts.add("centre z", figure_text(d.centre_z, unit, 1, d.trimmed));
+  facts.add("wetted", figure_text(d.wetted, unit, 2, d.trimmed));
+  facts.add("waterplane", figure_text(d.waterplane, unit, 2, d.trimmed));
+  facts.add("its centre x", figure_text(d.plane_x, unit, 1, d.trimmed));
+  facts.add("its inertia", figure_text(d.inertia_x, unit, 4, d.trimmed));
 }
 
 std::string sections_text(const SurfaceCutOptions& options, const MadeSurfaceCut& made,

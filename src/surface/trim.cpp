@@ -251,10 +251,8 @@ class AreaOf {
 
 }  // namespace
 
-namespace {
-
-/// Whether a curve runs along a side of the patch.
-bool along_side(const NurbsCurve& curve, const Range& u, const Range& v) {
+bool runs_along_side(const NurbsCurve& curve, const NurbsSurface& surface) {
+  const Range u = domain_u(surface), v = domain_v(surface);
   const auto all = [&](auto coordinate, double side, double small) {
     return std::all_of(curve.points.begin(), curve.points.end(),
                        [&](Vec2 p) { return std::abs(coordinate(p) - side) <= small; });
@@ -265,13 +263,15 @@ bool along_side(const NurbsCurve& curve, const Range& u, const Range& v) {
   return all(x, u.from, du) || all(x, u.to, du) || all(y, v.from, dv) || all(y, v.to, dv);
 }
 
+namespace {
+
 /// Length on the surface of the trims that are no sides of the patch.
 double length_of_trims(const SurfacePatch& patch) {
   const Range u = domain_u(patch.surface), v = domain_v(patch.surface);
   double sum = 0.0;
   for (const TrimLoop& loop : patch.trims) {
     for (const NurbsCurve& curve : loop.curves) {
-      if (along_side(curve, u, v)) continue;
+      if (runs_along_side(curve, patch.surface)) continue;
       const auto speed = [&](double t) {
         const auto at = evaluate(curve, t);
         const SurfaceJet jet = evaluate(patch.surface, std::clamp(at.point.x, u.from, u.to),

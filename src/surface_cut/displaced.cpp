@@ -9,23 +9,17 @@
 
 #include "branches.h"
 #include "cells.h"
+#include "integrals.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/numeric/internal/gauss.h"
 #include "obvid/surface/internal/topology.h"
 #include "openings.h"
+#include "trim_joints.h"
+#include "trimmed_integrals.h"
 
-namespace obvid {
+namespace obvid::afloat {
 namespace {
 
-/// Integrals over a part of a patch: area; and with the third component of du x dv 1, x, y, y^2;
-/// with the height above the water too 1, x, y, and half that height.
-constexpr std::size_t kIntegrals = 9;
-using Integrals = std::array<double, kIntegrals>;
-constexpr std::array<int, kIntegrals> kDimension = {2, 2, 3, 3, 4, 3, 4, 4, 4};
-enum : std::size_t { kArea, kFlat, kFlatX, kFlatY, kFlatYy, kVolume, kMomentX, kMomentY, kMomentZ };
-
-constexpr double kPartsDiffer = 1e-13;  ///< of the size, to the power of the dimension
-constexpr int kMostHalvingsOfParts = 10;
 /// The plane that tells wet cells from dry ones lies this far below the water, of the size and of
 /// the rounding of heights: a face in the waterplane is dry, and not cut.
 constexpr double kBelowOfSize = 1e-12, kBelowOfRounding = 16.0;
@@ -33,44 +27,11 @@ constexpr double kBelowOfSize = 1e-12, kBelowOfRounding = 16.0;
 /// surface, which cancel, leave of their sum.
 constexpr double kCancelled = 256.0;
 
-Integrals operator+(Integrals a, const Integrals& b) {
-  for (std::size_t i = 0; i < kIntegrals; ++i) a[i] += b[i];
-  return a;
-}
-
-/// With what the last step changed.
-struct Sum {
-  Integrals value{}, error{};
-  void add(const Sum& other) {
-    value = value + other.value;
-    error = error + other.error;
-  }
-};
-
-template <std::size_t N>
-std::array<double, N> nodes(Range range) {
-  std::array<double, N> out{};
-  for (std::size_t i = 0; i < N / 2; ++i) {
-    const double step = 0.5 * range.length() * GaussRule<N>::kNode[i];
-    out[N / 2 + i] = 0.5 * (range.from + range.to) + step;
-    out[N / 2 - 1 - i] = 0.5 * (range.from + range.to) - step;
-  }
-  return out;
-}
-template <std::size_t N>
-double weight(std::size_t i) {
-  return GaussRule<N>::kWeight[i >= N / 2 ? i - N / 2 : N / 2 - 1 - i];
-}
-
 /// Integrals of one patch below the water.
 class PatchIntegrals {
  public:
   PatchIntegrals(const CutPatch& patch, const PlaneFoot& foot, Vec3 origin, double size)
-      : patch_(patch), foot_(foot), origin_(origin) {
-    for (std::size_t i = 0; i < kIntegrals; ++i) {
-      small_[i] = kPartsDiffer * std::pow(size, kDimension[i]);
-    }
-  }
+      : patch_(patch), foot_(foot), origin_(origin), small_(small_integrals(size)) {}
 
   void take(const SectionCell& cell, CellKind kind) {
     const Range u{patch_.u.at(cell.span_u, cell.shares_u().from),
@@ -78,7 +39,7 @@ class PatchIntegrals {
     const Range v{patch_.v.at(cell.span_v, cell.shares_v().from),
                   patch_.v.at(cell.span_v, cell.shares_v().to)};
     if (kind == CellKind::kBelow) {
-      sum.add(refined(u, [&](Range part, auto rule, int halvings) {
+      sum.add(refined(u, small_, [&](Range part, auto rule, int halvings) {
         return over_panels(v, halvings, [&](Range some) { return strip(part, some, rule); });
       }));
     } else if (kind == CellKind::kOverU || kind == CellKind::kOverV) {
@@ -92,30 +53,6 @@ class PatchIntegrals {
   std::size_t undecided = 0;
 
  private:
-  template <std::size_t N>
-  using Rule = std::integral_constant<std::size_t, N>;
-
-  [[nodiscard]] Integrals at(const SurfacePoint& p) const {
-    const Vec3 normal = cross(p.du, p.dv), r = p.point - origin_;
-    const double n = normal.z;
-    return {norm(normal),       n,       r.x * n,       r.y * n,
-            r.y * r.y * n,      r.z * n, r.x * r.z * n, r.y * r.z * n,
-            0.5 * r.z * r.z * n};
-  }
-
-  /// `part` of each of 2^halvings parts of a range, together.
-  template <class Part>
-  static Integrals over_panels(Range range, int halvings, const Part& part) {
-    constexpr int kMostPanels = 4;  // halvings
-    const int count = 1 << std::min(halvings, kMostPanels);
-    Integrals out{};
-    for (int k = 0; k < count; ++k) {
-      out = out + part(Range{range.at(static_cast<double>(k) / count),
-                             range.at(static_cast<double>(k + 1) / count)});
-    }
-    return out;
-  }
-
   /// Over a rectangle.
   template <std::size_t N>
   [[nodiscard]] Integrals strip(Range u, Range v, Rule<N>) const {
@@ -126,39 +63,11 @@ class PatchIntegrals {
     for (std::size_t j = 0; j < N; ++j) {
       for (std::size_t i = 0; i < N; ++i) {
         const double w = 0.25 * u.length() * v.length() * weight<N>(i) * weight<N>(j);
-        const Integrals here = at(points[j * N + i]);
+        const Integrals here = integrands(points[j * N + i], origin_);
         for (std::size_t k = 0; k < kIntegrals; ++k) out[k] += w * here[k];
       }
     }
     return out;
-  }
-
-  /// A range halved until 4 and 8 points agree; what lies across it is halved as often.
-  template <class Part>
-  [[nodiscard]] Sum refined(Range range, const Part& part, int halvings = 0) const {
-    const Integrals rough = part(range, Rule<4>{}, halvings);
-    const Integrals fine = part(range, Rule<8>{}, halvings);
-    Sum out{fine, {}};
-    bool enough = true;
-    for (std::size_t i = 0; i < kIntegrals; ++i) {
-      out.error[i] = std::abs(fine[i] - rough[i]);
-      enough = enough && out.error[i] <= small_[i];
-    }
-    if (enough) return out;
-    const double middle = range.at(0.5);
-    const std::array<Range, 2> halves = {Range{range.from, middle}, Range{middle, range.to}};
-    const Integrals both =
-        part(halves[0], Rule<8>{}, halvings + 1) + part(halves[1], Rule<8>{}, halvings + 1);
-    enough = true;
-    for (std::size_t i = 0; i < kIntegrals; ++i) {
-      out.error[i] = std::abs(fine[i] - both[i]);
-      enough = enough && out.error[i] <= small_[i];
-    }
-    out.value = both;
-    if (enough || halvings >= kMostHalvingsOfParts) return out;
-    Sum halved = refined(halves[0], part, halvings + 1);
-    halved.add(refined(halves[1], part, halvings + 1));
-    return halved;
   }
 
   /// A cell in which the branch is a function of one parameter: below it, or above.
@@ -187,37 +96,17 @@ class PatchIntegrals {
       const bool low = below(part.at(0.5), across.from), high = below(part.at(0.5), across.to);
       if (!low && !high) continue;
       if (low && high) {
-        sum.add(refined(part, [&](Range some, auto rule, int halvings) {
+        sum.add(refined(part, small_, [&](Range some, auto rule, int halvings) {
           return over_panels(across, halvings, [&](Range other) {
             return over_u ? strip(some, other, rule) : strip(other, some, rule);
           });
         }));
         continue;
       }
-      sum.add(refined(part, [&](Range some, auto rule, int halvings) {
+      sum.add(refined(part, small_, [&](Range some, auto rule, int halvings) {
         return up_to_water(some, strand, low, rule, halvings);
       }));
     }
-  }
-
-  /// Over a part of a line of constant u or v.
-  template <std::size_t N>
-  [[nodiscard]] Integrals across_line(double t, Range range, bool at_u, Rule<N>) const {
-    const auto others = nodes<N>(range);
-    const std::array<double, 1> fixed = {t};
-    std::array<SurfacePoint, N> points;
-    if (at_u) {
-      evaluate_raster(*patch_.surface, fixed, others, points);
-    } else {
-      evaluate_raster(*patch_.surface, others, fixed, points);
-    }
-    Integrals out{};
-    for (std::size_t j = 0; j < N; ++j) {
-      const double w = 0.5 * range.length() * weight<N>(j);
-      const Integrals here = at(points[j]);
-      for (std::size_t k = 0; k < kIntegrals; ++k) out[k] += w * here[k];
-    }
-    return out;
   }
 
   template <std::size_t N>
@@ -233,7 +122,7 @@ class PatchIntegrals {
       const Range wet = low_is_below ? Range{strand.least, at_water} : Range{at_water, strand.most};
       const double w = 0.5 * along.length() * weight<N>(i);
       const Integrals line = over_panels(wet, halvings, [&](Range some) {
-        return across_line(ts[i], some, strand.over_u, Rule<N>{});
+        return across_line(*patch_.surface, origin_, ts[i], some, strand.over_u, Rule<N>{});
       });
       for (std::size_t k = 0; k < kIntegrals; ++k) out[k] += w * line[k];
     }
@@ -244,14 +133,6 @@ class PatchIntegrals {
   const PlaneFoot& foot_;
   Vec3 origin_;
   Integrals small_{};
-};
-
-/// Sides of patches that lie on one side of the body: +1 or -1 each, and which part each belongs
-/// to.
-struct Turned {
-  std::vector<double> sign;
-  std::vector<std::size_t> part;
-  std::size_t parts = 0, twisted = 0;
 };
 
 /// Whether an edge runs counter-clockwise round a patch.
@@ -298,10 +179,23 @@ MeasuredFigure quotient(double a, double a_error, double b, double b_error, doub
   return {shift + value, (a_error + std::abs(value) * b_error) / std::abs(b)};
 }
 
+/// Of a model without trims all edges; those of one patch are open.
+Result<TrimJoints> joints_of(const SurfaceModel& model, const RunContext& run) {
+  if (is_trimmed(model)) return trim_joints_of(model, run);
+  TrimJoints out;
+  out.open = topology_of(model);
+  out.turned = turned_alike(out.open);
+  return out;
+}
+
 }  // namespace
+}  // namespace obvid::afloat
+
+namespace obvid {
 
 Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& options,
                             const RunContext& run) {
+  using namespace afloat;
   if (!std::isfinite(options.water)) {
     return error(ErrorCode::kNotFinite, "the waterplane lies at no finite height");
   }
@@ -322,22 +216,38 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
   const PlaneFoot foot(plane, 0.25 * rounding);
   const double middle_y = options.mirror ? 0.0 : box.middle().y;
   const Vec3 origin{box.middle().x, middle_y, options.water};
-  const Topology topology = topology_of(model);
-  const Turned turned = turned_alike(topology);
+  auto joints = joints_of(model, run);
+  OBVID_TRY(joints);
+  const Turned& turned = joints->turned;
   std::vector<Sum> parts(turned.parts);
   Displaced out;
   out.parts = turned.parts;
   out.twisted = turned.twisted;
+  out.trimmed = is_trimmed(model);
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
     OBVID_TRY(
         tell(run, "measuring", static_cast<double>(i) / static_cast<double>(model.patches.size())));
     const CutPatch patch = cut_patch(model.patches[i].surface);
-    PatchIntegrals integrals(patch, foot, origin, size);
-    OBVID_TRY(divide(patch, heights_of(*patch.surface, decided), rounding * heaviest, run,
-                     [&](const SectionCell& cell, CellKind kind) { integrals.take(cell, kind); }));
-    for (std::size_t k = 1; k < kIntegrals; ++k) integrals.sum.value[k] *= turned.sign[i];
-    parts[turned.part[i]].add(integrals.sum);
-    out.undecided += integrals.undecided;
+    const auto integrate = [&](auto& integrals) -> Result<void> {
+      return divide(patch, heights_of(*patch.surface, decided), rounding * heaviest, run,
+                    [&](const SectionCell& cell, CellKind kind) { integrals.take(cell, kind); });
+    };
+    Sum sum;
+    if (model.patches[i].trims.empty()) {
+      PatchIntegrals integrals(patch, foot, origin, size);
+      OBVID_TRY(integrate(integrals));
+      sum = integrals.sum;
+      out.undecided += integrals.undecided;
+    } else {
+      TrimmedIntegrals integrals(model.patches[i], joints->loops[i], patch, foot, decided, origin,
+                                 size);
+      OBVID_TRY(integrate(integrals));
+      integrals.finish();
+      sum = integrals.sum;
+      out.undecided += integrals.undecided;
+    }
+    for (std::size_t k = 1; k < kIntegrals; ++k) sum.value[k] *= turned.sign[i];
+    parts[turned.part[i]].add(sum);
   }
   Sum all;
   for (Sum& part : parts) {
@@ -346,8 +256,8 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
     }
     all.add(part);
   }
-  const double nothing = kCancelled * std::numeric_limits<double>::epsilon();
-  if (std::abs(all.value[kFlat]) <= nothing * all.value[kArea]) {
+  const double nothing = kCancelled * std::numeric_limits<double>::epsilon() * all.value[kArea];
+  if (std::abs(all.value[kFlat]) <= std::max(nothing, out.trimmed ? all.error[kFlat] : 0.0)) {
     for (const std::size_t k : {kFlat, kFlatX, kFlatY, kFlatYy}) all.value[k] = 0.0;
   }
   // with the outward normal the flux of (0, 0, 1) through the hull is less than nothing
@@ -356,7 +266,10 @@ Result<Displaced> displaced(const SurfaceModel& model, const DisplacedOptions& o
     return MeasuredFigure{sign * sides * all.value[k], sides * all.error[k]};
   };
   out.volume = figure(kVolume, 1.0);
-  const auto open = openings_below(topology, options.water, size, options.mirror, run);
+  // a trim in the waterplane lies below it by no more than it is known
+  double known = 0.0;
+  for (const SurfacePatch& patch : model.patches) known = std::max(known, patch.trims_within);
+  const auto open = openings_below(joints->open, options.water - known, size, options.mirror, run);
   OBVID_TRY(open);
   out.open_volume = sides * open->volume;
   out.open_width = open->width;

@@ -65,7 +65,15 @@ class TrimClipper {
   }
 
   [[nodiscard]] bool is_there(const SectionPoint& p) const {
-    return !regions_[p.patch] || regions_[p.patch]->contains(p.u, p.v);
+    if (!regions_[p.patch]) return true;
+    // trims run along sides of the patch but for rounding
+    constexpr double kOnSide = 1e-12;  // of the domain
+    const NurbsSurface& s = model_.patches[p.patch].surface;
+    const auto inward = [](double at, const Range& range) {
+      const double step = kOnSide * range.length();
+      return std::clamp(at, range.from + step, range.to - step);
+    };
+    return regions_[p.patch]->contains(inward(p.u, domain_u(s)), inward(p.v, domain_v(s)));
   }
 
  private:

@@ -70,6 +70,7 @@ class Section {
     add_borders_in_plane();
     if (trimmed_) {
       out_.branches = inside_trims(out_.branches, parts_.model, plane_, kEndsMeet * parts_.size);
+      drop_what_trims_only_touch();
     }
     for (SectionBranch& branch : out_.branches) tidy(branch);
     tell_touching();
@@ -267,10 +268,45 @@ class Section {
     const bool sliver =
         branch.closed && touching > 0 && mean_width(branch.points) <= kTouching * parts_.size;
     if (touching == branch.points.size() || sliver) {
-      ++out_.touching_lines;
+      add_touching_line(branch);
       return;
     }
     out_.branches.push_back(std::move(branch));
+  }
+
+  /// What of a branch is inside where a trim touches it: smaller than what counts as one.
+  void drop_what_trims_only_touch() {
+    const auto is_small = [&](const SectionBranch& branch) {
+      Box3 box;
+      for (const SectionPoint& p : branch.points) box.add(p.point);
+      if (box.diagonal() > kTouching * parts_.size) return false;
+      near_.push_back(branch.points.front().point);
+      return true;
+    };
+    out_.branches.erase(std::remove_if(out_.branches.begin(), out_.branches.end(), is_small),
+                        out_.branches.end());
+  }
+
+  /// A line along which the surface touches the plane is met on both of its sides, and in each
+  /// patch that it is a border of.
+  void add_touching_line(const SectionBranch& branch) {
+    const double same = kSamePlace * parts_.size;
+    const auto lies_on = [&](Vec3 p, const SectionBranch& line) {
+      const std::size_t count = line.points.size();
+      if (count == 1) return norm(p - line.points.front().point) <= same;
+      for (std::size_t i = line.closed ? 0 : 1; i < count; ++i) {
+        const Vec3 before = line.points[(i + count - 1) % count].point;
+        if (from_chord(p, before, line.points[i].point) <= same + 2.0 * tolerance_) return true;
+      }
+      return false;
+    };
+    const bool told = std::any_of(lines_.begin(), lines_.end(), [&](const SectionBranch& line) {
+      return std::all_of(branch.points.begin(), branch.points.end(),
+                         [&](const SectionPoint& p) { return lies_on(p.point, line); });
+    });
+    if (told) return;
+    lines_.push_back(branch);
+    ++out_.touching_lines;
   }
 
   /// Of a closed branch: its area over half of its length.
@@ -308,6 +344,7 @@ class Section {
     std::vector<std::size_t> left;
     for (const std::size_t e : borders_) {
       const TopologyEdge& edge = parts_.topology.edges[e];
+      if (is_side_of_trimmed(edge)) continue;
       // where patches meet the surface may only touch the plane, which is told already
       if (edge.uses.size() == 1 || !touches(middle_of(edge))) {
         if (!covered(edge)) left.push_back(e);
@@ -354,13 +391,28 @@ class Section {
     places.back().stands_again = false;
   }
   [[nodiscard]] SectionPoint middle_of(const TopologyEdge& edge) const {
-    const EdgeUse& use = edge.uses.front();
+    const EdgeUse& use = crossing_use(edge);
     const NurbsSurface& s = *parts_.patches[use.patch].surface;
     const bool along_u = runs_along_u(use.side), far = is_far_end(use.side);
     const Range u = domain_u(s), v = domain_v(s);
     const double at_u = along_u ? u.at(0.5) : far ? u.to : u.from;
     const double at_v = along_u ? (far ? v.to : v.from) : v.at(0.5);
     return {evaluate(s, at_u, at_v).point, use.patch, at_u, at_v};
+  }
+  /// Of a trimmed patch that lies in the plane: no border of what is there.
+  [[nodiscard]] bool is_side_of_trimmed(const TopologyEdge& edge) const {
+    const std::size_t patch = edge.uses.front().patch;
+    return edge.uses.size() == 1 && !parts_.model.patches[patch].trims.empty() &&
+           std::find(out_.in_plane.begin(), out_.in_plane.end(), patch) != out_.in_plane.end();
+  }
+  /// The patch that the plane crosses there, not one that lies in it, where there is one.
+  [[nodiscard]] const EdgeUse& crossing_use(const TopologyEdge& edge) const {
+    const auto lies_in_plane = [&](const EdgeUse& use) {
+      return std::find(out_.in_plane.begin(), out_.in_plane.end(), use.patch) !=
+             out_.in_plane.end();
+    };
+    const auto found = std::find_if_not(edge.uses.begin(), edge.uses.end(), lies_in_plane);
+    return found == edge.uses.end() ? edge.uses.front() : *found;
   }
   [[nodiscard]] bool covered(const TopologyEdge& edge) const {
     const Vec3 middle = evaluate(edge.curve, domain(edge.curve).at(0.5)).point;
@@ -375,7 +427,7 @@ class Section {
   }
   /// The places of a border, ends included; where the branch ends in its first one, that one once.
   void append(SectionBranch& branch, std::size_t number, bool along) {
-    const EdgeUse& use = parts_.topology.edges[number].uses.front();
+    const EdgeUse& use = crossing_use(parts_.topology.edges[number]);
     const NurbsSurface& s = *parts_.patches[use.patch].surface;
     const bool along_u = runs_along_u(use.side), far = is_far_end(use.side);
     const Range range = along_u ? domain_u(s) : domain_v(s);
@@ -411,7 +463,7 @@ class Section {
       refine(refine, place(knots[i - 1]), place(knots[i]), 0);
     }
     // of closed ones and joints the first place is there already
-    if (!along) std::reverse(places.begin(), places.end());
+    if (along != use.along) std::reverse(places.begin(), places.end());
     if (!branch.points.empty()) leave(branch.points);
     branch.points.insert(branch.points.end(), places.begin(), places.end());
   }
@@ -450,6 +502,7 @@ class Section {
   std::vector<SectionPoint> at_;  ///< of each end
   std::vector<std::size_t> borders_;
   std::vector<Vec3> near_;
+  std::vector<SectionBranch> lines_;  ///< along which the surface touches the plane
   PlaneSection out_;
 };
 

@@ -125,6 +125,19 @@ TEST(PlaneSection, TellsWhereThePlaneTouches) {
   EXPECT_TRUE(section(sphere(1.0), {{0, 0, 1}, 1.0 + 1e-9}).touching.empty());
 }
 
+TEST(PlaneSection, ALineAlongWhichItTouchesIsThereOnce) {
+  // with knots on its top a torus is met on both sides of them
+  const SurfaceModel model = torus(5.0, 1.5);
+  for (const double z : {1.5, -1.5}) {
+    for (const double up : {1.0, -1.0}) {
+      const PlaneSection s = section(model, {{0, 0, up}, up * z});
+      EXPECT_TRUE(s.branches.empty());
+      EXPECT_EQ(s.undecided, 0U);
+      EXPECT_EQ(s.touching_lines, 1U);
+    }
+  }
+}
+
 TEST(PlaneSection, APlaneThatTouchesACappedBodyCutsNoSliverOfIt) {
   for (const double top : {1.0, 0.3}) {  // a cylinder, a cone
     SpaceCurve profile;

@@ -11,6 +11,7 @@
 #include <GeomConvert.hxx>
 #include <GeomConvert_ApproxSurface.hxx>
 #include <Geom_OffsetSurface.hxx>
+#include <Geom_Plane.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_TrimmedCurve.hxx>
@@ -181,6 +182,9 @@ FaceSurface surface_of(const TopoDS_Face& face) {
   surface->Bounds(u.from, u.to, v.from, v.to);
   box = {snapped(box.u, u, surface->IsUPeriodic()), snapped(box.v, v, surface->IsVPeriodic())};
   out.trimmed = !fills(face, box);
+  if (out.trimmed && !Handle(Geom_Plane)::DownCast(surface).IsNull()) {
+    make_room_for_trims(face, box.u, box.v);
+  }
   auto made = nurbs_over(surface, box, size_of_face(face), out.deviation);
   if (!made) {
     out.refused = "is no surface of this program: " + made.error().what;
@@ -188,10 +192,10 @@ FaceSurface surface_of(const TopoDS_Face& face) {
   }
   const bool turned = face.Orientation() == TopAbs_REVERSED;
   if (out.trimmed) {
-    if (const auto loops = trims_of(face, surface, box.u, box.v, *made)) {
-      out.trims = turned ? with_u_reversed(*loops, domain_u(*made)) : *loops;
+    if (const auto trims = trims_of(face, surface, box.u, box.v, *made)) {
+      out.trims = turned ? with_u_reversed(trims->loops, domain_u(*made)) : trims->loops;
       // edges are known within their tolerance, and cubics follow them
-      out.trims_within = BRep_Tool::MaxTolerance(face, TopAbs_EDGE) + trims_follow_within(*made);
+      out.trims_within = BRep_Tool::MaxTolerance(face, TopAbs_EDGE) + trims->within;
     }
   }
   out.surface = turned ? reversed_u(*made) : *std::move(made);

@@ -3,26 +3,40 @@
 
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
 #include <Geom2dConvert.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace obvid::cad {
 namespace {
 
 constexpr double kTrimSamePoint = 1e-9;      // of the size
-constexpr double kTrimApproximation = 1e-7;  // of the size
+constexpr double kTrimApproximation = 1e-9;  // of the size
 constexpr double kSnapped = 1e-6;            // of the domain
 constexpr double kBridged = 1e-3;            // of the domain: gaps that a line closes
 
+/// Where a surface ends in a point, parameters along its border say nothing: they are taken from
+/// this far inside, of the range across it.
+constexpr double kBesidePoint = 1e-4;
+/// Of the size: how far a whole range of a parameter leads there.
+constexpr double kNoWay = 1e-6;
+
 Vec3 vec(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
+
+Handle(Geom2d_BSplineCurve)
+    spline_of_trim(const Handle(Geom2d_Curve) & line, double first, double last) {
+  return Geom2dConvert::CurveToBSplineCurve(new Geom2d_TrimmedCurve(line, first, last));
+}
 
 class TrimReader {
  public:
@@ -37,23 +51,28 @@ class TrimReader {
         size_(size_of(patch)),
         same_(has_same_parameters()) {}
 
-  std::optional<std::vector<TrimLoop>> loops_of(const TopoDS_Face& given) {
+  std::optional<FaceTrims> loops_of(const TopoDS_Face& given) {
     const TopoDS_Face face = TopoDS::Face(given.Oriented(TopAbs_FORWARD));
     std::vector<TrimLoop> out;
+    within_ = 0.0;
     for (TopExp_Explorer w(face, TopAbs_WIRE); w.More(); w.Next()) {
       TrimLoop loop;
       for (BRepTools_WireExplorer e(TopoDS::Wire(w.Current()), face); e.More(); e.Next()) {
-        auto curve = curve_of_edge(e.Current(), face);
-        if (!curve) return std::nullopt;
-        if (e.Orientation() == TopAbs_REVERSED) curve = reversed(*curve);
-        loop.curves.push_back(*std::move(curve));
+        auto curves = curves_of_edge(e.Current(), face);
+        if (curves.empty()) return std::nullopt;
+        // the explorer's own orientation is that of a vertex: wrong for edges with one vertex
+        if (e.Current().Orientation() == TopAbs_REVERSED) {
+          std::reverse(curves.begin(), curves.end());
+          for (NurbsCurve& curve : curves) curve = reversed(curve);
+        }
+        std::move(curves.begin(), curves.end(), std::back_inserter(loop.curves));
       }
       if (loop.curves.empty()) continue;
       if (!closed(loop)) return std::nullopt;
       out.push_back(std::move(loop));
     }
     if (out.empty() || !check(SurfacePatch{"", patch_, out})) return std::nullopt;
-    return out;
+    return FaceTrims{std::move(out), within_};
   }
 
  private:
@@ -73,15 +92,34 @@ class TrimReader {
     return true;
   }
 
-  std::optional<NurbsCurve> curve_of_edge(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+  /// Its curves one after the other: several where it has corners; none where that cannot be.
+  std::vector<NurbsCurve> curves_of_edge(const TopoDS_Edge& edge, const TopoDS_Face& face) {
     double first = 0.0, last = 0.0;
     const Handle(Geom2d_Curve) line = BRep_Tool::CurveOnSurface(edge, face, first, last);
-    if (line.IsNull() || !(first < last)) return std::nullopt;
-    return same_ ? copied(new Geom2d_TrimmedCurve(line, first, last)) : fitted(line, {first, last});
+    if (line.IsNull() || !(first < last)) return {};
+    if (same_) {
+      if (auto own = copied(spline_of_trim(line, first, last))) return {*std::move(own)};
+    }
+    Geom2dAdaptor_Curve smooth(line, first, last);
+    TColStd_Array1OfReal ends(1, smooth.NbIntervals(GeomAbs_C1) + 1);
+    smooth.Intervals(ends, GeomAbs_C1);
+    std::vector<NurbsCurve> out;
+    for (int k = ends.Lower(); k < ends.Upper(); ++k) {
+      const Range part{ends(k), ends(k + 1)};
+      if (!(part.length() > 0.0)) continue;
+      // a curve of its own, whose derivatives at its ends are those from inside
+      const Handle(Geom2d_Curve) own =
+          ends.Length() == 2 ? line
+                             : Handle(Geom2d_Curve)(spline_of_trim(line, part.from, part.to));
+      auto curve = own.IsNull() ? std::nullopt : fitted(own, part);
+      if (!curve) return {};
+      out.push_back(*std::move(curve));
+    }
+    return out;
   }
 
-  static std::optional<NurbsCurve> copied(const Handle(Geom2d_Curve) & line) {
-    const Handle(Geom2d_BSplineCurve) spline = Geom2dConvert::CurveToBSplineCurve(line);
+  /// Nothing of a degree that the program has not, and where control points leave the patch.
+  [[nodiscard]] std::optional<NurbsCurve> copied(const Handle(Geom2d_BSplineCurve) & spline) const {
     if (spline.IsNull()) return std::nullopt;
     if (spline->IsPeriodic()) spline->SetNotPeriodic();
     NurbsCurve out;
@@ -95,6 +133,9 @@ class TrimReader {
       if (spline->IsRational()) out.weights.push_back(spline->Weight(i));
     }
     if (!check(out)) return std::nullopt;
+    for (const Vec2& p : out.points) {
+      if (!as_good_as_inside(p)) return std::nullopt;
+    }
     return out;
   }
 
@@ -107,6 +148,32 @@ class TrimReader {
     gp_Pnt2d p;
     gp_Vec2d d;
     line->D1(t, p, d);
+    gp_Pnt q;
+    gp_Vec by_u, by_v;
+    kernel_->D1(p.X(), p.Y(), q, by_u, by_v);
+    const bool no_u = by_u.Magnitude() * u_.length() <= kNoWay * size_;
+    const bool no_v = by_v.Magnitude() * v_.length() <= kNoWay * size_;
+    auto out = foot(p, d);
+    if (!out || no_u == no_v) return out;
+    // in a pole, or as good as there: along it from beside it, across it from here
+    gp_Pnt2d beside = p;
+    const auto move_in = [](double at, const Range& range) {
+      const double step = kBesidePoint * range.length();
+      return at < range.at(0.5) ? at + step : at - step;
+    };
+    if (no_u) beside.SetY(move_in(p.Y(), v_));
+    if (no_v) beside.SetX(move_in(p.X(), u_));
+    const auto near = foot(beside, d);
+    if (!near) return std::nullopt;
+    if (no_u) out->at.x = near->at.x;
+    if (no_v) out->at.y = near->at.y;
+    out->d1 = near->d1;
+    out->off = norm(evaluate(patch_, out->at.x, out->at.y).point - vec(q.XYZ()));
+    return out;
+  }
+
+  /// The place of the patch that is a point of the kernel's surface, and where `d` leads there.
+  [[nodiscard]] std::optional<Place> foot(const gp_Pnt2d& p, const gp_Vec2d& d) const {
     gp_Pnt q;
     gp_Vec by_u, by_v;
     kernel_->D1(p.X(), p.Y(), q, by_u, by_v);
@@ -143,7 +210,7 @@ class TrimReader {
     return std::nullopt;
   }
 
-  std::optional<NurbsCurve> fitted(const Handle(Geom2d_Curve) & line, const Range& t) const {
+  std::optional<NurbsCurve> fitted(const Handle(Geom2d_Curve) & line, const Range& t) {
     NurbsCurve out;
     out.degree = 3;
     out.knots.assign(4, t.from);
@@ -160,7 +227,7 @@ class TrimReader {
     return out;
   }
   bool add(const Handle(Geom2d_Curve) & line, const Range& t, const Place& a, const Place& b,
-           int halvings, NurbsCurve& out) const {
+           int halvings, NurbsCurve& out) {
     constexpr int kMostHalvings = 14, kPlaces = 7;
     const double third = t.length() / 3.0;
     const Vec2 p = clamped(a.at + third * a.d1), q = clamped(b.at - third * b.d1);
@@ -173,6 +240,7 @@ class TrimReader {
       off = std::max(off, norm(evaluate(patch_, at.x, at.y).point - on_kernel(on.X(), on.Y())));
     }
     if (off <= kTrimApproximation * size_) {
+      within_ = std::max(within_, off);
       out.points.insert(out.points.end(), {p, q, b.at});
       out.knots.insert(out.knots.end(), 3, t.to);
       return true;
@@ -188,17 +256,21 @@ class TrimReader {
     return {std::clamp(p.x, own_u_.from, own_u_.to), std::clamp(p.y, own_v_.from, own_v_.to)};
   }
 
+  /// Whether a place leaves the patch by no more than other systems mind.
+  [[nodiscard]] bool as_good_as_inside(Vec2 p) const {
+    const Vec2 inside = clamped(p);
+    return std::abs(inside.x - p.x) <= kSnapped * own_u_.length() &&
+           std::abs(inside.y - p.y) <= kSnapped * own_v_.length();
+  }
+
   /// Control points onto the border that they leave by less than other systems mind; ends onto each
   /// other, across wider gaps by lines.
   bool closed(TrimLoop& loop) const {
     const double du = own_u_.length(), dv = own_v_.length();
     for (NurbsCurve& curve : loop.curves) {
       for (Vec2& p : curve.points) {
-        const Vec2 inside = clamped(p);
-        if (std::abs(inside.x - p.x) > kSnapped * du || std::abs(inside.y - p.y) > kSnapped * dv) {
-          return false;
-        }
-        p = inside;
+        if (!as_good_as_inside(p)) return false;
+        p = clamped(p);
       }
     }
     std::vector<NurbsCurve> out;
@@ -223,18 +295,30 @@ class TrimReader {
   Range own_u_, own_v_;
   double size_;
   bool same_;
+  double within_ = 0.0;
 };
 
 }  // namespace
 
-std::optional<std::vector<TrimLoop>> trims_of(const TopoDS_Face& face,
-                                              const Handle(Geom_Surface) & surface, const Range& u,
-                                              const Range& v, const NurbsSurface& patch) {
+std::optional<FaceTrims> trims_of(const TopoDS_Face& face, const Handle(Geom_Surface) & surface,
+                                  const Range& u, const Range& v, const NurbsSurface& patch) {
   return TrimReader(surface, u, v, patch).loops_of(face);
 }
 
-double trims_follow_within(const NurbsSurface& patch) {
-  return kTrimApproximation * size_of(patch);
+void make_room_for_trims(const TopoDS_Face& face, Range& u, Range& v) {
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+    double first = 0.0, last = 0.0;
+    const Handle(Geom2d_Curve) line =
+        BRep_Tool::CurveOnSurface(TopoDS::Edge(e.Current()), face, first, last);
+    if (line.IsNull() || !(first < last)) continue;
+    const Handle(Geom2d_BSplineCurve) spline = spline_of_trim(line, first, last);
+    if (spline.IsNull()) continue;
+    for (int i = 1; i <= spline->NbPoles(); ++i) {
+      const gp_Pnt2d p = spline->Pole(i);
+      u = {std::min(u.from, p.X()), std::max(u.to, p.X())};
+      v = {std::min(v.from, p.Y()), std::max(v.to, p.Y())};
+    }
+  }
 }
 
 std::vector<TrimLoop> with_u_reversed(const std::vector<TrimLoop>& loops, const Range& u) {

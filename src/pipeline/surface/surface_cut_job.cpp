@@ -185,12 +185,6 @@ double lesser_reach_across(const SurfaceModel& model, double enough) {
 
 Result<void> measure(const SurfaceModel& model, const SurfaceCutJob& job, const RunContext& run,
                      MadeSurfaceCut& made) {
-  if (is_trimmed(model)) {
-    return error(ErrorCode::kUnsupported,
-                 "what floats is measured of whole patches, these are trimmed")
-        .where(model.name)
-        .hint("the draught itself needs no trim: give the surface as it was before");
-  }
   if (job.half) {
     const double reach = lesser_reach_across(model, made.tolerance);
     if (reach > made.tolerance) {

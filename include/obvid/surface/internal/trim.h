@@ -59,6 +59,10 @@ class TrimRegion {
 /// The straight line from a to b over [0, 1].
 [[nodiscard]] NurbsCurve parameter_line(Vec2 a, Vec2 b);
 
+/// Whether a curve in the plane of the parameters runs along a side of the patch, within 1e-9 of
+/// its ranges.
+[[nodiscard]] bool runs_along_side(const NurbsCurve& curve, const NurbsSurface& surface);
+
 /// An area, and how far it may be off: what the last step of its quadrature changed, which is
 /// measured and not proved, and what lies between the trims and what they stand for.
 struct PatchArea {

@@ -28,6 +28,7 @@ struct Displaced {
   std::size_t parts = 0;  ///< of surfaces joined at their borders; each counts as positive
   std::size_t twisted = 0;    ///< borders whose patches cannot be turned to one side
   std::size_t undecided = 0;  ///< cells that touch the water along a line, left out
+  bool trimmed = false;       ///< errors hold what lies between trims and what they stand for, too
   double open_volume = 0.0;   ///< units^3, about: what closing open borders level changes
   double open_width = 0.0;    ///< units: how far that would be, at the most
   Vec3 open_at;               ///< a place where they are
@@ -49,7 +50,15 @@ struct DisplacedOptions {
 /// roots of their distance along u or v, where the parts of `ModelCutter` begin and end, so that
 /// the rule meets smooth functions only. Where 4 and 8 points differ by more than 1e-13 of size^3
 /// (^2, ^4) a part is halved both ways, up to 10 times. `error` sums the differences between the
-/// last two steps. Centres of what is not above 8 of its errors are NaN. Errors: E303 water that is
+/// last two steps.
+///
+/// Of trimmed patches what lies inside the trims counts, by Green's theorem along trims and
+/// waterline; `error` adds the length of the trims times `SurfacePatch::trims_within` times what is
+/// integrated there. In a model with trims boundaries meet where they are within 1e-6 of the size,
+/// and what the trims are known within, of each other, whole sides or not; a waterplane within its
+/// error of 0 is 0.
+///
+/// Centres of what is not above 8 of its errors are NaN. Errors: E303 water that is
 /// not finite; E304 no size; E103.
 [[nodiscard]] Result<Displaced> displaced(const SurfaceModel& model,
                                           const DisplacedOptions& options,

@@ -44,8 +44,8 @@ struct PlaneSection {
   /// cells of 1/65,536 of a knot span, and points of branches where the tangent plane is the
   /// cutting one within 1e-5 rad. At most 16, each farther than 1e-4 of the size from the others.
   std::vector<Vec3> touching;
-  /// Lines along which the surface touches the plane within 1e-5 rad (once for each side of the
-  /// line that the plane beside it cuts); they are no branches, and `touching` has places of them.
+  /// Lines along which the surface touches the plane within 1e-5 rad, once each as far as 1e-4 of
+  /// the size can tell; they are no branches, and `touching` has places of them.
   std::size_t touching_lines = 0;
   /// Cells that stayed undecided at the smallest size: the surface touches the plane along a line,
   /// and what lies in them is not there.
