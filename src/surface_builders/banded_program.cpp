@@ -56,8 +56,8 @@ class Steps {
         x_(p_.rows * p_.columns, 0.0),
         right_(x_.size(), 0.0),
         width_(widths(p_)),
-        matrix_(x_.size(),
-                (kSeen - 1) * p_.columns + *std::max_element(width_.begin(), width_.end()) - 1),
+        order_(orders(p_, *std::max_element(width_.begin(), width_.end()))),
+        matrix_(x_.size(), order_.band),
         quadratic_(matrix_),
         seen_by_(p_.rows),
         part_(p_.groups.size()),
@@ -116,6 +116,14 @@ class Steps {
     OBVID_TRY(pull(run));
     length = steps_by(factors.solve(right_), run);
     OBVID_TRY(length);
+    // where the corrected step is short, one towards the middle comes farther
+    constexpr double kShort = 0.3, kCentred = 0.5;
+    if (p_.centred && *length < kShort) {
+      aim_at(kCentred * mean, false);
+      OBVID_TRY(pull(run));
+      length = steps_by(factors.solve(right_), run);
+      OBVID_TRY(length);
+    }
     for (const double d : dx_) {
       if (!std::isfinite(d)) return false;
     }
@@ -123,7 +131,31 @@ class Steps {
     return *length > kShortestStep;
   }
 
-  [[nodiscard]] std::vector<double> take() { return std::move(x_); }
+  /// Duals of the boxes such that all products are about alike.
+  void centre() {
+    double sum = 0.0, many = 0.0;
+    for (std::size_t k = 0; k < p_.groups.size(); ++k) {
+      for (std::size_t i = 0; i < soft_[k].size(); ++i) {
+        sum += soft_[k][i].over * soft_[k][i].dual;
+        many += 1.0;
+      }
+    }
+    if (!(many > 0.0)) return;
+    for (std::size_t k = 0; k < p_.groups.size(); ++k) {
+      for (std::size_t i = 0; i < box_[k].size(); ++i) {
+        const double dual = sum / many / p_.groups[k].box[i].wanted;
+        box_[k][i] = {dual, dual};
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<double> take() const {
+    std::vector<double> out(x_.size());
+    for (std::size_t a = 0; a < p_.rows; ++a) {
+      for (std::size_t i = 0; i < p_.columns; ++i) out[a * p_.columns + i] = x_[order_.at(a, i)];
+    }
+    return out;
+  }
 
  private:
   /// What one group adds to Newton's step: a symmetric band over one row of unknowns, entries
@@ -141,6 +173,19 @@ class Steps {
       out.push_back(most);
     }
     return out;
+  }
+  /// Place of the unknown of a row and a column in the system.
+  struct Order {
+    std::size_t of_row, of_column, band;
+    [[nodiscard]] std::size_t at(std::size_t row, std::size_t column) const {
+      return row * of_row + column * of_column;
+    }
+  };
+  /// Row after row, or column after column where that makes the band narrower.
+  [[nodiscard]] static Order orders(const BandedProgram& program, std::size_t width) {
+    const Order by_rows{program.columns, 1, (kSeen - 1) * program.columns + width - 1};
+    const Order by_columns{1, program.rows, (width - 1) * program.rows + kSeen - 1};
+    return program.centred && by_columns.band < by_rows.band ? by_columns : by_rows;
   }
   [[nodiscard]] std::size_t seen(const FormGroup& g) const {
     return std::min<std::size_t>(kSeen, p_.rows - g.first_row);
@@ -163,16 +208,17 @@ class Steps {
     for (std::size_t b = a; b < g.first_row + seen(g); ++b) {
       const double share = g.share[a - g.first_row] * g.share[b - g.first_row];
       if (share == 0.0) continue;
-      const std::size_t offset = (b - a) * p_.columns;
       for (std::size_t i = 0; i < p_.columns; ++i) {
-        double* row = matrix.row(a * p_.columns + i) + offset;
         const double* from = square.data() + i * width;
         const std::size_t many = std::min(width, p_.columns - i);
-        for (std::size_t d = 0; d < many; ++d) row[d] += share * from[d];
+        const std::size_t here = order_.at(a, i), there = order_.at(b, i);
+        double* row = matrix.row(here) + (there - here);
+        for (std::size_t d = 0; d < many; ++d) row[d * order_.of_column] += share * from[d];
         if (a == b) continue;
-        // the other half of the symmetric square stands left of its diagonal
+        // the other half of the symmetric square: row b before column i + d of row a
         for (std::size_t d = 1; d < many; ++d) {
-          matrix.row(a * p_.columns + i + d)[offset - d] += share * from[d];
+          const std::size_t one = order_.at(a, i + d), first = std::min(one, there);
+          matrix.row(first)[std::max(one, there) - first] += share * from[d];
         }
       }
     }
@@ -181,8 +227,8 @@ class Steps {
                                              const std::vector<double>& x) const {
     std::vector<double> y(p_.columns, 0.0);
     for (std::size_t a = 0; a < seen(g); ++a) {
-      const double* row = x.data() + (g.first_row + a) * p_.columns;
-      for (std::size_t i = 0; i < p_.columns; ++i) y[i] += g.share[a] * row[i];
+      const double* row = x.data() + order_.at(g.first_row + a, 0);
+      for (std::size_t i = 0; i < p_.columns; ++i) y[i] += g.share[a] * row[i * order_.of_column];
     }
     return y;
   }
@@ -235,9 +281,12 @@ class Steps {
     OBVID_TRY(in_parallel(part_.size(), run, [&](std::size_t k) { square_of(k); }));
     OBVID_TRY(in_parallel(p_.rows, run, [&](std::size_t a) {
       for (std::size_t i = 0; i < p_.columns; ++i) {
-        const std::size_t at = a * p_.columns + i;
+        const std::size_t at = order_.at(a, i);
         std::copy_n(quadratic_.row(at), quadratic_.band() + 1, matrix_.row(at));
       }
+    }));
+    // each entry belongs to one pair of rows; column after column, it may stand in a row of another
+    OBVID_TRY(in_parallel(p_.rows, run, [&](std::size_t a) {
       for (const std::size_t k : seen_by_[a]) add_to(matrix_, k, a);
     }));
     double largest = 0.0;
@@ -253,8 +302,10 @@ class Steps {
     for (std::size_t k = 0; k < part_.size(); ++k) {
       const FormGroup& g = p_.groups[k];
       for (std::size_t a = 0; a < seen(g); ++a) {
-        double* row = right_.data() + (g.first_row + a) * p_.columns;
-        for (std::size_t i = 0; i < p_.columns; ++i) row[i] += g.share[a] * part_[k].pull[i];
+        double* row = right_.data() + order_.at(g.first_row + a, 0);
+        for (std::size_t i = 0; i < p_.columns; ++i) {
+          row[i * order_.of_column] += g.share[a] * part_[k].pull[i];
+        }
       }
     }
     return {};
@@ -362,6 +413,7 @@ class Steps {
   const BandedProgram& p_;
   std::vector<double> x_, right_, dx_;
   std::vector<std::size_t> width_;  ///< of each group: the longest of its forms
+  Order order_;
   BandedCholesky matrix_, quadratic_;
   std::vector<std::vector<std::size_t>> seen_by_;  ///< of each row: the groups that see it
   std::vector<Part> part_;
@@ -376,6 +428,7 @@ class Steps {
 Result<std::vector<double>> solved(const BandedProgram& program, const RunContext& run, double from,
                                    double to) {
   Steps steps(program);
+  if (program.centred) steps.centre();
   OBVID_TRY(steps.begin(run));
   for (int k = 0; k < kMostIterations; ++k) {
     OBVID_TRY(tell(run, "fairing across", from + (to - from) * k / kMostIterations));

@@ -30,6 +30,10 @@ struct FormGroup {
 struct BandedProgram {
   std::size_t rows = 0, columns = 0;
   std::vector<FormGroup> groups;
+  /// Begun with boxes as far from their bounds as soft rows are, with short steps led back to the
+  /// middle, and solved column after column where that makes the band narrower: for programs of
+  /// which most boxes are narrow, or that have more columns than rows.
+  bool centred = false;
 };
 
 /// Least aim within the boxes, row after row. Interior points, primal and dual, as Wright (1997),

@@ -12,6 +12,7 @@
 #include "across_lines.h"
 #include "banded_program.h"
 #include "obvid/core/internal/parallel.h"
+#include "obvid/surface_builders/internal/lighten.h"
 #include "ripple_meter.h"
 #include "skin_breaks.h"
 
@@ -47,6 +48,20 @@ constexpr double kSmoothAlong = 1e-2;
 constexpr double kSoft = 1e3;
 /// Lines of the program at least.
 constexpr std::size_t kLeastLines = 40, kLinesPerSpan = 3;
+/// In the few knots of a light skin, which are as few as those of the correction or fewer: changes
+/// between the lines cost nothing, so there are more of them.
+constexpr std::size_t kLeastLinesOfLight = 120;
+/// Weights of lost runs there, one solution each: first runs count, and where more is beyond the
+/// forced changes than `kFewOfLight` of them, hardly.
+constexpr std::array<double, 2> kLightRuns = {30.0, 1.0};
+constexpr std::size_t kLightRunPlaces = 1000;
+constexpr double kFewOfLight = 0.05;
+/// Of the forced changes: where more is left beyond them it is not for want of knots.
+constexpr double kFewForKnots = 0.15;
+/// Shares of the light tolerance that knots are chosen by: more knots where fewer are too stiff.
+constexpr std::array<double, 2> kLightShares = {1.0, 1.0 / 3.0};
+/// Multiplications of one factorisation: more take longer than the fairing of the exact skin.
+constexpr double kMostLightWork = 1e9;
 constexpr std::size_t kMostMeterPlaces = 32000;
 constexpr double kMovedRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
@@ -138,15 +153,66 @@ double most_of(const SectionCurve& section, double tolerance) {
   return std::min(tolerance, kMostOfLength * (section.length_at(1.0).s - section.length_at(0.0).s));
 }
 
+/// What two surfaces differ by along one section: pieces between the knots of both, as Bezier
+/// curves.
+class Difference {
+ public:
+  Difference(const NurbsSurface& a, const NurbsSurface& b, double v) {
+    const SpaceCurve one = isocurve_at_v(a, v), other = isocurve_at_v(b, v);
+    std::vector<double> all = one.knots;
+    all.insert(all.end(), other.knots.begin(), other.knots.end());
+    std::sort(all.begin(), all.end());
+    breaks_ = distinct(std::move(all));
+    const SpaceCurve p = in_pieces(one), q = in_pieces(other);
+    for (std::size_t i = 0; i < p.points.size(); ++i) points_.push_back(p.points[i] - q.points[i]);
+  }
+  /// Bound of the components in some directions over a part of the parameters.
+  [[nodiscard]] std::array<double, 3> most(double from, double to,
+                                           const std::array<Vec3, 3>& directions) const {
+    std::array<double, 3> out{};
+    each(from, to, [&](Vec3 p) {
+      for (std::size_t c = 0; c < 3; ++c)
+        out[c] = std::max(out[c], std::abs(dot(p, directions[c])));
+    });
+    return out;
+  }
+  [[nodiscard]] double longest() const {
+    double out = 0.0;
+    for (const Vec3& p : points_) out = std::max(out, norm(p));
+    return out;
+  }
+
+ private:
+  [[nodiscard]] SpaceCurve in_pieces(const SpaceCurve& curve) const {
+    std::vector<double> missing;
+    for (std::size_t i = 1; i + 1 < breaks_.size(); ++i) {
+      const auto has = std::equal_range(curve.knots.begin(), curve.knots.end(), breaks_[i]);
+      missing.insert(missing.end(),
+                     static_cast<std::size_t>(curve.degree - (has.second - has.first)), breaks_[i]);
+    }
+    return with_knots(curve, missing);
+  }
+  template <class Use>
+  void each(double from, double to, const Use& use) const {
+    for (std::size_t s = 0; s + 1 < breaks_.size(); ++s) {
+      if (breaks_[s + 1] <= from || breaks_[s] >= to) continue;
+      for (std::size_t k = 0; k <= kSkinDegree; ++k) use(points_[s * kSkinDegree + k]);
+    }
+  }
+  std::vector<double> breaks_;
+  std::vector<Vec3> points_;
+};
+
 class Correction {
  public:
-  Correction(const SkinStretch& stretch, const FairAcross& wanted, const Along& along)
+  Correction(const SkinStretch& stretch, const NurbsSurface& given, const FairAcross& wanted,
+             const Along& along)
       : stretch_(stretch),
         along_(along),
-        given_(stretch.surface),
+        given_(given),
         how_(wanted),
-        breaks_(distinct(given_.knots_u)),
-        knots_(knots_along(breaks_, along.points)),
+        light_(&given != &stretch.surface),
+        knots_(light_ ? given.knots_u : knots_along(stretch.breaks, along.points)),
         count_(knots_.size() - kSkinDegree - 1),
         degree_(static_cast<std::size_t>(given_.degree_v)),
         at_sections_(bases_across(given_, wanted.v, 2)),
@@ -157,20 +223,21 @@ class Correction {
     place_lines();
     frame_boxes();
     hold_borders();
+    if (light_) narrow_boxes();
   }
 
   [[nodiscard]] Result<void> improve(const std::vector<RunPlaces>& runs,
                                      const std::vector<double>& meter_at,
                                      const std::vector<double>& allowed, const RunContext& run,
                                      double from, double to) {
-    BandedProgram program{how_.v.size(), 3 * count_, {}};
+    BandedProgram program{how_.v.size(), 3 * count_, {}, light_};
     add_aim(program);
     add_signs(program);
     add_sections(program);
     const auto solution = solved(program, run, from, to);
     OBVID_TRY(solution);
     take(*solution);
-    OBVID_TRY(keep_runs(runs, meter_at, allowed, run));
+    if (!light_) OBVID_TRY(keep_runs(runs, meter_at, allowed, run));
     rebuild();
     return {};
   }
@@ -193,6 +260,11 @@ class Correction {
     }
     std::vector<double> out;
     for (std::size_t k = 0; k < how_.v.size(); ++k) {
+      if (light_) {
+        out.push_back(Difference(stretch_.surface, current_, how_.v[k]).longest() +
+                      kMovedRounding * largest);
+        continue;
+      }
       double most = 0.0;
       for (std::size_t i = 0; i < count_; ++i) most = std::max(most, norm(moved_[k * count_ + i]));
       out.push_back(most > 0.0 ? most * how_.tolerance + kMovedRounding * largest : 0.0);
@@ -223,8 +295,9 @@ class Correction {
   void place_lines() {
     const std::vector<double> breaks = distinct(knots_);
     const std::size_t spans = breaks.size() - 1;
-    const Density density(breaks_);
-    const std::size_t lines = std::max(kLeastLines, kLinesPerSpan * spans);
+    const Density density(stretch_.breaks);
+    const std::size_t least = light_ ? kLeastLinesOfLight : kLeastLines;
+    const std::size_t lines = std::max(least, kLinesPerSpan * spans);
     for (std::size_t l = 0; l < lines; ++l) {
       line_at_.push_back(density.at((static_cast<double>(l) + 0.5) / static_cast<double>(lines)));
     }
@@ -274,6 +347,31 @@ class Correction {
           axes.half = kEvenBox;
         }
         axes_.push_back(axes);
+      }
+    }
+  }
+
+  /// A surface of few knots is not quite where that of the stretch is: by as much boxes are less.
+  void narrow_boxes() {
+    for (std::size_t k = 0; k < how_.v.size(); ++k) {
+      const Difference off(stretch_.surface, given_, how_.v[k]);
+      for (std::size_t i = 0; i < count_; ++i) {
+        Axes& axes = axes_[k * count_ + i];
+        const std::array<double, 3> most =
+            off.most(knots_[i], knots_[i + kSkinDegree + 1], axes.direction);
+        std::array<double, 3> used{};
+        for (std::size_t c = 0; c < 3; ++c) used[c] = most[c] / (how_.tolerance * box_[k]);
+        double rest = 1.0 - 1e-9;
+        for (std::size_t c = 1; c < 3; ++c) {
+          const double with = used[c] + axes.half[c];
+          rest -= with * with;
+        }
+        if (axes.half == kEvenBox) {
+          for (std::size_t c = 0; c < 3; ++c) axes.half[c] -= used[c];
+        } else {
+          axes.half[0] = rest > 0.0 ? std::sqrt(rest) - used[0] : 0.0;
+        }
+        for (double& half : axes.half) half = std::max(half, kHeld);
       }
     }
   }
@@ -395,6 +493,9 @@ class Correction {
         normal.push_back(unit(cross(here.du, here.dv)));
         bend.push_back(dot(normal.back(), here.dvv));
       }
+      if (light_) {
+        for (std::size_t k = 0; k < box_.size(); ++k) string[k] = kStringShare * reach_at(l, k);
+      }
       const std::vector<int> sign = signs(developed(lines_[l], at, string), bend);
       for (std::size_t q = 0; q < places; ++q) {
         if (sign[q] == 0 || !(norm(normal[q]) > 0.5)) continue;
@@ -409,6 +510,15 @@ class Correction {
       }
     }
     for (FormGroup& g : groups) program.groups.push_back(std::move(g));
+  }
+  /// How far the boxes let a section move along the normal at a line, units.
+  [[nodiscard]] double reach_at(std::size_t l, std::size_t k) const {
+    const BasisValues& basis = line_basis_[l];
+    double sum = 0.0;
+    for (std::size_t i = 0; i <= kSkinDegree; ++i) {
+      sum += basis.value[0][i] * axes_[k * count_ + basis.first + i].half[0];
+    }
+    return std::max(sum * box_[k], kLeastHalf) * how_.tolerance;
   }
   /// Bending by this is about the height of the bulge between two places.
   [[nodiscard]] double weight_of(std::size_t q) const {
@@ -543,7 +653,7 @@ class Correction {
     for (std::size_t i = 0; i + 1 < at.size(); ++i) {
       const bool turns = (i > 0 && direction[i - 1] != direction[i]) ||
                          (i + 2 < at.size() && direction[i + 1] != direction[i]);
-      if (direction[i] == 0 || turns) continue;
+      if (direction[i] == 0 || (turns && !light_)) continue;
       const BasisValues &a = basis[i], &b = basis[i + 1];
       FormGroup::Form f;
       f.first_column = 3 * a.first;
@@ -632,7 +742,7 @@ class Correction {
   Along along_;
   const NurbsSurface& given_;
   const FairAcross& how_;
-  std::vector<double> breaks_;  ///< of the given surface along
+  bool light_;  ///< the given surface is not that of the stretch, but has its few knots
   std::vector<double> knots_;
   std::size_t count_, degree_;
   std::vector<BasisValues> at_sections_;
@@ -760,7 +870,7 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
   double begun = 0.0;  // rounds
   for (std::size_t n = 0; n < kAlong.size() && goes_on(); ++n) {
     if (n > 0 && (!high_ones || least.high_ones_few(kFewForMore))) break;
-    Correction correction(stretch, wanted, kAlong[n]);
+    Correction correction(stretch, stretch.surface, wanted, kAlong[n]);
     for (std::size_t round = 0; round < kAlong[n].rounds && goes_on(); ++round) {
       const double start = from + (to - from) * begun / kParts;
       begun += 1.0;
@@ -821,6 +931,102 @@ Result<FairedStretch> faired_across(const SkinStretch& stretch, const FairAcross
     OBVID_TRY(any);
     best.enough = best.enough || *any;
     if (n == 0 && best.correction && wanted.tolerance <= best.reach) break;
+  }
+  return best;
+}
+
+namespace {
+
+/// Multiplications of one step of the program for so many sections and control points along.
+double work_of(std::size_t sections, std::size_t along) {
+  constexpr std::size_t kForms = 20;  // columns that a form of the runs sees, about
+  const std::size_t columns = 3 * along;
+  const auto band = static_cast<double>(std::min(4 * columns, kForms * sections));
+  return static_cast<double>(sections * columns) * band * band;
+}
+
+/// Takes the place of the best so far where that has more changes.
+void take_better(const Waves& waves, LightAndFair&& candidate, std::optional<Waves>& least,
+                 LightAndFair& best) {
+  if (least && !waves.less_than(*least)) return;
+  least = waves;
+  best = std::move(candidate);
+}
+
+/// The correction in the space of the few knots that the light skin has within a tolerance.
+Result<void> improve_light(const SkinStretch& stretch, const FairAcross& wanted, double light,
+                           const RunContext& run, double from, double to,
+                           std::optional<Waves>& least, LightAndFair& best) {
+  const auto few = lightened({stretch.surface}, light, run, LightWhere::kAlong);
+  OBVID_TRY(few);
+  const NurbsSurface& given = few->surfaces.front();
+  if (given.points.size() >= stretch.surface.points.size()) return {};
+  if (work_of(wanted.v.size(), given.count_u()) > kMostLightWork) return {};
+  for (std::size_t n = 0; n < kLightRuns.size(); ++n) {
+    if (least && least->high_ones_few(kFewOfLight)) return {};
+    const auto part = [&](std::size_t k) {
+      return from + (to - from) * static_cast<double>(k) / static_cast<double>(kLightRuns.size());
+    };
+    // each from the light skin: signs that runs have bent are no good ones
+    Correction correction(stretch, given, wanted, Along{0, 0, kLightRunPlaces, kLightRuns[n]});
+    OBVID_TRY(correction.improve({}, {}, {}, run, part(n), part(n + 1)));
+    const std::vector<double> moved = correction.moved();
+    if (*std::max_element(moved.begin(), moved.end()) > wanted.tolerance) continue;
+    const auto waves = waves_of(stretch, correction.surface(), wanted, run);
+    OBVID_TRY(waves);
+    take_better(*waves, {{correction.surface(), {}, moved, 0.0, true}, few->moved}, least, best);
+  }
+  return {};
+}
+
+/// Fair within what is left, and then light: the knots that this needs.
+Result<void> fair_then_light(const SkinStretch& stretch, const FairAcross& wanted, double light,
+                             const RunContext& run, double from, double to,
+                             std::optional<Waves>& least, LightAndFair& best) {
+  const FairAcross rest{
+      wanted.fine,  wanted.tolerance - light, wanted.v, wanted.across, wanted.forced, wanted.fixed,
+      wanted.smooth};
+  auto fair = faired_across(stretch, rest, run, from, to);
+  OBVID_TRY(fair);
+  auto few = lightened({fair->surface}, light, run, LightWhere::kAlong);
+  OBVID_TRY(few);
+  if (few->surfaces.front().points.size() < fair->surface.points.size()) {
+    fair->surface = std::move(few->surfaces.front());
+  } else {  // no lighter one: that of the exact one, and the correction as it is
+    few = lightened({stretch.surface}, light, run, LightWhere::kAlong);
+    OBVID_TRY(few);
+    fair->surface = std::move(few->surfaces.front());
+    if (fair->correction) fair->surface = sum_of(fair->surface, *fair->correction);
+  }
+  for (double& by : fair->moved) by += few->moved;
+  best.fair.enough = best.fair.enough || fair->enough;
+  const auto waves = waves_of(stretch, fair->surface, wanted, run);
+  OBVID_TRY(waves);
+  take_better(*waves, {std::move(*fair), few->moved}, least, best);
+  return {};
+}
+
+}  // namespace
+
+Result<LightAndFair> light_and_fair(const SkinStretch& stretch, const FairAcross& wanted,
+                                    double light, const RunContext& run, double from, double to) {
+  LightAndFair best{{stretch.surface, {}, std::vector<double>(wanted.v.size(), 0.0)}, 0.0};
+  std::optional<Waves> least;
+  constexpr std::size_t kParts = kLightShares.size() + 1;
+  const auto part = [&](std::size_t k) {
+    return from + (to - from) * static_cast<double>(k) / static_cast<double>(kParts);
+  };
+  const bool bends = stretch.surface.degree_v >= 2 && stretch.breaks.size() >= 2;
+  for (std::size_t n = 0; n < kLightShares.size() && bends; ++n) {
+    if (least && (least->high_ones_few(kFewOfLight) || !least->high_ones_few(kFewForKnots))) break;
+    OBVID_TRY(improve_light(stretch, wanted, kLightShares[n] * light, run, part(n), part(n + 1),
+                            least, best));
+  }
+  if (!least || !least->high_ones_few(kFewOfLight)) {
+    OBVID_TRY(fair_then_light(stretch, wanted, light, run, part(kParts - 1), to, least, best));
+  }
+  for (const SectionCurve& section : stretch.sections) {
+    best.fair.reach = std::max(best.fair.reach, most_of(section, wanted.tolerance));
   }
   return best;
 }

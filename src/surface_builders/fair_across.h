@@ -48,4 +48,22 @@ struct FairedStretch {
                                                   const FairAcross& wanted, const RunContext& run,
                                                   double from, double to);
 
+/// A stretch that is light and fair across.
+struct LightAndFair {
+  FairedStretch fair;        ///< `moved`: of each section, from where the exact skin has it
+  double light_moved = 0.0;  ///< bound of how far the few knots alone moved any point, units
+};
+
+/// Few control points along, the given ones across, such that lines across change their bending
+/// seldom: the correction is looked for in the space of the few knots that the exact surface has
+/// within `light`, its control points in boxes that leave room for what these knots miss, so that
+/// every section stays within the tolerance all in all. Where more than a
+/// twentieth of the forced changes is left beyond them (and no more than a seventh) there are more
+/// knots; and where that does not help, the one that is made fair within the rest of the tolerance
+/// and then light is tried, too, and the one with the fewest changes taken. Runs of curvature are
+/// wished for, not kept. Error: E103.
+[[nodiscard]] Result<LightAndFair> light_and_fair(const SkinStretch& stretch,
+                                                  const FairAcross& wanted, double light,
+                                                  const RunContext& run, double from, double to);
+
 }  // namespace obvid

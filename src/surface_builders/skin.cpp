@@ -359,13 +359,13 @@ Seam seam_at(const std::vector<SkinStretch>& stretches, std::size_t n, bool end)
   return {};
 }
 
-/// Puts surfaces that are fair across in the place of the exact ones, of whose tolerance `kept` is
-/// left for what comes after; returns what the exact ones force.
-Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretches, double kept,
-                                              double fine, const std::vector<double>& v,
+/// Puts surfaces that are fair across in the place of the exact ones, with few control points where
+/// `light` is told; returns what the exact ones force.
+Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretches, double fine,
+                                              const std::vector<double>& v,
                                               const Collocation& across, const RunContext& run,
                                               FairAcrossReport& report,
-                                              std::vector<std::optional<NurbsSurface>>& added) {
+                                              std::optional<LightSkinReport>& light) {
   std::vector<ForcedAcross> forced;
   double reach = 0.0;
   for (std::size_t n = 0; n < stretches.size(); ++n) {
@@ -377,22 +377,32 @@ Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretche
     OBVID_TRY(least);
     OBVID_TRY(
         add_across_report(stretch.surface, stretch.breaks, v, *least, fine, run, report.before));
-    FairAcross how{fine, report.tolerance - kept, v, across, *least, {}, {}};
+    FairAcross how{fine, report.tolerance, v, across, *least, {}, {}};
     for (const std::size_t side : {0u, 1u}) {
       const Seam seam = seam_at(stretches, n, side == 1);
       how.fixed[side] = seam.shared;
       how.smooth[side] = seam.smooth;
     }
-    auto fair = faired_across(stretch, how, run, part(n), part(n + 1));
-    OBVID_TRY(fair);
-    for (const double by : fair->moved) report.moved = std::max(report.moved, by);
-    report.enough = report.enough || fair->enough;
-    reach = std::max(reach, fair->reach);
-    stretch.surface = std::move(fair->surface);
-    added.push_back(std::move(fair->correction));
+    FairedStretch fair;
+    if (light) {
+      auto both = light_and_fair(stretch, how, light->tolerance, run, part(n), part(n + 1));
+      OBVID_TRY(both);
+      fair = std::move(both->fair);
+      light->moved = std::max(light->moved, both->light_moved);
+      light->points_before += stretch.surface.points.size();
+      light->points += fair.surface.points.size();
+    } else {
+      auto alone = faired_across(stretch, how, run, part(n), part(n + 1));
+      OBVID_TRY(alone);
+      fair = std::move(*alone);
+    }
+    for (const double by : fair.moved) report.moved = std::max(report.moved, by);
+    report.enough = report.enough || fair.enough;
+    reach = std::max(reach, fair.reach);
+    stretch.surface = std::move(fair.surface);
     forced.push_back(std::move(*least));
   }
-  if (reach < report.tolerance - kept) report.reach = reach;
+  if (reach < report.tolerance) report.reach = reach;
   return forced;
 }
 
@@ -444,37 +454,17 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
   std::vector<ForcedAcross> forced;
   const double bulge = options.fair_across.value_or(options.tolerance);
   const double fine = std::min(options.tolerance, bulge);
-  std::vector<NurbsSurface> exact;
-  std::vector<std::optional<NurbsSurface>> added;
-  if (options.fair_across && options.light) {
-    for (const SkinStretch& stretch : stretches) exact.push_back(stretch.surface);
-  }
-  if (options.fair_across) {  // before knots go: what moves by less makes hardly any high bulges
+  if (options.fair_across) {
     result.fair.emplace().tolerance = *options.fair_across;
     result.fair->tried = std::move(trials);
-    auto least = fair_across(stretches, options.light.value_or(0.0), fine, *v, *across, run,
-                             *result.fair, added);
+    if (options.light) result.light.emplace().tolerance = *options.light;
+    auto least = fair_across(stretches, fine, *v, *across, run, *result.fair, result.light);
     OBVID_TRY(least);
     forced = std::move(*least);
-  }
-  if (options.light) {
-    const LightWhere where = options.fair_across ? LightWhere::kAlong : LightWhere::kBoth;
-    auto light = lighten(stretches, *options.light, where, run);
+  } else if (options.light) {
+    auto light = lighten(stretches, *options.light, LightWhere::kBoth, run);
     OBVID_TRY(light);
-    if (options.fair_across && light->points == light->points_before) {
-      // the fair one has no lighter one: that of the exact one, and the correction as it is
-      for (std::size_t n = 0; n < stretches.size(); ++n) stretches[n].surface = exact[n];
-      light = lighten(stretches, *options.light, where, run);
-      OBVID_TRY(light);
-      light->points = 0;
-      for (std::size_t n = 0; n < stretches.size(); ++n) {
-        NurbsSurface& surface = stretches[n].surface;
-        if (added[n]) surface = sum_of(surface, *added[n]);
-        light->points += surface.points.size();
-      }
-    }
     result.light = *light;
-    if (result.fair) result.fair->moved += light->moved;
   }
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const double part = static_cast<double>(n) / static_cast<double>(stretches.size());

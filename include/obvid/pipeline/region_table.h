@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once  // reentrant: docs/threads.md
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -73,7 +74,14 @@ struct WidestRow {
   std::optional<double> width;  ///< nothing where no segment has one
   std::size_t unknown = 0;      ///< segments without
 };
-[[nodiscard]] WidestRow widest_row(const RegionPart& part);
+[[nodiscard]] inline WidestRow widest_row(const RegionPart& part) {
+  WidestRow out;
+  for (const RegionRow& row : part.rows) {
+    if (row.width) out.width = std::max(out.width.value_or(0.0), *row.width);
+    out.unknown += row.width ? 0 : 1;
+  }
+  return out;
+}
 
 /// How tangents that are not given are chosen.
 enum class TangentRule {

@@ -736,15 +736,6 @@ Result<RegionTable> table_as_asked(const PointSeries& series, const RegionJob& j
 
 }  // namespace
 
-WidestRow widest_row(const RegionPart& part) {
-  WidestRow out;
-  for (const RegionRow& row : part.rows) {
-    if (row.width) out.width = std::max(out.width.value_or(0.0), *row.width);
-    out.unknown += row.width ? 0 : 1;
-  }
-  return out;
-}
-
 Result<RegionTable> region_table(const PointSeries& series, const RegionJob& job,
                                  const RunContext& run) {
   Watch watch(run);
