@@ -179,6 +179,14 @@ class Subject:
         if text is None or not same_number(text, value):
             self.faults.append(f"{what}: printed {text!r} for {value!r}")
 
+    def bounds(self, what, text, value):
+        """A figure behind "at most": rounded up by less than a unit of its last digit, never down."""
+        self.checks += 1
+        mantissa, _, power = text.partition("e")
+        unit = 10.0 ** (int(power or 0) - len(mantissa.partition(".")[2]))
+        if not value * (1 - 1e-14) <= float(text) < value + unit * (1 + 1e-9):
+            self.faults.append(f"{what}: printed {text!r} as a bound of {value!r}")
+
     def found(self, what, pattern, text):
         """Groups of a pattern that the text must hold."""
         self.checks += 1
@@ -399,7 +407,7 @@ class Subject:
         move = re.search(rf"points at most ({NUMBER}) \S+ from the contour", text)
         self.same(what + ": move is told", move is not None, certificate["largest_move"] > 0)
         if move:
-            self.shows(what + ": move", move[1], certificate["largest_move"])
+            self.bounds(what + ": move", move[1], certificate["largest_move"])
         widest = re.search(rf"through the points, widest ({NUMBER}) ", text)
         alone = largest(row["points_only_error"] for row in report["segments"])
         if widest and alone is not None:
