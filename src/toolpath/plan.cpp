@@ -450,7 +450,7 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
     const auto append = [&](const Family& more) {
       all.insert(all.end(), more.begin(), more.end());
     };
-    if (left != nullptr) {
+    if (left != nullptr || all_added > 0) {
       append(in_short_order(*family, !options.one_way));
     } else {
       append(*family);
