@@ -184,7 +184,7 @@ class Subject:
         self.checks += 1
         mantissa, _, power = text.partition("e")
         unit = 10.0 ** (int(power or 0) - len(mantissa.partition(".")[2]))
-        if not value * (1 - 1e-14) <= float(text) < value + unit * (1 + 1e-9):
+        if not value * (1 - 1e-12) <= float(text) < value + unit * (1 + 1e-9):
             self.faults.append(f"{what}: printed {text!r} as a bound of {value!r}")
 
     def found(self, what, pattern, text):

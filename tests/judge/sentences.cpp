@@ -157,7 +157,8 @@ bool prints(const std::string& printed, std::optional<double> value) {
 
 bool bounds(const std::string& printed, std::optional<double> value) {
   if (!prints(printed, value) || !value) return false;
-  return std::strtod(printed.c_str(), nullptr) >= *value * (1.0 - 0x1p-50);
+  constexpr double kLastDigits = 1e-12;
+  return std::strtod(printed.c_str(), nullptr) >= *value * (1.0 - kLastDigits);
 }
 
 }  // namespace judge

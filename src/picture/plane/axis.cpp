@@ -127,7 +127,8 @@ double round_down(double value) {
 }
 
 std::string readable_bound(double bound, int digits) {
-  return readable_number(std::stod(significant_above(bound, digits)), digits);
+  constexpr double kLastDigits = 1e-12;  // what rounding may have added is no reason for a digit
+  return readable_number(std::stod(significant_above(bound * (1.0 - kLastDigits), digits)), digits);
 }
 
 std::string readable_number(double value, int digits) {

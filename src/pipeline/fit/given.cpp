@@ -21,7 +21,7 @@ constexpr double kKeptHeading = 1e-6;    // rad
 constexpr double kSameCurvature = 1e-6;  // of the given one
 
 /// Places are one when nothing but this share of their coordinates is between them.
-constexpr double kSamePlace = 64.0 * 0x1p-53;
+constexpr double kPlaceRounding = 64.0 * 0x1p-53;
 
 struct Miss {
   double heading = 0.0;
@@ -180,7 +180,7 @@ class GivenCheck {
       at = t;
     }
     const Vec2 place = evaluate(contour_.pieces[found], at).point;
-    const double rounding = kSamePlace * (std::abs(place.x) + std::abs(place.y));
+    const double rounding = kPlaceRounding * (std::abs(place.x) + std::abs(place.y));
     const auto is_at = [&](double end) {
       return norm(evaluate(contour_.pieces[found], end).point - place) <= rounding;
     };

@@ -170,10 +170,11 @@ class SpaceClaims {
     if (const auto& report = stored_.plan.report) {
       for (const double move : report->moves) farthest = std::max(farthest, move);
     }
+    double most = std::hypot(stored_.flatness, farthest);  // across the plane and in it
     if (stored_.plan.contour.closed && stored_.plan.contour.points.size() < stored_.points.size()) {
-      farthest += norm(stored_.points.back() - stored_.points.front());
+      most += norm(stored_.points.back() - stored_.points.front());
     }
-    same("largest_move", stored_.largest_move, stored_.flatness + farthest, near_);
+    at_most("largest_move", stored_.largest_move, most);
     if (stored_.deviation != 0.0) return;
     const auto made = nurbs_of(stored_.plan.contour, {true, near_});
     if (!made) return refuse("curve", 0.0, 1.0);
