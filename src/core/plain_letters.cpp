@@ -68,7 +68,7 @@ void add_mark(std::uint32_t mark, std::string& out) {
   if (mark == kRing && ring.find(last) != std::string_view::npos) out += 'a';
 }
 
-std::string_view plain(std::uint32_t c) {
+std::string_view plain_of(std::uint32_t c) {
   if (c >= kLatinFrom && c - kLatinFrom < kLatin.size()) return kLatin[c - kLatinFrom];
   if (c >= kCyrillicFrom && c - kCyrillicFrom < kCyrillic.size()) {
     return kCyrillic[c - kCyrillicFrom];
@@ -91,7 +91,7 @@ std::string plain_letters(std::string_view text) {
     } else if (is_mark(c)) {
       add_mark(c, out);
     } else {
-      out += plain(c);
+      out += plain_of(c);
     }
   }
   return out;

@@ -11,6 +11,7 @@
 #include "edges.h"
 #include "obvid/curve/internal/flatten.h"
 #include "obvid/geom/internal/angle.h"
+#include "obvid/geom/internal/circle.h"
 #include "offset_path.h"
 
 namespace obvid {
@@ -25,7 +26,7 @@ constexpr double kInside = 1e-4;  // of the radius: nearer to the way the tool t
 constexpr int kHalvings = 16;
 /// Of the tolerance of the drawing: shorter pieces are none; how far off one line or circle pieces
 /// may be that are drawn as one.
-constexpr double kSliver = 0.5, kOneCircle = 0.1;
+constexpr double kSliver = 0.5, kOneCircle = 0.25;
 constexpr int kMostChordsOfOne = 4096;
 
 class EdgeOfCut {
@@ -260,10 +261,10 @@ class EdgeOfCut {
 
   [[nodiscard]] bool taken_in(Row& row, const Row& next) const {
     if (end_point(row.piece) != start_point(next.piece)) return false;
-    const auto piece = both(row.piece, next.piece);
-    if (!piece) return false;
     std::vector<Vec2> places = row.places;
     places.insert(places.end(), next.places.begin(), next.places.end());
+    const auto piece = both(row.piece, next.piece, places);
+    if (!piece) return false;
     const bool near = std::all_of(places.begin(), places.end(), [&](Vec2 p) {
       return distance_from(*piece, p) <= kOneCircle * within_;
     });
@@ -272,7 +273,8 @@ class EdgeOfCut {
     return true;
   }
 
-  [[nodiscard]] static std::optional<Piece> both(const Piece& one, const Piece& next) {
+  [[nodiscard]] static std::optional<Piece> both(const Piece& one, const Piece& next,
+                                                 const std::vector<Vec2>& places) {
     const Vec2 start = start_point(one), end = end_point(next);
     const auto *a = std::get_if<ArcPiece>(&one), *b = std::get_if<ArcPiece>(&next);
     if ((a == nullptr) != (b == nullptr)) return std::nullopt;
@@ -282,15 +284,15 @@ class EdgeOfCut {
     }
     if (a->kappa * b->kappa <= 0.0) return std::nullopt;
     const double turn = a->kappa * a->length + b->kappa * b->length;
-    if (start == end) {  // a circle: between the centres of both
-      if (std::abs(std::abs(turn) - 4.0 * kQuarterTurn) > kQuarterTurn) return std::nullopt;
-      const auto centre = [](const ArcPiece& arc) {
-        return arc.start + left_normal(unit_at(arc.theta0)) / arc.kappa;
-      };
-      const Vec2 middle = 0.5 * (centre(*a) + centre(*b));
-      const double side = turn > 0.0 ? 1.0 : -1.0, radius = norm(start - middle);
-      return ArcPiece{start, start, heading(start - middle) + side * kQuarterTurn, side / radius,
-                      4.0 * kQuarterTurn * radius};
+    if (start == end) {
+      const auto circle = circle_of_squares(places);
+      if (!circle || std::abs(std::abs(turn) - 4.0 * kQuarterTurn) > kQuarterTurn) {
+        return std::nullopt;
+      }
+      const double side = turn > 0.0 ? 1.0 : -1.0, theta = heading(start - circle->centre);
+      const Vec2 from = circle->centre + circle->radius * unit_at(theta);
+      return ArcPiece{from, from, theta + side * kQuarterTurn, side / circle->radius,
+                      4.0 * kQuarterTurn * circle->radius};
     }
     if (std::abs(turn) > 3.5 * kQuarterTurn) return std::nullopt;  // its chord says too little
     return turned_by(start, end, turn);

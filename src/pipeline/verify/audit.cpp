@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kLargestGap = 1e-9;   // of the size
 constexpr double kLargestTurn = 1e-6;  // rad
-constexpr double kSamePlace = 1e-9;    // of the length: rows of one joint
+constexpr double kOneJoint = 1e-9;     // of the length: rows of one joint
 constexpr int kPieceSamples = 200;     // of each piece
 constexpr double kVisible = 0.01;      // of the range of the curvature
 /// Swings below this part of the largest curvature are what rounding leaves on lines and circles.
@@ -121,7 +121,7 @@ class Auditor {
       if (of_joint(one)) joints.push_back(one.s);
     }
     if (joints.empty()) return;
-    const double whole = path_->length(), room = kSamePlace * whole;
+    const double whole = path_->length(), room = kOneJoint * whole;
     const auto at_joint = [&](const AuditPlace& one) {
       if (of_joint(one)) return false;
       const auto near = [&](double s) {
