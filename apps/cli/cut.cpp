@@ -99,15 +99,15 @@ Facts cut_facts(const MadeCut& made) {
       "read back",
       fmt::format(
           "at most {} {} beyond an outline and {} {} short of one, found at places {} {} apart",
-          significant_above(r.beyond, 2), unit, significant_above(r.short_of, 2), unit,
-          significant_above(r.spacing, 2), unit));
+          significant_above(r.beyond, kDigitsOfBounds), unit,
+          significant_above(r.short_of, kDigitsOfBounds), unit, significant(r.spacing, 2), unit));
   if (r.blending > 0.0) {
     facts.add(
         "blending",
         fmt::format("the controller may round corners by {} {} more (G64 P): {} of a tolerance "
                     "of {} {} in all",
-                    significant_above(r.blending, 2), unit,
-                    significant_above(std::max(r.beyond, r.short_of) + r.blending, 2),
+                    significant(r.blending, 2), unit,
+                    significant_above(std::max(r.beyond, r.short_of) + r.blending, kDigitsOfBounds),
                     significant(made.tolerance, 2), unit));
   }
   if (r.left_in_corners > 0.0) {

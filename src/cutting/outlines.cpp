@@ -129,7 +129,7 @@ class TrackMaker {
   }
 
   [[nodiscard]] std::string told(double length) const {
-    return fmt::format("{} {}", significant_above(length / scale_, 3),
+    return fmt::format("{} {}", significant(length / scale_, 3),
                        outlines_.front().contour.units.text());
   }
 

@@ -115,10 +115,8 @@ TEST(Audit, CornersAndGapsAreNamedWithTheirSizes) {
 Piece cubic_over(double from, double y0, double slope0, double y1, double slope1) {
   RationalBezier out;
   out.degree = 3;
-  out.offset = {{from, y0},
-                {from + 1.0 / 3.0, y0 + slope0 / 3.0},
-                {from + 2.0 / 3.0, y1 - slope1 / 3.0},
-                {from + 1.0, y1}};
+  out.offset = {Vec2{from, y0}, Vec2{from + 1.0 / 3.0, y0 + slope0 / 3.0},
+                Vec2{from + 2.0 / 3.0, y1 - slope1 / 3.0}, Vec2{from + 1.0, y1}};
   out.weight = {1.0, 1.0, 1.0, 1.0};
   return out;
 }
@@ -129,7 +127,7 @@ TEST(Audit, AJointHasOneRow) {
   const double y = 0.1 / 6.0, slope = 0.05;
   const Piece first = cubic_over(0.0, 0.0, 0.0, y, slope);
   const Piece second = cubic_over(1.0, y, slope, y + slope - 0.05 / 3.0, slope - 0.025);
-  const CurveAudit a = audit({"spline", {first, second}, false}, "mm");
+  const CurveAudit a = audit(DrawnCurve{"spline", {first, second}, false}, "mm");
   EXPECT_GE(a.vertices, 1);
   ASSERT_EQ(a.places.size(), 1U);
   EXPECT_EQ(a.places[0].kind, AuditPlace::Kind::kCurvatureJump);
