@@ -113,10 +113,26 @@ JobOptions known_options(const std::string& job) {
       out.job.push_back({name, true});
     }
   }
-  for (const char* name :
-       {"output-tolerance", "for", "controller", "motion", "feed", "samples", "sample-step",
-        "airfoil", "spacing", "trailing-edge", "trailing-edge-form", "thickness", "camber", "svg",
-        "plot", "curvature-range", "step", "dxf", "face"}) {
+  for (const char* name : {"output-tolerance",
+                           "for",
+                           "controller",
+                           "motion",
+                           "feed",
+                           "decimals",
+                           "samples",
+                           "sample-step",
+                           "airfoil",
+                           "spacing",
+                           "trailing-edge",
+                           "trailing-edge-form",
+                           "thickness",
+                           "camber",
+                           "svg",
+                           "plot",
+                           "curvature-range",
+                           "step",
+                           "dxf",
+                           "face"}) {
     out.files.push_back({name});
   }
   out.files.push_back({"unit-chord", true});

@@ -160,7 +160,8 @@ std::string straightened_text(const CurveAudit& a) {
                      a.contour.units.text());
 }
 
-/// Counts are proved; places are found on samples, where the curvature stands out of its rounding.
+/// Counts are proved; places are found on samples, where the curvature stands out of its rounding,
+/// and have no row of their own at a joint that has one.
 std::string unplaced_text(const CurveAudit& a) {
   const auto listed_of = [&a](AuditPlace::Kind kind) {
     return std::count_if(a.places.begin(), a.places.end(),
@@ -169,11 +170,15 @@ std::string unplaced_text(const CurveAudit& a) {
   const auto vertices = listed_of(AuditPlace::Kind::kVertex);
   const auto inflections = listed_of(AuditPlace::Kind::kInflection);
   if (!a.counted || (vertices >= a.vertices && inflections >= a.inflections)) return {};
+  const bool joints = std::any_of(a.places.begin(), a.places.end(), [](const AuditPlace& place) {
+    return place.kind != AuditPlace::Kind::kVertex && place.kind != AuditPlace::Kind::kInflection;
+  });
   return fmt::format(
-      "{} of {} and {} of {} have a place; at the others the curvature does not stand out of the "
+      "{} of {} and {} of {} have a row; the others {}the curvature does not stand out of the "
       "rounding",
       vertices, counted(static_cast<std::size_t>(a.vertices), "vertex", "vertices"), inflections,
-      counted(static_cast<std::size_t>(a.inflections), "inflection", "inflections"));
+      counted(static_cast<std::size_t>(a.inflections), "inflection", "inflections"),
+      joints ? "lie at a row of another kind, or where " : "lie where ");
 }
 
 constexpr const char* kJointsLegend =

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "cut_options.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/pipeline/cut_job.h"
 #include "obvid/pipeline/file_formats.h"
 #include "obvid/pipeline/internal/job_files.h"
@@ -98,20 +99,20 @@ Facts cut_facts(const MadeCut& made) {
       "read back",
       fmt::format(
           "at most {} {} beyond an outline and {} {} short of one, found at places {} {} apart",
-          significant(r.beyond, 2), unit, significant(r.short_of, 2), unit,
-          significant(r.spacing, 2), unit));
+          significant_above(r.beyond, kDigitsOfBounds), unit,
+          significant_above(r.short_of, kDigitsOfBounds), unit, significant(r.spacing, 2), unit));
   if (r.blending > 0.0) {
     facts.add(
         "blending",
         fmt::format("the controller may round corners by {} {} more (G64 P): {} of a tolerance "
                     "of {} {} in all",
                     significant(r.blending, 2), unit,
-                    significant(std::max(r.beyond, r.short_of) + r.blending, 2),
+                    significant_above(std::max(r.beyond, r.short_of) + r.blending, kDigitsOfBounds),
                     significant(made.tolerance, 2), unit));
   }
   if (r.left_in_corners > 0.0) {
     facts.add("inner corners", fmt::format("the round tool leaves up to {} {} in them",
-                                           significant(r.left_in_corners, 3), unit));
+                                           significant_above(r.left_in_corners, 3), unit));
   }
   return facts;
 }

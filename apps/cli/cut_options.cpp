@@ -115,7 +115,9 @@ Result<Command> checked_cut(const CLI::App& app, RawCut& raw) {
     OBVID_TRY(units);
     command.job.units = std::move(*units);
   }
-  command.job.plan.name = std::filesystem::path(command.inputs.front()).filename().string();
+  const std::string& first = command.inputs.front();
+  command.job.plan.name =
+      first == "-" ? "standard input" : std::filesystem::path(first).filename().string();
   command.progress = !raw.no_progress && !command.quiet && !command.json;
   return command_of(command);
 }

@@ -220,6 +220,12 @@ void add_formats(CLI::App& command, FormatValues& values) {
       ->type_name("F")
       ->group(group);
   command
+      .add_option("--decimals", values.decimals,
+                  "Of places in G-code, 1 to 6 [the fewest, at least 3, that cost no more than a "
+                  "tenth of the tolerance]")
+      ->type_name("N")
+      ->group(group);
+  command
       .add_option(
           "--samples", values.samples,
           "Number of points in .csv, .sldcrv, .obj, .ply [by --output-tolerance], around an "

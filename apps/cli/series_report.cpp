@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -29,7 +30,17 @@ std::string to_next(const Analysis& analysis, std::size_t point) {
   return point < analysis.chords.size() ? significant(analysis.chords[point].length) : "";
 }
 
-Table point_table(const Analysis& analysis) {
+/// Of three points on a line but for the digits of their coordinates, or within a billionth of the
+/// size: "straight".
+std::string adjacent_radius(const PointSeries& series, const Analysis& analysis,
+                            std::size_t point) {
+  constexpr double kStraight = 1e-9;  // of the size
+  const double length = analysis.chords[point - 1].length + analysis.chords[point].length;
+  return radius_over(analysis.circles[point].kappa, length,
+                     std::max(kStraight * analysis.size, 2.0 * norm(series.rounding)));
+}
+
+Table point_table(const PointSeries& series, const Analysis& analysis) {
   Table table;
   table.column("point");
   table.column("adjacent\nradius");
@@ -45,7 +56,7 @@ Table point_table(const Analysis& analysis) {
     before = i + 1;
     const bool chord = i < analysis.chords.size();
     const bool end = i == 0 || i + 1 == analysis.circles.size();
-    table.row({std::to_string(i + 1), end ? "-" : radius_text(analysis.circles[i].kappa),
+    table.row({std::to_string(i + 1), end ? "-" : adjacent_radius(series, analysis, i),
                significant(degrees(turning_at(analysis, i)), 4), to_next(analysis, i),
                chord ? change_text(analysis.change[i]) : "",
                chord ? significant(analysis.points_only_error[i], 4) : ""});
@@ -93,7 +104,7 @@ std::string series_report_text(const PointSeries& series, const Analysis& analys
   std::string out = series.name.empty() ? "" : bold(series.name) + "\n";
   out += fmt::format("lengths in {}; radius positive where the points turn left\n\n",
                      series.units.text());
-  out += point_table(analysis).text();
+  out += point_table(series, analysis).text();
   out += shown_note(rows_worth_showing(worst).size(), worst.size(), "least certain", "points");
   return out + "\n" + series_facts(series, analysis).text();
 }

@@ -128,6 +128,7 @@ std::map<std::string, Setter> setters(Written& w, Request& out, const Known& kno
                 {"controller", text(f.controller)},
                 {"motion", text(f.motion)},
                 {"feed", number(f.feed)},
+                {"decimals", count(f.decimals)},
                 {"samples", count(f.samples)},
                 {"sample-step", number(f.sample_step)},
                 {"airfoil", text(f.airfoil)},

@@ -37,6 +37,10 @@ constexpr Defaults kMillimetres{300.0, 3000.0, 5.0, 1.0}, kInches{12.0, 120.0, 0
 /// Of the tolerance, for arcs in place of curves: printing and small turns take the rest. What is
 /// tried where that was too much.
 constexpr double kOfTolerance = 0.8, kSafeOfTolerance = 0.5;
+/// Last digits: how far ends are printed off (half of one in x and in y) and centres of arcs; what
+/// a tolerance of curves is at least.
+constexpr double kDigitsOfPrinting = 1.7, kFewestDigits = 1.25;
+constexpr double kForReadingBack = 0.04;  // of the tolerance: chords of what is read back
 constexpr double kMostBlocks = 3e5;
 constexpr int kMoreDecimals = 3;           // of lengths that are told: beyond those of places
 constexpr double kTooLittleToTell = 1e-9;  // of the tolerance: rounding
@@ -59,6 +63,7 @@ class Cutting {
         exchange::kDigitOfTolerance * (options_.tolerance * scale_), inches_));
     OBVID_TRY(check_lengths());
     blending_ = exchange::blending_of(options_.controller, options_.tolerance * scale_);
+    OBVID_TRY(check_digits());
     auto out = with_share(kOfTolerance - blending_ / (options_.tolerance * scale_));
     // coarse digits, and drawings whose pieces meet with small turns, take more than their part
     if (out || out.error().code != ErrorCode::kToleranceNotReached) return out;
@@ -74,12 +79,11 @@ class Cutting {
     rules_ = rules();
     OBVID_TRY(check_work());
     watch_.tell("order", kOrderAt);
-    const VisitRules visiting{scaled(options_.start), options_.lead_in * scale_,
-                              0.5 * rules_.tool_diameter,
-                              options_.direction == CutDirection::kClimb};
-    const std::vector<Visit> visits = ordered(tracks_, visiting, watch_);
+    const Leads leads(tracks_.edges, options_.lead_in * scale_, 0.5 * rules_.tool_diameter,
+                      options_.direction == CutDirection::kClimb);
+    const std::vector<Visit> visits = ordered(tracks_, scaled(options_.start), leads, watch_);
     if (watch_.cancelled()) return fail(cancelled_error());
-    CutBlocks blocks = blocks_of(tracks_.all, visits, rules_);
+    CutBlocks blocks = blocks_of(tracks_.all, visits, rules_, leads);
     if (options_.motion == GcodeMotion::kSplines) {
       const SplineRules splines{spline_tolerance(options_.tolerance, share) * scale_,
                                 std::pow(10.0, -decimals_)};
@@ -112,10 +116,41 @@ class Cutting {
         .hint("give a larger one");
   }
 
+  [[nodiscard]] double last_digit() const { return std::pow(10.0, -decimals_); }
+
+  /// A tolerance that the digits leave room for, units of the drawing: with arcs in place of curves
+  /// in the share that is tried last, and a controller that blends.
+  [[nodiscard]] double enough_tolerance() const {
+    const double blended = blending_ / (options_.tolerance * scale_);
+    const double rest = 1.0 - kSafeOfTolerance - kForReadingBack - blended;
+    return kDigitsOfPrinting * last_digit() / (rest * scale_);
+  }
+
   [[nodiscard]] Error too_few_digits(std::string what) const {
+    const bool most = decimals_ >= exchange::kMostGcodeDecimals;
     return error(ErrorCode::kToleranceNotReached, std::move(what))
-        .hint(fmt::format("printed with {}: give more --decimals, or a larger --tolerance",
-                          counted(static_cast<std::size_t>(decimals_), "decimal", "decimals")));
+        .hint(fmt::format("printed with {}{}: give {}--tolerance {} or more",
+                          counted(static_cast<std::size_t>(decimals_), "decimal", "decimals"),
+                          most ? ", the most there are" : "", most ? "" : "more --decimals, or ",
+                          significant_above(enough_tolerance(), 2)));
+  }
+
+  /// Arcs in place of curves end anywhere: some ends are printed nearly as far off as rounding
+  /// goes. Lines and arcs as drawn may have ends that print as they are.
+  [[nodiscard]] Result<void> check_digits() const {
+    const auto is_given = [](const Piece& piece) {
+      return std::holds_alternative<LinePiece>(piece) || std::holds_alternative<ArcPiece>(piece);
+    };
+    const bool any = std::any_of(outlines_.begin(), outlines_.end(), [&](const CutOutline& one) {
+      const auto& pieces = one.contour.pieces;
+      return one.is_cut && !std::all_of(pieces.begin(), pieces.end(), is_given);
+    });
+    if (!any || options_.tolerance * scale_ >= kFewestDigits * last_digit()) return {};
+    Error refused = too_few_digits(fmt::format(
+        "the last digit of places is worth {} {}, and the tolerance is {}",
+        significant(last_digit() / scale_, 2), units_.text(), significant(options_.tolerance, 3)));
+    refused.value = options_.tolerance;
+    return fail(std::move(refused));
   }
 
   [[nodiscard]] BlockRules rules() const {
@@ -222,6 +257,7 @@ class Cutting {
     OBVID_TRY(read_back(out, text));
     out.warnings = tracks_.warnings;
     for (std::string& one : idle_cut_options(options_)) out.warnings.push_back(std::move(one));
+    tell_followed(visits, out);
     for (const std::size_t track : blocks.without_tabs) {
       out.warnings.push_back(tracks_.all[track].name + " has no room for its tabs: it has none");
     }
@@ -245,10 +281,33 @@ class Cutting {
     return out;
   }
 
+  /// Curves that the tool follows on the line have neither tabs nor leads.
+  void tell_followed(const std::vector<Visit>& visits, CutProgram& out) const {
+    constexpr std::size_t kMostNamed = 8;
+    const bool beside =
+        options_.diameter > 0.0 && options_.side != CutSide::kOn;  // else told above
+    const bool tabs = options_.tabs.count > 0 && options_.process == CutProcess::kMill;
+    if (!beside || (!tabs && options_.lead_in == 0.0)) return;
+    std::vector<std::string> names;
+    std::size_t count = 0;
+    for (const Visit& visit : visits) {
+      const Track& track = tracks_.all[visit.track];
+      if (track.side == CutSide::kOn && ++count <= kMostNamed) names.push_back(track.name);
+    }
+    if (count == 0) return;
+    const char* options = !tabs                     ? "--lead-in"
+                          : options_.lead_in == 0.0 ? "--tabs"
+                                                    : "--tabs, --lead-in";
+    out.warnings.push_back(
+        fmt::format("{}: for closed outlines alone; left out on open curves: {}{}", options,
+                    listed(names), and_more(count, kMostNamed)));
+  }
+
   Result<void> read_back(CutProgram& out, const CutText& text) {
     const double spacing = spacing_of(tracks_.all, 0.5 * rules_.tool_diameter, out.report.levels);
-    const auto found = checked(out.text, tracks_, text.motions(), rules_,
-                               options_.tolerance * scale_, spacing, watch_);
+    const auto found =
+        checked(out.text, tracks_, text.motions(), rules_,
+                std::max(options_.tolerance * scale_, last_digit()), spacing, watch_);
     OBVID_TRY(found);
     double off = text.path().radius_mismatch();
     for (const Track& track : tracks_.all) off = std::max(off, track.deviation);

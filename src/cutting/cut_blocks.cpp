@@ -20,6 +20,8 @@ constexpr double kNothing = 1e-12;
 constexpr double kMostOfPath = 0.5;
 /// To and fro behind a tab; a ramp that asks for more is a mistake.
 constexpr double kMostWays = 100.0;
+/// Places of a closed path at which a tool that came down a ramp may leave it, at least.
+constexpr double kPlacesToLeave = 64.0;
 
 /// A path by its length, around and around when it is closed.
 class Along {
@@ -30,6 +32,12 @@ class Along {
   /// The place at a length, 0 or more.
   [[nodiscard]] Vec2 at(double length) const {
     return path_.jet(std::fmod(length, path_.length())).point;
+  }
+
+  /// The way off the path from there, as `at`.
+  [[nodiscard]] ArcPiece lead_at(double length, const Leads& leads) const {
+    const auto [k, begin] = piece_at(std::fmod(length, ends_.back()));
+    return leads.at(path_.pieces[k], begin / (ends_[k + 1] - ends_[k]), false);
   }
 
   /// The pieces between two lengths, 0 <= from < to; beyond its end a closed path begins again.
@@ -64,8 +72,8 @@ class Along {
 
 class Blocks {
  public:
-  Blocks(const std::vector<Track>& tracks, const BlockRules& rules)
-      : tracks_(tracks), rules_(rules) {}
+  Blocks(const std::vector<Track>& tracks, const BlockRules& rules, const Leads& leads)
+      : tracks_(tracks), rules_(rules), leads_(leads) {}
 
   CutBlocks run(const std::vector<Visit>& visits) {
     const bool mill = rules_.process == CutProcess::kMill;
@@ -174,6 +182,31 @@ class Blocks {
       if (rules_.fall == 0.0) cut(visit.lead_out);
     }
     z_ramp_ = 0.0;
+    if (rules_.fall > 0.0 && visit.lead_out) lead_away(visit, along, at + along.length());
+  }
+
+  /// Behind ramps the tool ends at another place than it began: on along the way at the bottom to
+  /// the first one with room for a lead; where it began there is.
+  void lead_away(const Visit& visit, const Along& along, double end) {
+    const double whole = along.length(), start = std::ceil(end / whole - kNothing) * whole;
+    const double step = std::min(leads_.radius(), whole / kPlacesToLeave);
+    for (double at = end; at < start - kNothing * whole; at += step) {
+      const double place = std::fmod(at, whole);
+      if (inside_of_tab(place) || room_behind(place, whole) < leads_.radius()) continue;
+      const ArcPiece lead = along.lead_at(place, leads_);
+      if (!leads_.has_room(lead)) continue;
+      if (at > end) walk(along, end, at, -rules_.depth, -rules_.depth);
+      return cut(std::optional(lead));
+    }
+    if (start - end > kNothing * whole) {
+      walk(along, end, start, -rules_.depth, -rules_.depth);
+    }
+    cut(visit.lead_out);
+  }
+
+  [[nodiscard]] bool inside_of_tab(double place) const {
+    return std::any_of(tabs_.begin(), tabs_.end(),
+                       [&](const Tab& tab) { return place > tab.from && place < tab.to; });
   }
 
   /// To and fro.
@@ -349,6 +382,7 @@ class Blocks {
 
   const std::vector<Track>& tracks_;
   const BlockRules& rules_;
+  const Leads& leads_;
   CutBlocks out_;
   std::size_t track_ = 0;
   double z_ = 0.0, z_ramp_ = 0.0;
@@ -370,8 +404,8 @@ double levels_of(const BlockRules& rules) {
 }
 
 CutBlocks blocks_of(const std::vector<Track>& tracks, const std::vector<Visit>& visits,
-                    const BlockRules& rules) {
-  return Blocks(tracks, rules).run(visits);
+                    const BlockRules& rules, const Leads& leads) {
+  return Blocks(tracks, rules, leads).run(visits);
 }
 
 }  // namespace obvid::cutting

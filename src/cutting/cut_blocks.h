@@ -61,6 +61,7 @@ struct CutBlocks {
 [[nodiscard]] double levels_of(const BlockRules& rules);
 
 [[nodiscard]] CutBlocks blocks_of(const std::vector<Track>& tracks,
-                                  const std::vector<Visit>& visits, const BlockRules& rules);
+                                  const std::vector<Visit>& visits, const BlockRules& rules,
+                                  const Leads& leads);
 
 }  // namespace obvid::cutting

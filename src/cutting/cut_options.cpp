@@ -22,7 +22,8 @@ tl::unexpected<Error> bad(const char* what, const char* option, double value, do
   return bad(what, option, value, fmt::format("at most {:g}", most));
 }
 
-constexpr double kLongestPierce = 3600.0;  // seconds: an hour
+constexpr double kLeastPrintedSpeed = 1e-4;  // four decimals: power on a scale of 1
+constexpr double kLongestPierce = 3600.0;    // seconds: an hour
 
 /// An option that is one number.
 struct Size {
@@ -44,7 +45,7 @@ Result<void> check_numbers(const CutOptions& o) {
         Size{o.rapid_feed, "--rapid-feed", false, kGreatestFeed},
         Size{o.centripetal, "--centripetal", false, kGreatestAcceleration},
         Size{o.acceleration, "--acceleration", false, kGreatestAcceleration},
-        Size{o.spindle, power, true, kGreatestSpeed},
+        Size{o.spindle, power, false, kGreatestSpeed},
         Size{o.pierce_seconds, "--plasma", true, kLongestPierce}, Size{o.ramp_deg, "--ramp"},
         Size{o.tabs.width, "--tab-width", true}, Size{o.tabs.height, "--tab-height", true}}) {
     if (!size.value) continue;
@@ -59,6 +60,10 @@ Result<void> check_numbers(const CutOptions& o) {
   if (o.acceleration && *o.acceleration < kLeastAcceleration) {
     return bad("no time comes of so little", "--acceleration", *o.acceleration,
                fmt::format("at least {} mm/s^2", kLeastAcceleration));
+  }
+  if (o.spindle && *o.spindle < kLeastPrintedSpeed) {
+    return bad("the word S would be printed as 0", power, *o.spindle,
+               fmt::format("at least {}", kLeastPrintedSpeed));
   }
   return {};
 }

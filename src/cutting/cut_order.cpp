@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "obvid/exchange/internal/whole_arcs.h"
@@ -17,10 +16,6 @@ namespace {
 constexpr std::size_t kMostPlacedAnew = 40;
 /// Places where tracks begin change with the order of visits, which changes with them: so often.
 constexpr int kMostRounds = 6;
-/// Quarters of circles lead in and out.
-constexpr double kLeadTurn = 0.5 * std::numbers::pi;
-/// Places on a lead that are looked at: of the tool's radius, how far apart.
-constexpr double kApartOnLead = 0.2, kFewestOnLead = 16.0, kMostOnLead = 512.0;
 /// Of the lead's radius, room between the tool and what stays where it goes down, where some place
 /// has it: beside a straight side all of it.
 constexpr double kRoomToPlunge = 0.5;
@@ -55,8 +50,8 @@ Around circle_around(const Piece& piece) {
 
 class Ordering {
  public:
-  Ordering(const Tracks& tracks, const VisitRules& rules, Watch& watch)
-      : tracks_(tracks.all), edges_(tracks.edges), rules_(rules), watch_(watch) {
+  Ordering(const Tracks& tracks, std::optional<Vec2> near, const Leads& leads, Watch& watch)
+      : tracks_(tracks.all), edges_(tracks.edges), near_(near), leads_(leads), watch_(watch) {
     for (const Track& track : tracks_) {
       if (watch_.cancelled()) return;
       starts_.push_back(starts_of(track));
@@ -93,7 +88,7 @@ class Ordering {
   };
 
   [[nodiscard]] bool wants_lead(const Track& track) const {
-    return rules_.lead_radius > 0.0 && track.side != CutSide::kOn && track.axis.closed;
+    return leads_.radius() > 0.0 && track.side != CutSide::kOn && track.axis.closed;
   }
 
   /// The ends of an open track, places for leads of a closed one; none: it may begin anywhere.
@@ -127,41 +122,16 @@ class Ordering {
 
   [[nodiscard]] std::optional<Start> start_with_lead(const Track& track, std::size_t piece,
                                                      double place) const {
-    const ArcPiece in = lead(track.axis.pieces[piece], place, true),
-                   out = lead(track.axis.pieces[piece], place, false);
-    if (!has_room(in) || !has_room(out)) return std::nullopt;
-    const double room = edges_.nearest(in.start).room - rules_.tool_radius;
-    return Start{piece,    place,  0.0, false, room >= kRoomToPlunge * rules_.lead_radius,
+    const ArcPiece in = leads_.at(track.axis.pieces[piece], place, true),
+                   out = leads_.at(track.axis.pieces[piece], place, false);
+    if (!leads_.has_room(in) || !leads_.has_room(out)) return std::nullopt;
+    const double room = edges_.nearest(in.start).room - leads_.tool_radius();
+    return Start{piece,    place,  0.0, false, room >= kRoomToPlunge * leads_.radius(),
                  in.start, out.end};
   }
 
-  /// A quarter of a circle on the side of the waste, tangent to a piece at a place.
-  [[nodiscard]] ArcPiece lead(const Piece& piece, double place, bool in) const {
-    const Jet jet = evaluate(piece, place);
-    const double theta = heading(jet.d1),
-                 kappa = (rules_.waste_left ? 1.0 : -1.0) / rules_.lead_radius;
-    const double length = kLeadTurn * rules_.lead_radius;
-    const Vec2 centre = jet.point + (1.0 / kappa) * left_normal(unit_at(theta));
-    const double other = theta + (in ? -1.0 : 1.0) * kappa * length;
-    const Vec2 far = centre - (1.0 / kappa) * left_normal(unit_at(other));
-    return in ? ArcPiece{far, jet.point, other, kappa, length}
-              : ArcPiece{jet.point, far, theta, kappa, length};
-  }
-
-  /// It crosses no edge, and the tool fits beside all of them.
-  [[nodiscard]] bool has_room(const ArcPiece& lead) const {
-    if (edges_.met_by(lead)) return false;
-    const double wanted = std::ceil(lead.length / (kApartOnLead * rules_.tool_radius));
-    const int places = static_cast<int>(std::clamp(wanted, kFewestOnLead, kMostOnLead));
-    for (int k = 0; k <= places; ++k) {
-      const Vec2 p = evaluate(lead, static_cast<double>(k) / places).point;
-      if (edges_.nearest(p).room < rules_.tool_radius * (1.0 - kLittle)) return false;
-    }
-    return true;
-  }
-
   [[nodiscard]] Neighbours wanted(std::size_t i, const Neighbours& way) const {
-    return tracks_[i].axis.closed && rules_.near ? Neighbours{*rules_.near, {}} : way;
+    return tracks_[i].axis.closed && near_ ? Neighbours{*near_, {}} : way;
   }
 
   [[nodiscard]] Start best_start(std::size_t i, const Neighbours& way) const {
@@ -229,8 +199,8 @@ class Ordering {
     if (!wants_lead(track)) return out;
     out.lead_left_out = starts_[i].empty();
     if (out.lead_left_out) return out;
-    out.lead_in = lead(track.axis.pieces[start.piece], start.place, true);
-    out.lead_out = lead(track.axis.pieces[start.piece], start.place, false);
+    out.lead_in = leads_.at(track.axis.pieces[start.piece], start.place, true);
+    out.lead_out = leads_.at(track.axis.pieces[start.piece], start.place, false);
     return out;
   }
 
@@ -370,7 +340,8 @@ class Ordering {
 
   const std::vector<Track>& tracks_;
   const Edges& edges_;
-  const VisitRules& rules_;
+  std::optional<Vec2> near_;
+  const Leads& leads_;
   Watch& watch_;
   std::vector<std::vector<Start>> starts_;
   std::vector<std::vector<Around>> around_;  ///< of the pieces of each track
@@ -383,12 +354,9 @@ Vec2 begin_of(const Visit& visit) {
   return visit.lead_in ? visit.lead_in->start : start_point(visit.path.pieces.front());
 }
 
-Vec2 end_of(const Visit& visit) {
-  return visit.lead_out ? visit.lead_out->end : end_point(visit.path.pieces.back());
-}
-
-std::vector<Visit> ordered(const Tracks& tracks, const VisitRules& rules, Watch& watch) {
-  return Ordering(tracks, rules, watch).run();
+std::vector<Visit> ordered(const Tracks& tracks, std::optional<Vec2> near, const Leads& leads,
+                           Watch& watch) {
+  return Ordering(tracks, near, leads, watch).run();
 }
 
 }  // namespace obvid::cutting

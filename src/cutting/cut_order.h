@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "leads.h"
 #include "outlines.h"
 
 namespace obvid::cutting {
@@ -18,22 +19,13 @@ struct Visit {
 };
 
 [[nodiscard]] Vec2 begin_of(const Visit& visit);
-[[nodiscard]] Vec2 end_of(const Visit& visit);
 
-/// How outlines are visited. Lengths in units of the machine.
-struct VisitRules {
-  std::optional<Vec2> near;  ///< closed tracks begin as near to this place as they can; nothing:
-                             ///< to where the tool comes from, at first the origin
-  double lead_radius = 0.0;  ///< 0: no leads
-  double tool_radius = 0.0;
-  bool waste_left = true;  ///< of tracks that are compensated: climb
-};
-
-/// Closed tracks begin at any place of their pieces, with a lead where there is room for one: at
+/// Closed tracks begin as near to `near` as they can, nothing: to where the tool comes from, at
+/// first the origin: at any place of their pieces, with a lead where there is room for one: at
 /// the nearest of many places, then as near as moving it along its piece brings it. Open ones begin
 /// at either end. The nearest of those that may be next is taken, then visits are moved to other
 /// turns as long as that shortens the way between them.
-[[nodiscard]] std::vector<Visit> ordered(const Tracks& tracks, const VisitRules& rules,
-                                         Watch& watch);
+[[nodiscard]] std::vector<Visit> ordered(const Tracks& tracks, std::optional<Vec2> near,
+                                         const Leads& leads, Watch& watch);
 
 }  // namespace obvid::cutting

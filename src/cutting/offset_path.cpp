@@ -118,7 +118,11 @@ class ParallelOf {
     OBVID_TRY(close_gaps());
     Parallel out;
     out.path.closed = path_.closed;
-    for (Link& link : links_) out.path.pieces.push_back(std::move(link.piece));
+    joints_.resize(corners_.size());
+    for (Link& link : links_) {
+      for (const std::size_t corner : link.closes) joints_[corner] = out.path.pieces.size();
+      out.path.pieces.push_back(std::move(link.piece));
+    }
     join(out.path);
     out.corners = std::move(corners_);
     measure_corners(out);
@@ -128,8 +132,9 @@ class ParallelOf {
  private:
   struct Link {
     Piece piece;
-    bool gap_behind = false;  ///< an inner corner: it crosses what comes behind
-    Vec2 corner;              ///< of the outline there
+    bool gap_behind = false;            ///< an inner corner: it crosses what comes behind
+    Vec2 corner;                        ///< of the outline there
+    std::vector<std::size_t> closes{};  ///< inner corners that the joint behind it stands for
   };
 
   Result<void> add(const Piece& piece) {
@@ -153,6 +158,7 @@ class ParallelOf {
     if (std::abs(turn) <= kSmooth) return;
     if (turn * by_ > 0.0) {  // towards the tool
       links_.back().gap_behind = true;
+      links_.back().closes = {corners_.size()};
       const double half = 0.5 * (std::numbers::pi - std::abs(turn)), radius = std::abs(by_);
       const double reach = radius / std::tan(half);
       corners_.push_back({end_point(before), reach, radius * (1.0 / std::sin(half) - 1.0)});
@@ -177,26 +183,21 @@ class ParallelOf {
       longest = std::max(longest, one.reach);
     for (std::size_t k = 0; k < parallel.corners.size(); ++k) {
       Parallel::InnerCorner& corner = parallel.corners[k];
-      if (straight_[k] < corner.reach + longest) measure_corner(parallel.path, corner);
+      if (straight_[k] < corner.reach + longest) measure_corner(parallel.path, joints_[k], corner);
     }
   }
 
-  /// The tool touches both sides of the corner from the joint of its way that is nearest to it.
-  void measure_corner(const ArcPath& path, Parallel::InnerCorner& corner) const {
-    const std::size_t n = path.pieces.size();
-    double nearest = HUGE_VAL, joint = HUGE_VAL;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Piece& piece = path.pieces[i];
-      nearest = std::min(nearest, distance_from(piece, corner.at));
-      const bool open_end = !path.closed && i + 1 == n;
-      const Vec2 at = end_point(piece);
-      if (open_end || !(norm(at - corner.at) < joint)) continue;
-      joint = norm(at - corner.at);
-      const Vec2 one = at - by_ * left_normal(unit_at(heading_at_end(piece)));
-      const Vec2 other =
-          at - by_ * left_normal(unit_at(heading_at_start(path.pieces[(i + 1) % n])));
-      corner.reach = std::max(norm(one - corner.at), norm(other - corner.at));
-    }
+  /// The tool touches both sides of the corner from the joint of its way that stands for it; other
+  /// pieces may be nearer, on the other side of a thin wall.
+  void measure_corner(const ArcPath& path, std::size_t joint, Parallel::InnerCorner& corner) const {
+    const Piece &before = path.pieces[joint],
+                &behind = path.pieces[(joint + 1) % path.pieces.size()];
+    const Vec2 at = end_point(before);
+    const Vec2 one = at - by_ * left_normal(unit_at(heading_at_end(before)));
+    const Vec2 other = at - by_ * left_normal(unit_at(heading_at_start(behind)));
+    corner.reach = std::max(norm(one - corner.at), norm(other - corner.at));
+    const double nearest =
+        std::min(distance_from(before, corner.at), distance_from(behind, corner.at));
     corner.left = std::max(0.0, nearest - std::abs(by_));
   }
 
@@ -246,6 +247,12 @@ class ParallelOf {
     for (std::size_t k = 0; k < ahead; ++k) gone[(at + 1 + k) % n] = true;
     std::vector<Link> kept;
     for (std::size_t k = 0; k < n; ++k) {
+      if (gone[k]) {
+        links_[a].closes.insert(links_[a].closes.end(), links_[k].closes.begin(),
+                                links_[k].closes.end());
+      }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
       if (!gone[k]) kept.push_back(std::move(links_[k]));
     }
     links_ = std::move(kept);
@@ -269,6 +276,7 @@ class ParallelOf {
   double by_;
   std::vector<Link> links_;
   std::vector<Parallel::InnerCorner> corners_;
+  std::vector<std::size_t> joints_;  ///< of these: the piece whose end stands for it
   std::vector<double> straight_;  ///< of these: the shorter of two lines beside it; 0 beside an arc
 };
 
@@ -394,6 +402,10 @@ double nearest_place(const Piece& piece, Vec2 point) {
   // as far from its circle as from the nearer end: on the other side of the centre
   const double beside = distance_from_circle(a.start, a.theta0, a.kappa, point);
   return beside < std::min(to_start, to_end) ? *place : end;
+}
+
+std::vector<Vec2> crossings_of(const Piece& first, const Piece& second) {
+  return crossings(first, second);
 }
 
 std::optional<Meeting> meeting_of(const Piece& first, const Piece& second) {

@@ -44,6 +44,9 @@ struct ArcPath {
 /// The place of a line or arc, 0 to 1, that is nearest to a point; of several the first.
 [[nodiscard]] double nearest_place(const Piece& piece, Vec2 point);
 
+/// Where the whole lines and circles of two pieces cross.
+[[nodiscard]] std::vector<Vec2> crossings_of(const Piece& first, const Piece& second);
+
 /// Where two pieces meet, as places of both; nothing: they do not. Of two meetings the one that is
 /// later on the first and earlier on the second.
 struct Meeting {

@@ -129,9 +129,11 @@ class SketchDxf {
     const double turn = arc.kappa * arc.length;
     const double from = arc.theta0 - std::copysign(0.5 * std::numbers::pi, arc.kappa);
     const auto degrees = [](double angle) { return positive_angle(angle / kOneDegree, 360.0); };
-    begin("ARC", "AcDbCircle", layer);
+    const bool whole = arc.start == arc.end;
+    begin(whole ? "CIRCLE" : "ARC", "AcDbCircle", layer);
     out_.point3(10, centre);
     out_.pair(40, 1.0 / std::abs(arc.kappa));
+    if (whole) return;
     out_.pair(100, "AcDbArc");
     out_.pair(50, degrees(std::min(from, from + turn)));
     out_.pair(51, degrees(std::max(from, from + turn)));

@@ -15,7 +15,9 @@ bool is_binary_stl(std::string_view head, std::uintmax_t size) {
 }
 
 bool is_text_stl(std::string_view head) {
-  return head.starts_with("solid") && head.find("facet") != std::string_view::npos;
+  // one without facets, too: its reader says so
+  return head.starts_with("solid") && (head.find("facet") != std::string_view::npos ||
+                                       head.find("endsolid") != std::string_view::npos);
 }
 
 bool is_ply(std::string_view head) {

@@ -9,6 +9,7 @@
 #include "entry.h"
 #include "leftover.h"
 #include "moves.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/exchange/internal/gcode/motion_time.h"
 #include "obvid/toolpath/toolpath.h"
@@ -268,24 +269,25 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
   const double rounding = std::pow(10.0, -kAngleDigits) * r.entries.asked_deg;
   if (r.entries.asked_deg > 0.0 && r.entries.steepest_deg > r.entries.asked_deg + rounding) {
     out.warnings.push_back(fmt::format(
-        "entries go down at up to {:.3g} degrees against the level, at {}, where {:g} were asked "
+        "entries go down at up to {} degrees against the level, at {}, where {:g} were asked "
         "for: there is no room for a flatter way over the pass or beside it, back and forth up to "
         "{:g} times",
-        r.entries.steepest_deg, place_text(r.entries.steepest_place), r.entries.asked_deg,
-        kMostLegs));
+        significant_above(r.entries.steepest_deg, 3), place_text(r.entries.steepest_place),
+        r.entries.asked_deg, kMostLegs));
   }
   if (r.unreached_area > 0.0) {
-    add(fmt::format(
-            "about {:.3g} % of the surface is narrower than the cutter: up to {:.3g} {} stay, "
-            "most at {}",
-            100.0 * r.unreached_area / r.surface_area, r.unreached_depth, out.units.text(),
-            place_text(r.unreached_place)),
+    add(fmt::format("about {:.3g} % of the surface is narrower than the cutter: up to {} {} stay, "
+                    "most at {}",
+                    100.0 * r.unreached_area / r.surface_area,
+                    significant_above(r.unreached_depth, 3), out.units.text(),
+                    place_text(r.unreached_place)),
         r.unreached_depth, "a smaller cutter reaches more");
   }
   if (r.flat_area > 0.0) {
-    const std::string left = std::isfinite(r.flat_left)
-                                 ? fmt::format("up to {:.3g} {}", r.flat_left, out.units.text())
-                                 : "no pass comes over it";
+    const std::string left =
+        std::isfinite(r.flat_left)
+            ? fmt::format("up to {} {}", significant_above(r.flat_left, 3), out.units.text())
+            : "no pass comes over it";
     add(fmt::format("about {:.3g} % of the surface is flatter than levels are for and keeps too "
                     "much: {} at {}",
                     100.0 * r.flat_area / r.surface_area, left, place_text(r.flat_place)),

@@ -8,6 +8,7 @@ usage: cutting_test.py PROGRAM
 import io
 import json
 import math
+import os
 import pathlib
 import random
 import re
@@ -232,6 +233,106 @@ class Cutting(unittest.TestCase):
         self.assertLess(max(steep), math.tan(math.radians(2)) * 1.001 + 1e-3 / 10)
         self.assertGreater(max(steep), 0.9 * math.tan(math.radians(2)))
 
+    def test_leads_lead_away_behind_ramps_too(self):
+        """From where the ramp ends, or farther on: a quarter circle beside a straight wall ends its radius away."""
+        hole = Circle(30, 30, 8)
+        for lead in (0.5, 1.0):
+            program = Controller(self.run_cut(drawing([hole]), "--diameter", 3, "--depth", 2, "--ramp", 3, "--lead-in",
+                                              lead, "--decimals", 5, "--side", "inside"))
+            last = [m for m in self.cuts(program)][-1]
+            self.assertAlmostEqual(hole.distance(last.a), -1.5 if hole.distance(last.a) < 0 else 1.5, places=3)
+            inner = 6.5 - lead  # around the centre of the circle: that of the lead
+            self.assertAlmostEqual(math.hypot(last.b[0] - 30, last.b[1] - 30), math.hypot(inner, lead), places=3)
+        shapes, outside = plate()
+        for options in ([], ["--tabs", 2, "--tab-width", 5, "--tab-height", 1.8], ["--direction", "conventional"],
+                        ["--tabs", 3, "--tab-width", 5, "--tab-height", 1.8, "--start", "0,0"]):
+            with self.subTest(options=options):
+                program = Controller(self.run_cut(drawing(shapes), "--diameter", 3, "--depth", 6, "--pass-depth", 2.5,
+                                                  "--ramp", 3, "--lead-in", 1.2, "--decimals", 5, *options))
+                self.assertFalse([w for w in self.report["warnings"] if "lead-in" in w])
+                if "--tabs" not in options:
+                    self.judged(shapes, outside, program, 3, 0.01, climb="conventional" not in options)
+                ends = [a for a, b in zip(program.moves, program.moves[1:])
+                        if a.b[2] < 0 and b.code == 0 and b.b[2] > 0]
+                self.assertEqual(len(ends), len(shapes))
+                for m in ends:  # from half of the lead's radius on where the wall is round or a corner near
+                    self.assertGreater(min(abs(s.distance(m.b[:2])) for s in shapes), 1.5 + 0.6)
+                deep = [m for m in self.cuts(program) if min(m.a[2], m.b[2]) < -4.2 - 1e-9]
+                self.assertTrue(deep)
+
+    def test_curves_that_are_followed_have_neither_tabs_nor_leads_and_say_so(self):
+        plan = ezdxf.new()
+        plan.header["$INSUNITS"] = 4
+        plan.modelspace().add_lwpolyline([(0, 0), (30, 0), (30, 20)], dxfattribs={"layer": "BEND"})
+        with io.StringIO() as out:
+            plan.write(out)
+            text = out.getvalue()
+        for options, words in ((["--lead-in", 1], "--lead-in"),
+                               (["--tabs", 2, "--tab-width", 3, "--tab-height", 0.5], "--tabs"),
+                               (["--lead-in", 1, "--tabs", 2, "--tab-width", 3, "--tab-height", 0.5], "--tabs, --lead-in")):
+            self.run_cut(text, "--diameter", 2, "--depth", 1, *options)
+            told = [w for w in self.report["warnings"] if w.startswith(words + ": ")]
+            self.assertEqual(len(told), 1, self.report["warnings"])
+            self.assertIn("BEND", told[0])
+        self.run_cut(text, "--diameter", 2, "--depth", 1)
+        self.assertFalse([w for w in self.report["warnings"] if "open curves:" in w])
+
+    def test_the_drawing_of_the_paths_has_closed_loops_and_no_slivers(self):
+        shapes, _ = plate()
+        circles = sum(isinstance(s, Circle) for s in shapes)
+        for options in ([], ["--lead-in", 1.2], ["--ramp", 3]):
+            with self.subTest(options=options):
+                self.run_cut(drawing(shapes), "--diameter", 3, "--depth", 2, *options, out="paths.dxf")
+                drawn = ezdxf.readfile(self.at / "paths.dxf").modelspace().query('*[layer=="CUT"]')
+                ends, round_ones = [], []
+                for e in drawn:
+                    if e.dxftype() == "CIRCLE":
+                        round_ones.append(e)
+                        continue
+                    a, b = ((e.dxf.start, e.dxf.end) if e.dxftype() == "LINE" else (e.start_point, e.end_point))
+                    ends += [(a.x, a.y), (b.x, b.y)]
+                    size = math.dist(ends[-1], ends[-2])
+                    self.assertGreater(size, 0.005)
+                if options:
+                    continue
+                self.assertEqual(len(round_ones), 2 * circles)
+                for circle in (s for s in shapes if isinstance(s, Circle)):
+                    own = [e.dxf.radius for e in round_ones
+                           if math.hypot(e.dxf.center.x - circle.x, e.dxf.center.y - circle.y) < 1e-2]
+                    self.assertEqual(len(own), 2)
+                    self.assertAlmostEqual(abs(own[0] - own[1]), 3, delta=2e-3)
+                ends = np.array(ends)
+                for k, p in enumerate(ends):
+                    others = np.delete(ends, k, axis=0)
+                    self.assertLess(np.hypot(*(others - p).T).min(), 1e-9)
+
+    def test_what_the_digits_cannot_print_is_refused_at_once(self):
+        own = drawing([Ellipse(50.0, 40.0, 30.0, 20.0), Circle(0, 0, 5)])
+        for tolerance, more in ((1e-9, []), (1e-8, []), (1e-6, ["--decimals", 6]), (0.001, ["--decimals", 3])):
+            before = os.times()
+            said = self.run_cut(own, "--diameter", 3, "--depth", 2, "--tolerance", tolerance, *more, code=5)
+            spent = os.times().children_user - before.children_user
+            self.assertLess(spent, 1.0)
+            self.assertIn("E502", said)
+            enough = float(re.search(r"--tolerance (\S+) or more", said)[1])
+            if more != ["--decimals", 3]:
+                self.assertNotIn("more --decimals", said)
+            decimals = more or ["--decimals", 6]
+            self.run_cut(own, "--diameter", 3, "--depth", 2, "--tolerance", enough, *decimals)
+            self.assertLessEqual(max(self.report["report"]["beyond"], self.report["report"]["short_of"]), enough)
+
+    def test_notches_are_not_measured_through_walls(self):
+        plan = ezdxf.new()
+        plan.header["$INSUNITS"] = 4
+        plan.modelspace().add_lwpolyline([(0, 0), (40, 0), (40, 30), (25, 30), (20, 2), (15, 30), (0, 30)], close=True)
+        with io.StringIO() as out:
+            plan.write(out)
+            text = out.getvalue()
+        self.run_cut(text, "--diameter", 6, "--depth", 1)
+        left = 3 / math.sin(math.atan2(5, 28)) - 3
+        self.assertAlmostEqual(self.report["outlines"][0]["left_in_corners"], left, places=6)
+        self.assertAlmostEqual(self.report["report"]["left_in_corners"], left, places=6)
+
     def test_ramps_are_kept_behind_tabs(self):
         shapes, outside = plate()
         program = Controller(self.run_cut(drawing(shapes), "--diameter", 3, "--depth", 6, "--pass-depth", 2, "--ramp", 5,
@@ -371,7 +472,8 @@ class Cutting(unittest.TestCase):
                               (["--depth", 1, "--ramp", 90], "--ramp"), (["--depth", 1, "--tabs", 2], "--tab-width"),
                               (["--laser", 1, "--plasma", 1], "--laser"), (["--depth", 1, "--side", "left"], "--side"),
                               (["--depth", 1, "--start", "1"], "--start"), (["--depth", 1, "--decimals", 9], "--decimals"),
-                              (["--depth", 1, "--tolerance", 0], "--tolerance")):
+                              (["--depth", 1, "--tolerance", 0], "--tolerance"), (["--laser", 0], "--laser"),
+                              (["--laser", 1e-5], "--laser"), (["--depth", 1, "--spindle", 0], "--spindle")):
             said = self.run_cut(one, *options, code=2)
             self.assertIn(word, said)
 

@@ -545,7 +545,7 @@ class Subject:
             self.same(what + "places are not more than the counts", True,
                       kinds["vertex"] <= curve["vertices"] and
                       kinds["inflection"] <= curve["inflections"])
-            placed = "{} of {} and {} of {} have a place".format(
+            placed = "{} of {} and {} of {} have a row".format(
                 kinds["vertex"], plural(curve["vertices"], "vertex", "vertices"),
                 kinds["inflection"], plural(curve["inflections"], "inflection", "inflections"))
             whole = (kinds["vertex"], kinds["inflection"]) == (curve["vertices"],

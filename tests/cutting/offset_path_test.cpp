@@ -70,6 +70,23 @@ TEST(ParallelOfACorner, WhatIsLeftAtAShortLineIsMeasured) {
   }
 }
 
+// A notch beside a thin wall: of both legs' walls (two lines from the notch, half an angle h
+// between them) the tool stays r / sin(h) from its ground; its way along the plate's other side is
+// nearer.
+TEST(ParallelOfACorner, WhatIsLeftIsNotMeasuredThroughAThinWall) {
+  constexpr double kBy = 3.0;
+  const Vec2 at[] = {{0, 0}, {40, 0}, {40, 30}, {25, 30}, {20, 2}, {15, 30}, {0, 30}};
+  ArcPath plate;
+  plate.closed = true;
+  for (std::size_t i = 0; i < 7; ++i) plate.pieces.emplace_back(LinePiece{at[i], at[(i + 1) % 7]});
+  const auto made = parallel_of(plate, -kBy);
+  ASSERT_TRUE(made) << to_line(made.error());
+  ASSERT_EQ(made->corners.size(), 1U);
+  const double half = std::atan2(5.0, 28.0);
+  EXPECT_NEAR(made->corners[0].left, kBy * (1.0 / std::sin(half) - 1.0), kCloseBy * kSide);
+  EXPECT_NEAR(made->corners[0].reach, kBy / std::tan(half), kCloseBy * kSide);
+}
+
 TEST(ParallelOfASquare, OutsideIsRoundedByQuarterCircles) {
   constexpr double kBy = 3.0;
   const auto made = parallel_of(square(), -kBy);

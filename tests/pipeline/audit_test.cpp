@@ -111,6 +111,30 @@ TEST(Audit, CornersAndGapsAreNamedWithTheirSizes) {
   EXPECT_NEAR(a.places[1].size, 0.001, 1e-12);
 }
 
+/// y over x of a cubic polynomial between two whole numbers, by values and slopes at them.
+Piece cubic_over(double from, double y0, double slope0, double y1, double slope1) {
+  RationalBezier out;
+  out.degree = 3;
+  out.offset = {Vec2{from, y0}, Vec2{from + 1.0 / 3.0, y0 + slope0 / 3.0},
+                Vec2{from + 2.0 / 3.0, y1 - slope1 / 3.0}, Vec2{from + 1.0, y1}};
+  out.weight = {1.0, 1.0, 1.0, 1.0};
+  return out;
+}
+
+// y'' is 0.1 x up to x = 1 and 0.05 (x - 2) from there: the curvature rises, changes its sign by a
+// jump and rises again. Both of its extrema and the change of sign are the jump.
+TEST(Audit, AJointHasOneRow) {
+  const double y = 0.1 / 6.0, slope = 0.05;
+  const Piece first = cubic_over(0.0, 0.0, 0.0, y, slope);
+  const Piece second = cubic_over(1.0, y, slope, y + slope - 0.05 / 3.0, slope - 0.025);
+  const CurveAudit a = audit(DrawnCurve{"spline", {first, second}, false}, "mm");
+  EXPECT_GE(a.vertices, 1);
+  ASSERT_EQ(a.places.size(), 1U);
+  EXPECT_EQ(a.places[0].kind, AuditPlace::Kind::kCurvatureJump);
+  EXPECT_NEAR(a.places[0].kappa_before, 0.1 / std::pow(1.0 + slope * slope, 1.5), 1e-9);
+  EXPECT_NEAR(a.places[0].kappa_after, -0.05 / std::pow(1.0 + slope * slope, 1.5), 1e-9);
+}
+
 TEST(Audit, AnEllipseHasItsFourVerticesAtItsAxes) {
   // four rational quadratics
   DrawnCurve curve{"ELLIPSE", {}, true};

@@ -376,7 +376,7 @@ class Contour:
     def text(self, ending: str, **options: Any) -> str:
         """The contour in a text format, by its file extension: "json", "svg", "dxf", "step", "nc", ...
 
-        Options are those of the program: output_tolerance, samples, sample_step, feed, controller,
+        Options are those of the program: output_tolerance, samples, sample_step, feed, decimals, controller,
         motion, svg, plot, curvature_range, step, dxf, face, units, profile (`--for`).
         """
         return only_text(exported(lib.obvid_export, self._handle, ending.lstrip("."), options))

@@ -47,9 +47,10 @@ struct ExportOptions {
   GcodeController controller = GcodeController::kGrbl;
   SampleOptions
       samples;  ///< of points; unset: by the chord tolerance `tolerance` [2e-5 of the size]
-  AirfoilOptions airfoil{};      ///< of .dat; its name and number of points are those above
-  std::optional<double> feed{};  ///< of G-code, mm/min (in/min for inches) [default_feed]
-  double face_width = 0.0;       ///< STEP, IGES, BREP: > 0 also a face of this width along z
+  AirfoilOptions airfoil{};       ///< of .dat; its name and number of points are those above
+  std::optional<double> feed{};   ///< of G-code, mm/min (in/min for inches) [default_feed]
+  std::optional<int> decimals{};  ///< of places of G-code, 1 to 6 [as `GcodeOptions` says]
+  double face_width = 0.0;        ///< STEP, IGES, BREP: > 0 also a face of this width along z
 };
 
 /// A text to write; `suffix` goes before the ending when a contour needs several files.

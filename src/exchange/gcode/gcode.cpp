@@ -13,6 +13,7 @@
 #include "obvid/contour/arcs/polyline_along.h"
 #include "obvid/contour/bsplines/cubic_along.h"
 #include "obvid/core/internal/figures.h"
+#include "obvid/core/internal/plain_letters.h"
 #include "obvid/core/version.h"
 #include "obvid/curve/internal/path_distance.h"
 #include "obvid/curve/internal/smooth_parts.h"
@@ -61,7 +62,7 @@ class Program {
     return error(ErrorCode::kToleranceNotReached,
                  fmt::format("no program with {} decimals was found within a tolerance of {:g} {}",
                              decimals_, options_.tolerance, contour_.units.text()))
-        .hint("print more decimals, or allow a larger tolerance")
+        .hint("print more (--decimals), or allow a larger tolerance (--output-tolerance)")
         .value(deviation);
   }
 
@@ -210,7 +211,7 @@ std::string gcode_comment(std::string_view name) {
   constexpr std::size_t kLongestComment = 58;  // a line has to fit into 80 characters of grbl
   constexpr std::string_view kMore = "...";
   std::string out;
-  for (const char c : name) {
+  for (const char c : plain_letters(name)) {
     const auto code = static_cast<unsigned char>(c);
     if (code >= 0x20 && code < 0x7F && c != '(' && c != ')' && c != '%' && c != ';') out += c;
     if (out.size() > kLongestComment) {

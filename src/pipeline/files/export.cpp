@@ -137,6 +137,7 @@ Result<Exported> gcode_file(const ContourExport& e) {
   write.motion = e.options.motion;
   write.controller = e.options.controller;
   write.feed = e.options.feed;
+  write.decimals = e.options.decimals;
   write.name = e.options.name;
   write.tolerance = e.options.tolerance ? *e.options.tolerance : gcode_tolerance(e);
   auto made = gcode_text(e.contour, write, e.watch);

@@ -238,7 +238,8 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
   options.tolerance = typed.tolerance;
   if (typed.samples) options.samples.count = static_cast<std::size_t>(*typed.samples);
   options.samples.step = typed.sample_step;
-  constexpr double kMostTrailing = 0.5;  // chords: beyond it is no airfoil
+  constexpr long kMoreThanDecimals = 100;  // which is refused
+  constexpr double kMostTrailing = 0.5;    // chords: beyond it is no airfoil
   if (typed.trailing_edge &&
       !(*typed.trailing_edge >= 0.0 && *typed.trailing_edge < kMostTrailing)) {
     return fail(bad_option("a thickness in chords is expected, 0 closes the edge",
@@ -251,6 +252,10 @@ Result<void> set_formats(const FormatValues& typed, ExportOptions& options,
   OBVID_TRY(set_chords(typed.camber, "--camber", "for example 2% or 0.02", options.airfoil.camber));
   if (typed.face_width) options.face_width = *typed.face_width;
   if (typed.feed) options.feed = *typed.feed;
+  if (typed.decimals) {
+    options.decimals = static_cast<int>(std::clamp(*typed.decimals, -1L, kMoreThanDecimals));
+    OBVID_TRY(exchange::check_gcode_decimals(options.decimals));
+  }
   return choose(typed.step, kSteps, "--step", options.step)
       .and_then([&] { return choose(typed.dxf, kDxf, "--dxf", options.dxf); })
       .and_then([&] {
@@ -289,6 +294,7 @@ std::vector<std::string> idle_options(const FormatValues& typed,
   look(typed.feed.has_value(), gcode, "--feed", "G-code");
   look(typed.controller.has_value(), gcode, "--controller", "G-code");
   look(typed.motion.has_value(), gcode, "--motion", "G-code");
+  look(typed.decimals.has_value(), gcode, "--decimals", "G-code");
   look(typed.step.has_value(), written({kStep}), "--step", "STEP file");
   look(typed.dxf.has_value(), written({kDxf}), "--dxf", "DXF file");
   look(typed.svg.has_value(), svg, "--svg", ".svg");

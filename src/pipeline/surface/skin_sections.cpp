@@ -145,7 +145,7 @@ std::optional<std::string> runs_lost(const Skin& skin) {
   return fmt::format(
       "in {} of {} sections curvature goes against its run by more than 0.1 % of the largest "
       "there; at most {} %",
-      lost, skin.sections.size(), significant(100.0 * worst, 2));
+      lost, skin.sections.size(), significant_above(100.0 * worst, 2));
 }
 
 std::optional<std::string> fair_remark(const Skin& skin, const std::string& units) {

@@ -47,7 +47,7 @@ void add_facts(const std::vector<Fillet>& blends, const std::array<std::string, 
           fmt::format("on {}", names[i]),
           fmt::format("up to {} {} off it ({}), {} degrees between tangent planes ({}), as "
                       "measured at {} places and beside the worst of them",
-                      significant(c.distance, 3), unit, place_text(c.distance_at),
+                      significant_above(c.distance, 3), unit, place_text(c.distance_at),
                       significant(c.angle / kOneDegree, 3), place_text(c.angle_at), c.measured));
     }
   }
@@ -197,7 +197,7 @@ Result<MadeSurface> made_fillet(const RolledBall& by, const SurfaceJob& job,
   if (!by.whole) {
     made.facts.emplace_back(
         "trims", fmt::format("{}, within {} {} of the blend's borders, as measured",
-                             counted(trims, "loop", "loops"), significant(trimmed_within, 3),
+                             counted(trims, "loop", "loops"), significant_above(trimmed_within, 3),
                              made.model.units.text()));
   }
   return made;

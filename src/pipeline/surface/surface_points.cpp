@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "obvid/core/internal/figures.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/surface_builders/internal/approximate.h"
 #include "surface/surface_inputs.h"
@@ -29,10 +30,12 @@ Result<MadeSurface> near(const PointGrid& grid, const SurfaceJob& job, const Run
   auto surface = approximated(grid, tolerance, run);
   OBVID_TRY(surface);
   MadeSurface made = of_one_patch(grid, std::move(surface->surface));
+  const std::string units = job.units.value_or(grid.units).text();
   made.kind = "least squares near a grid of points";
-  made.facts.emplace_back("from the points",
-                          fmt::format("{:.4g} at most, {:.3g} in the mean square",
-                                      surface->deviation, surface->root_mean_square));
+  made.facts.emplace_back(
+      "from the points",
+      fmt::format("{} {} at most, root mean square {} {}", significant_above(surface->deviation, 4),
+                  units, significant(surface->root_mean_square, 3), units));
   return made;
 }
 

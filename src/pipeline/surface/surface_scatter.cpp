@@ -37,8 +37,9 @@ std::string empty_text(const EmptyParts& empty, const std::string& units) {
   return fmt::format(
       "{:.3g} % of the rectangle ({} places looked at) lie farther than {:.4g} {} from every "
       "point, "
-      "at most {:.4g}: at {}",
-      100.0 * empty.share, empty.raster, empty.reach, units, empty.farthest, place(empty.where));
+      "at most {}: at {}",
+      100.0 * empty.share, empty.raster, empty.reach, units, significant_above(empty.farthest, 4),
+      place(empty.where));
 }
 
 }  // namespace
@@ -77,9 +78,9 @@ Result<MadeSurface> made_near_points(ScatterOptions options, const std::optional
                           fmt::format("{:.6g} x {:.6g} {}", fitted->width, fitted->depth, units));
   made.facts.emplace_back(
       "from the points",
-      fmt::format("{:.4g} {} at most (point {}), {:.3g} in the mean square, "
-                  "along the heights",
-                  fitted->deviation, units, fitted->farthest + 1, fitted->root_mean_square));
+      fmt::format("{} {} at most (point {}), root mean square {} {}, along the heights",
+                  significant_above(fitted->deviation, 4), units, fitted->farthest + 1,
+                  significant(fitted->root_mean_square, 3), units));
   made.facts.emplace_back("bending", fmt::format("{:.4g}; weight {:.3g} {}^2 beside the sum of "
                                                  "squares",
                                                  fitted->bending, fitted->weight, units));

@@ -87,7 +87,7 @@ Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
   const std::string unit = made.model.units.text();
   made.facts.emplace_back("trims", fmt::format("{}, within {} {} of the cut, as measured",
                                                counted(sums->trims, "loop", "loops"),
-                                               significant(made.deviation, 3), unit));
+                                               significant_above(made.deviation, 3), unit));
   made.facts.emplace_back(
       "area",
       fmt::format("{} {}^2, within {}: the last step of its sum changed {}, the trims' own "

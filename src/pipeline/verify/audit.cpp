@@ -25,6 +25,7 @@ namespace {
 
 constexpr double kLargestGap = 1e-9;   // of the size
 constexpr double kLargestTurn = 1e-6;  // rad
+constexpr double kOneJoint = 1e-9;     // of the length: rows of one joint
 constexpr int kPieceSamples = 200;     // of each piece
 constexpr double kVisible = 0.01;      // of the range of the curvature
 /// Swings below this part of the largest curvature are what rounding leaves on lines and circles.
@@ -103,10 +104,36 @@ class Auditor {
     if (unbounded_) out_.least_kappa = out_.largest_kappa = std::nan("");
     std::stable_sort(out_.places.begin(), out_.places.end(),
                      [](const AuditPlace& a, const AuditPlace& b) { return a.s < b.s; });
+    keep_one_of_a_joint();
     return std::move(out_);
   }
 
  private:
+  /// What a corner, a jump or a gap makes of the curvature there is told by it alone. The counts
+  /// are those of the proof.
+  void keep_one_of_a_joint() {
+    std::vector<AuditPlace>& all = out_.places;
+    const auto of_joint = [](const AuditPlace& one) {
+      return one.kind != AuditPlace::Kind::kVertex && one.kind != AuditPlace::Kind::kInflection;
+    };
+    std::vector<double> joints;
+    for (const AuditPlace& one : all) {
+      if (of_joint(one)) joints.push_back(one.s);
+    }
+    if (joints.empty()) return;
+    const double whole = path_->length(), room = kOneJoint * whole;
+    const auto at_joint = [&](const AuditPlace& one) {
+      if (of_joint(one)) return false;
+      const auto near = [&](double s) {
+        const auto next = std::lower_bound(joints.begin(), joints.end(), s - room);
+        return next != joints.end() && *next <= s + room;
+      };
+      const bool seam = out_.contour.closed;
+      return near(one.s) || (seam && (near(one.s - whole) || near(one.s + whole)));
+    };
+    all.erase(std::remove_if(all.begin(), all.end(), at_joint), all.end());
+  }
+
   /// Curvature at an end of a piece, and whether it is more than rounding.
   struct FlatEnd {
     double kappa = 0.0;

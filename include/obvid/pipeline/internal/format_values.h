@@ -32,6 +32,7 @@ struct FormatValues {
   std::optional<std::string> controller;
   std::optional<std::string> motion;
   std::optional<double> feed;
+  std::optional<long> decimals;  ///< of places of G-code
   std::optional<long> samples;
   std::optional<double> sample_step;
   std::optional<std::string> airfoil, spacing;

@@ -36,8 +36,8 @@ struct GcodeOptions {
   std::string name = "contour";    ///< stands in a comment
 };
 
-/// A name as it may stand in a comment of a program: of ASCII, at most 40 characters, without what
-/// ends comments, lines or programs.
+/// A name as it may stand in a comment of a program: in plain letters (`plain_letters`), at most 58
+/// characters, without what ends comments, lines or programs.
 [[nodiscard]] std::string gcode_comment(std::string_view name);
 
 /// A program in the plane G17, absolute ends (G90), centres from the start of the arc (G91.1): it
