@@ -1153,7 +1153,7 @@ class Simplifier {
       ++seam;
     }
     return fail(error(ErrorCode::kNoSpiral, "the ends of what was found could not be joined")
-                    .hint("allow a larger tolerance, or leave the loop open (without --closed)"));
+                    .hint("allow a larger tolerance, or leave the loop open (--open)"));
   }
 
   [[nodiscard]] bool is_used(int number) const {
@@ -1244,11 +1244,16 @@ void set_chain(const std::vector<Node>& nodes, std::size_t points, const Sought&
     const Node &a = nodes[k], &b = nodes[k + 1];
     const auto piece = piece_between(sought.plane, a.point, a.theta, b.point, b.theta);
     const int next = static_cast<int>(chain.kappa.size());
+    const bool grade = sought.rounded && a.theta == b.theta;
     const double k0 = piece ? piece->kappa0 : 0.0, k1 = piece ? piece->kappa1 : 0.0;
-    chain.ends.push_back({next, sought.constant ? next : next + 1});
     chain.law.push_back(Transition::kClothoid);
-    chain.kappa.push_back(sought.constant ? 0.5 * (k0 + k1) : k0);
-    if (!sought.constant) chain.kappa.push_back(k1);
+    if (grade) {
+      chain.ends.push_back({Chain::kStraight, Chain::kStraight});
+    } else {
+      chain.ends.push_back({next, sought.constant ? next : next + 1});
+      chain.kappa.push_back(sought.constant ? 0.5 * (k0 + k1) : k0);
+      if (!sought.constant) chain.kappa.push_back(k1);
+    }
     chain.length.push_back(piece ? piece->length : norm(b.point - a.point));
     for (auto i = static_cast<std::size_t>(std::ceil(a.place)); static_cast<double>(i) <= b.place;
          ++i) {
