@@ -14,6 +14,7 @@
 #include "mended.h"
 #include "obvid/alignment/internal/borne_grades.h"
 #include "obvid/alignment/internal/transition_law.h"
+#include "one_element.h"
 #include "rounded_corners.h"
 #include "whole_circle.h"
 #include "winding.h"
@@ -1485,6 +1486,14 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     if (!first) first = found.error();
   }
   if (stopped) return fail(cancelled_error());
+  if (!options.closed && (!best || best->chain().size() > 1)) {
+    // to the edge of the tolerance, where searches and least squares end before it
+    const double sharpest = options.least_radius > 0.0 ? 1.0 / options.least_radius : HUGE_VAL;
+    if (auto one = one_element(sought.plane, points, allowed, sharpest)) {
+      one->origin = out.origin;
+      return *one;
+    }
+  }
   if (best) return result_of(*best);
   const bool limits = options.least_length > 0.0 || options.least_radius > 0.0;
   if (sought.plane == Plane::kMap && !sought.constant && !limits) {
