@@ -345,7 +345,10 @@ void tell_limits(const PointSeries& series, const std::vector<double>& tolerance
   const char* named = lengths && radii ? "smaller --min-length and --min-radius"
                       : lengths        ? "a smaller --min-length"
                                        : "a smaller --min-radius";
-  error.hint = fmt::format("allow a larger --noise, or {}", named);
+  const std::size_t others = error.hint.find(", or set ");  // that there are not yet
+  const std::string rest = others == std::string::npos ? "" : error.hint.substr(others);
+  const std::string advice = fmt::format("allow a larger --noise, or {}", named);
+  error.hint = advice + rest;
   limits.least_length = limits.least_radius = 0.0;
   limits.closed = closed;
   const auto free = fit_alignment(series.points, tolerance, limits, without_progress(run));
@@ -360,7 +363,7 @@ void tell_limits(const PointSeries& series, const std::vector<double>& tolerance
   if (radii && sharpest > 0.0) {
     kept += (kept.empty() ? "" : " with ") + ("--min-radius " + rounded_down(1.0 / sharpest));
   }
-  if (!kept.empty()) error.hint += fmt::format(": {} was found to do", kept);
+  if (!kept.empty()) error.hint = fmt::format("{} ({} was found to do){}", advice, kept, rest);
 }
 
 double first_station(const AlignmentJob& job, const Units& units,
