@@ -63,20 +63,18 @@ std::vector<Corner> corners_of(const std::vector<Vec2>& points,
   return out;
 }
 
-/// Of a loop: joints from the middle of the chord behind place `from` once around to it, of nodes
-/// that go farther at both ends.
-std::vector<Node> once_around(const std::vector<Node>& all, double from, double laps_end) {
-  const auto middle = [&](double place) {
-    const auto behind =
-        std::find_if(all.begin(), all.end(), [&](const Node& n) { return n.place > place; });
-    const Node &a = *std::prev(behind), &b = *behind;
-    return Node{place, 0.5 * (a.point + b.point), a.theta};
-  };
-  std::vector<Node> out = {middle(from)};
+/// Of a loop: joints from the middle of the chord around place `from` once around to it, `places`
+/// and a lap on, of nodes that go farther at both ends.
+std::vector<Node> once_around(const std::vector<Node>& all, double from, double places, Vec2 lap) {
+  const auto behind =
+      std::find_if(all.begin(), all.end(), [&](const Node& n) { return n.place > from; });
+  const Node &a = *std::prev(behind), &b = *behind;
+  const Vec2 middle = 0.5 * (a.point + b.point);
+  std::vector<Node> out = {{from, middle, a.theta}};
   for (const Node& node : all) {
-    if (node.place > from && node.place < laps_end) out.push_back(node);
+    if (node.place > from && node.place < from + places) out.push_back(node);
   }
-  out.push_back(middle(laps_end));
+  out.push_back({from + places, middle + lap, out.back().theta});
   return out;
 }
 
@@ -229,7 +227,7 @@ std::vector<Node> rounded_grades(const std::vector<Vec2>& given,
   if (!(lap > 0.0)) return out;
   const double begin = 0.5 * (corners[1].x + corners[2].x);
   const double from = node({begin, 0.0}, 0.0).place;
-  return once_around(out, from, from + before);
+  return once_around(out, from, before, {lap, 0.0});
 }
 
 std::vector<Node> rounded_corners_around(const std::vector<Vec2>& points,
@@ -243,7 +241,7 @@ std::vector<Node> rounded_corners_around(const std::vector<Vec2>& points,
   std::vector<Node> all = rounded_corners(more, of_more);
   for (Node& node : all) node.place -= 1.0;
   constexpr double kMiddle = 0.5;
-  return once_around(all, kMiddle, kMiddle + static_cast<double>(points.size() - 1));
+  return once_around(all, kMiddle, static_cast<double>(points.size() - 1), {});
 }
 
 std::vector<Node> rounded_corners(const std::vector<Vec2>& points,
