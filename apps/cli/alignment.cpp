@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "element_table.h"
 #include "obvid/core/files.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/pipeline/element_table.h"
 #include "obvid/pipeline/import.h"
 #include "obvid/pipeline/internal/fit_figures.h"
@@ -28,6 +29,11 @@ namespace {
 
 constexpr int kOffsetDigits = 3;
 
+/// Of offsets: never less than they are.
+std::string at_most(double offset) {
+  return offset > 0.0 ? significant_above(offset, kOffsetDigits) : "0";
+}
+
 void add_profile_facts(const ProfileReport& report, const Units& units, Facts& facts) {
   const VerticalProfile& profile = report.profile;
   std::array<std::size_t, 3> count{};
@@ -39,11 +45,11 @@ void add_profile_facts(const ProfileReport& report, const Units& units, Facts& f
   if (report.of_file) return;
   double largest = 0.0;
   for (const double offset : profile.offsets) largest = std::max(largest, std::abs(offset));
-  facts.add("heights", fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
-                                   counted(profile.offsets.size(), "height", "heights"),
-                                   significant(largest, kOffsetDigits), units.text(),
-                                   significant(report.tolerance, kOffsetDigits),
-                                   significant(profile.rms, kOffsetDigits)));
+  facts.add("heights",
+            fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
+                        counted(profile.offsets.size(), "height", "heights"), at_most(largest),
+                        units.text(), significant_above(report.tolerance, kOffsetDigits),
+                        significant(profile.rms, kOffsetDigits)));
 }
 
 Facts alignment_facts(const AlignmentReport& report) {
@@ -59,11 +65,11 @@ Facts alignment_facts(const AlignmentReport& report) {
   const std::size_t joints = alignment.elements.size() - (alignment.closed ? 0 : 1);
   facts.add("curvature", fmt::format("steps at {} of {}", curvature_steps(alignment.elements),
                                      counted(joints, "joint", "joints")));
-  facts.add("points", fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
-                                  counted(alignment.deviations.size(), "point", "points"),
-                                  significant(largest, kOffsetDigits), report.units.text(),
-                                  significant(report.tolerance, kOffsetDigits),
-                                  significant(alignment.rms, kOffsetDigits)));
+  facts.add("points",
+            fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
+                        counted(alignment.deviations.size(), "point", "points"), at_most(largest),
+                        report.units.text(), significant_above(report.tolerance, kOffsetDigits),
+                        significant(alignment.rms, kOffsetDigits)));
   if (report.profile) add_profile_facts(*report.profile, report.units, facts);
   for (const std::string& remark : report.remarks) facts.add("note", remark);
   return facts;

@@ -191,7 +191,7 @@ Result<void> check_alignment(RawAlignment& raw) {
 }  // namespace
 
 Result<Command> parse_alignment(int argc, const char* const* argv) {
-  CLI::App app("The fewest lines, arcs and clothoids that pass within a tolerance of the points",
+  CLI::App app("Few lines, arcs and clothoids that pass within a tolerance of the points",
                "obvid alignment");
   shape_help(app, kHelpColumn, argc, argv);
   app.allow_extras();

@@ -11,7 +11,7 @@
 
 namespace obvid {
 
-/// `obvid alignment`: the fewest lines, arcs and clothoids within a tolerance.
+/// `obvid alignment`: few lines, arcs and clothoids within a tolerance.
 struct AlignmentCommand {
   std::string input;
   std::vector<std::string> inputs;  ///< several, in place of one

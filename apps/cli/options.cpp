@@ -803,7 +803,7 @@ Result<Command> parse_command_line(int argc, const char* const* argv) {
                        "Surfaces: skin, ruled, revolve, coons, gordon, grid, offset, check, ...");
     app.add_subcommand("spline", "Integro-differential splines of one variable, and along points");
     app.add_subcommand("nurbs", "Curves and surfaces of control points, weights and knots");
-    app.add_subcommand("alignment", "Roads and rails: the fewest lines, arcs and clothoids");
+    app.add_subcommand("alignment", "Roads and rails: few lines, arcs and clothoids");
     app.add_subcommand("toolpath", "Three-axis milling of a surface as G-code");
     app.add_subcommand("cut", "All outlines of a drawing for a mill, a laser or a plasma torch");
     app.add_subcommand("batch", "One job for many inputs on all processors, results as a table");

@@ -327,8 +327,8 @@ OBVID_API int obvid_surface_export(const obvid_surface* surface, const char* end
 OBVID_API int obvid_surface_toolpath(const obvid_surface* surface, const char* options,
                                      const obvid_run* run, obvid_files** files, char** report,
                                      obvid_error** error);
-/* The fewest lines, arcs and clothoids that pass within a tolerance of the points, and of heights
- * in a column z, or in `heights` (stations and heights; NULL: none), the fewest grades and vertical
+/* Few lines, arcs and clothoids that pass within a tolerance of the points, and of heights
+ * in a column z, or in `heights` (stations and heights; NULL: none), few grades and vertical
  * curves. `contour` is what was found, with stations and profile in LandXML and OpenDRIVE; `files`
  * are tables of the elements (suffix ".csv"), of all offsets (".deviations.csv"), of the profile
  * where there is one (".profile.csv"), and a picture over the stations (".svg"). NULL: not

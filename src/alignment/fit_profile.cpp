@@ -198,12 +198,15 @@ Result<VerticalProfile> fit_profile(const std::vector<Vec2>& points,
       arcs ? alignment::Plane::kMap : alignment::Plane::kGraph, true, {options.lap, 0.0}, true};
   std::optional<alignment::Candidate> best;
   std::optional<Error> refused;
-  for (const bool corners : {true, false}) {
+  // with corners, without, and at last what there always is: grades from height to height
+  for (const auto& [corners, rounded] :
+       {std::pair{true, false}, std::pair{false, false}, std::pair{true, true}}) {
     sought.corners = corners;
+    sought.rounded = rounded;
     auto found = alignment::candidate(points, tolerance, limits, sought, options, run);
     if (!found) {
       if (found.error().code == ErrorCode::kCancelled) return fail(found.error());
-      refused = found.error();
+      if (!rounded) refused = found.error();
       continue;
     }
     if (!best || found->rank() < best->rank()) best = std::move(*found);

@@ -14,6 +14,7 @@
 #include "mended.h"
 #include "obvid/alignment/internal/borne_grades.h"
 #include "obvid/alignment/internal/transition_law.h"
+#include "one_element.h"
 #include "rounded_corners.h"
 #include "whole_circle.h"
 #include "winding.h"
@@ -55,6 +56,7 @@ constexpr int kMoreAtSeam = 2;  ///< elements that may be added to close a loop
 class Simplifier {
  public:
   /// Of a closed alignment the last point is the first one again, a lap on; `close` leaves it out.
+  /// What is rounded goes around as it is, and has no such point.
   /// `first_given`: number, as given, of the first point. `others`: other searches are to come.
   Simplifier(std::vector<Vec2> points, std::vector<double> tolerance,
              const AlignmentOptions& options, const Sought& sought, Chain chain,
@@ -79,7 +81,11 @@ class Simplifier {
       length += chain_.plane == Plane::kMap ? norm(chord) : chord.x;
     }
     double least = kLeastLength * length / static_cast<double>(points_.size() - 1);
-    if (sought.corners) borne_ = grades_borne_by(points_, tolerance_, sought);
+    if (sought.rounded) {
+      borne_ = BorneGrades(points_, tolerance_, sought.lap.x);
+    } else if (sought.corners) {
+      borne_ = grades_borne_by(points_, tolerance_, sought);
+    }
     if (sought.corners || rounded) {
       // what rounds a corner is as short as the tolerance makes it
       const double shortest = *std::min_element(chain_.length.begin(), chain_.length.end());
@@ -119,15 +125,19 @@ class Simplifier {
     for (double& kappa : chain_.kappa) {
       kappa = std::clamp(kappa, -largest_curvature_, largest_curvature_);
     }
-    if (!rounded_) OBVID_TRY(polish(run, &joints));
-    auto goes_on = may_lead_within(kHopelessOffset, run);
-    OBVID_TRY(goes_on);
-    if (!*goes_on) return {};
-    OBVID_TRY(close(run));
-    if (others_) OBVID_TRY(polish_to_tolerance(run));
-    goes_on = may_lead_within(1.0, run);
-    OBVID_TRY(goes_on);
-    if (!*goes_on) return {};
+    if (rounded_) {
+      closed_ = true;  // these go around already
+    } else {
+      OBVID_TRY(polish(run, &joints));
+      auto goes_on = may_lead_within(kHopelessOffset, run);
+      OBVID_TRY(goes_on);
+      if (!*goes_on) return {};
+      OBVID_TRY(close(run));
+      if (others_) OBVID_TRY(polish_to_tolerance(run));
+      goes_on = may_lead_within(1.0, run);
+      OBVID_TRY(goes_on);
+      if (!*goes_on) return {};
+    }
     for (int turn = 0; turn < 2; ++turn) {
       OBVID_TRY(simplify(run));
       turn_to(chain_.size() / 2);
@@ -1144,7 +1154,7 @@ class Simplifier {
       ++seam;
     }
     return fail(error(ErrorCode::kNoSpiral, "the ends of what was found could not be joined")
-                    .hint("allow a larger tolerance, or leave the loop open (without --closed)"));
+                    .hint("allow a larger tolerance, or leave the loop open (--open)"));
   }
 
   [[nodiscard]] bool is_used(int number) const {
@@ -1235,11 +1245,16 @@ void set_chain(const std::vector<Node>& nodes, std::size_t points, const Sought&
     const Node &a = nodes[k], &b = nodes[k + 1];
     const auto piece = piece_between(sought.plane, a.point, a.theta, b.point, b.theta);
     const int next = static_cast<int>(chain.kappa.size());
+    const bool grade = sought.rounded && a.theta == b.theta;
     const double k0 = piece ? piece->kappa0 : 0.0, k1 = piece ? piece->kappa1 : 0.0;
-    chain.ends.push_back({next, sought.constant ? next : next + 1});
     chain.law.push_back(Transition::kClothoid);
-    chain.kappa.push_back(sought.constant ? 0.5 * (k0 + k1) : k0);
-    if (!sought.constant) chain.kappa.push_back(k1);
+    if (grade) {
+      chain.ends.push_back({Chain::kStraight, Chain::kStraight});
+    } else {
+      chain.ends.push_back({next, sought.constant ? next : next + 1});
+      chain.kappa.push_back(sought.constant ? 0.5 * (k0 + k1) : k0);
+      if (!sought.constant) chain.kappa.push_back(k1);
+    }
     chain.length.push_back(piece ? piece->length : norm(b.point - a.point));
     for (auto i = static_cast<std::size_t>(std::ceil(a.place)); static_cast<double>(i) <= b.place;
          ++i) {
@@ -1315,12 +1330,47 @@ std::string advice_for_others(const AlignmentOptions& options, const Sought& sou
 /// What is begun with where no search came to elements: on a map, where no limits are given.
 constexpr Attempt kRoundedChords = {1.0, 0.0, 1.0, true};
 
+std::vector<Node> rounded_nodes(const std::vector<Vec2>& points,
+                                const std::vector<double>& tolerance,
+                                const AlignmentOptions& options, const Sought& sought) {
+  if (sought.rounded) {
+    return rounded_grades(points, tolerance, sought.plane == Plane::kMap, sought.lap.x);
+  }
+  return options.closed ? rounded_corners_around(points, tolerance)
+                        : rounded_corners(points, tolerance);
+}
+
+/// Of a loop: leaves out the last point, the first one again, and begins with the one behind the
+/// first node. Its number is returned; places of nodes count from it then.
+std::size_t begin_at_first_behind(std::vector<Node>& nodes, Vec2 lap, std::vector<Vec2>& points,
+                                  std::vector<double>& tolerance) {
+  const double first = std::ceil(nodes.front().place);
+  const auto begin = static_cast<std::size_t>(first);
+  for (Node& node : nodes) node.place -= first;
+  for (std::size_t i = 0; i < begin; ++i) points[i] = points[i] + lap;
+  points.pop_back();
+  tolerance.pop_back();
+  const auto turn = [begin](auto& of_points) {
+    std::rotate(of_points.begin(), of_points.begin() + static_cast<std::ptrdiff_t>(begin),
+                of_points.end());
+  };
+  turn(points);
+  turn(tolerance);
+  return begin;
+}
+
 /// Elements from one of these searches, or of the chords with rounded corners.
 Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolerance,
                             const AlignmentOptions& options, const Sought& sought,
                             const Attempt& attempt, bool others, const RunContext& run) {
+  std::vector<Node> rounded;
+  if (attempt.rounded) {
+    rounded = rounded_nodes(points, tolerance, options, sought);
+  }
   std::size_t begin = 0;
-  if (options.closed) {  // the last point is the first one again
+  if (options.closed && attempt.rounded) {
+    begin = begin_at_first_behind(rounded, sought.lap, points, tolerance);
+  } else if (options.closed) {  // the last point is the first one again
     const std::size_t n = points.size() - 1;
     begin = static_cast<std::size_t>(attempt.begin * static_cast<double>(n));
     for (std::size_t i = 0; i < begin; ++i) points[i] = points[i] + sought.lap;
@@ -1341,7 +1391,7 @@ Result<Simplifier> searched(std::vector<Vec2> points, std::vector<double> tolera
   for (double& one : tolerance) one *= attempt.fit;
   Sought search = sought;
   if (sought.corners) search.plane = Plane::kGraph;  // for arcs likewise: they begin as parabolas
-  auto nodes = attempt.rounded ? Result<std::vector<Node>>(rounded_corners(points, tolerance))
+  auto nodes = attempt.rounded ? Result<std::vector<Node>>(std::move(rounded))
                                : fewest_pieces(points, within, options, search, run);
   OBVID_TRY(nodes);
   if (search.plane != sought.plane) {
@@ -1405,6 +1455,12 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     for (std::size_t i = 0; i < given.size(); ++i) out.feet.push_back(found.foot_of_given(i));
     return out;
   };
+  if (sought.rounded) {
+    auto found = searched(points, allowed, options, sought, kRoundedChords, false, run);
+    if (stopped) return fail(cancelled_error());
+    OBVID_TRY(found);
+    return result_of(*found);
+  }
   std::optional<Error> first;
   std::optional<Simplifier> best;
   const bool profile = sought.constant && !options.without_transitions;
@@ -1430,6 +1486,14 @@ Result<FoundChain> find_chain(const std::vector<Vec2>& given, const std::vector<
     if (!first) first = found.error();
   }
   if (stopped) return fail(cancelled_error());
+  if (!options.closed && (!best || best->chain().size() > 1)) {
+    // to the edge of the tolerance, where searches and least squares end before it
+    const double sharpest = options.least_radius > 0.0 ? 1.0 / options.least_radius : HUGE_VAL;
+    if (auto one = one_element(sought.plane, points, allowed, sharpest)) {
+      one->origin = out.origin;
+      return *one;
+    }
+  }
   if (best) return result_of(*best);
   const bool limits = options.least_length > 0.0 || options.least_radius > 0.0;
   if (sought.plane == Plane::kMap && !sought.constant && !limits) {

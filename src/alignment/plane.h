@@ -26,6 +26,8 @@ struct Sought {
   /// The search is one in a graph, where corners of the points, which vertical curves round, count
   /// as one element each, and no slope is steeper than the points around it bear.
   bool corners = false;
+  /// Of profiles: no search, but few grades that meet at heights, with rounded corners.
+  bool rounded = false;
 };
 
 /// Direction of a heading.

@@ -192,8 +192,9 @@ Result<PointSeries> parse_points(string_view text, string_view name,
   series.points = std::move(raw->points);
   series.fixed = std::move(raw->fixed);
   series.rounding = rounding_of(*raw);
-  const std::array<text::ColumnDigits, 1> heights{raw->height_digits};
-  series.height_rounding = heights[0].empty() ? 0.0 : text::half_units(heights)[0];
+  // zeros that end heights alone are no padding: one program printed all three columns
+  const std::array all{raw->digits[0], raw->digits[1], raw->height_digits};
+  series.height_rounding = raw->height_digits.empty() ? 0.0 : text::half_units(all)[2];
   series.warnings = std::move(raw->warnings);
   return series;
 }

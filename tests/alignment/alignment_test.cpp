@@ -361,6 +361,31 @@ TEST(Alignment, TwoPointsAreALine) {
   EXPECT_NEAR(found->length, 5.0, 0.01);
 }
 
+TEST(Alignment, OneLineOrOneArcIsFoundToTheEdgeOfTheTolerance) {
+  // to both sides of the line y = 0, and of a circle of radius 100: no curve of either kind is
+  // nearer
+  std::vector<Vec2> line, circle;
+  for (int i = 0; i <= 40; ++i) {
+    const double side = i % 2 == 0 ? 0.012345 : -0.012345;
+    line.push_back({10.0 * i, side});
+    circle.push_back((100.0 + side) * Vec2{std::cos(0.06 * i), std::sin(0.06 * i)});
+  }
+  for (const double tolerance : {0.012355, 0.0123451}) {
+    const std::vector<double> all(line.size(), tolerance);
+    const auto straight = fit_alignment(line, all);
+    ASSERT_TRUE(straight);
+    ASSERT_EQ(straight->elements.size(), 1U) << tolerance;
+    EXPECT_EQ(straight->elements[0].kind, AlignmentKind::kLine);
+    EXPECT_LE(straight->largest_share, 1.0);
+    const auto round = fit_alignment(circle, all);
+    ASSERT_TRUE(round);
+    ASSERT_EQ(round->elements.size(), 1U) << tolerance;
+    EXPECT_EQ(round->elements[0].kind, AlignmentKind::kArc);
+    EXPECT_NEAR(1.0 / round->elements[0].start.kappa, 100.0, 0.02);
+    EXPECT_LE(round->largest_share, 1.0);
+  }
+}
+
 TEST(Alignment, RefusesWhatIsNoPointSequence) {
   EXPECT_EQ(fit_alignment({{0, 0}}, {0.1}).error().code, ErrorCode::kTooFewPoints);
   EXPECT_EQ(fit_alignment({{0, 0}, {0, 0}, {1, 0}}, {0.1, 0.1, 0.1}).error().code,
@@ -641,6 +666,27 @@ TEST(ClosedAlignment, OfACircleIsOneArcOfAnySizeAnywhere) {
       EXPECT_NEAR(sense / (e.start.kappa * size), 20.0, 0.05);
       EXPECT_NEAR(e.length * std::abs(e.start.kappa), 2.0 * std::numbers::pi, 1e-12);
       EXPECT_FALSE(e.step);
+    }
+  }
+}
+
+TEST(ClosedAlignment, OfAStarWhoseTipsAreRoundedWherePointsBegin) {
+  for (const int tips : {5, 9, 14}) {
+    std::vector<Vec2> star;
+    for (int i = 0; i < 2 * tips; ++i) {
+      const double turn = std::numbers::pi * i / tips;
+      star.push_back((i % 2 == 0 ? 100.0 : 40.0) * Vec2{std::cos(turn), std::sin(turn)});
+    }
+    for (const double tolerance : {0.01, 1.0}) {
+      AlignmentOptions options;
+      options.closed = true;
+      const auto found = fit_alignment(star, std::vector<double>(star.size(), tolerance), options);
+      ASSERT_TRUE(found) << tips << " within " << tolerance << ": " << found.error().what;
+      EXPECT_LE(found->largest_share, 1.0);
+      EXPECT_EQ(found->end.point.x, found->elements.front().start.point.x);
+      EXPECT_NEAR(std::remainder(found->end.theta - found->elements.front().start.theta,
+                                 2.0 * std::numbers::pi),
+                  0.0, 1e-9);
     }
   }
 }

@@ -254,6 +254,45 @@ TEST(Profile, RoundsASharpKinkWithoutSwingingPastIt) {
   }
 }
 
+TEST(Profile, HeightsThatStandOutAreReachedByGradesThatTheyBear) {
+  // 10 %, and each seventh height 0.3 m above that. Straight from height to height there are 24
+  // corners, so that 25 grades and 24 curves do.
+  std::vector<Vec2> heights;
+  for (int i = 0; i < 60; ++i) {
+    heights.push_back({5.0 * i, 100.0 + 0.5 * i + (i % 7 == 0 && i > 0 ? 0.3 : 0.0)});
+  }
+  for (const ProfileCurves curves : {ProfileCurves::kParabolas, ProfileCurves::kArcs}) {
+    const auto found = fit_profile(heights, std::vector<double>(heights.size(), 0.008), {curves});
+    ASSERT_TRUE(found) << found.error().what;
+    EXPECT_LE(found->largest_share, 1.0);
+    EXPECT_LE(found->elements.size(), 49U);
+    expect_borne(*found, heights, 0.008);
+  }
+}
+
+TEST(Profile, AnyHeightsHaveAProfileThatTheyBear) {
+  for (int made = 0; made < 12; ++made) {
+    Numbers numbers;
+    for (int k = 0; k < made; ++k) (void)numbers.next();
+    std::vector<Vec2> heights;
+    double station = 0.0;
+    for (int i = 0; i < 40; ++i) {
+      heights.push_back({station, numbers.between(0.0, made % 2 == 0 ? 3.0 : 30.0)});
+      station += numbers.between(0.5, 20.0);
+    }
+    const double tolerance = made % 3 == 0 ? 0.05 : 0.5;
+    ProfileOptions options;
+    if (made % 4 == 3) options.lap = station;
+    const auto found =
+        fit_profile(heights, std::vector<double>(heights.size(), tolerance), options);
+    ASSERT_TRUE(found) << made << ": " << found.error().what;
+    EXPECT_LE(found->largest_share, 1.0);
+    if (options.lap > 0.0) heights.push_back({station, heights.front().y});
+    expect_borne(*found, heights, tolerance);
+    EXPECT_LE(found->elements.size(), 2 * heights.size());
+  }
+}
+
 TEST(Profile, HasNoMoreElementsThanWhatWasMadeAndNoGradeThatNoHeightBears) {
   Numbers numbers;
   for (int made = 0; made < 16; ++made) {

@@ -157,8 +157,8 @@ bool prints(const std::string& printed, std::optional<double> value) {
 
 bool bounds(const std::string& printed, std::optional<double> value) {
   if (!prints(printed, value) || !value) return false;
-  constexpr double kLastDigits = 1e-12;
-  return std::strtod(printed.c_str(), nullptr) >= *value * (1.0 - kLastDigits);
+  constexpr double kBoundDigits = 1e-12;
+  return std::strtod(printed.c_str(), nullptr) >= *value * (1.0 - kBoundDigits);
 }
 
 }  // namespace judge

@@ -179,6 +179,24 @@ TEST(PictureTrack, SpreadsTeethEvenlyOnACircle) {
   }
 }
 
+TEST(PictureTrack, SpreadsTeethEvenlyOverArcsAndClothoidsWhereThatIsAsked) {
+  // a clothoid between two arcs, 10 long each, from curvature 0.01 to 0.2
+  const ClothoidPiece into{{0, 0}, clothoid_at({{0, 0}, 0, 0.01}, 0.019, 10).point, 0, 0.01, 0.2,
+                           10};
+  const Element joint = clothoid_at({{0, 0}, 0, 0.01}, 0.019, 10);
+  const Element end = clothoid_at(joint, 0.0, 10);
+  Contour contour;
+  contour.points = {{0, 0}, joint.point, end.point};
+  contour.pieces = {into, ArcPiece{joint.point, end.point, joint.theta, 0.2, 10}};
+  PictureTrack track = make_track(contour);
+  track.even_teeth = true;
+  const std::vector<PictureTooth> teeth = comb_teeth(track, 100);
+  ASSERT_GE(teeth.size(), 100U);
+  for (std::size_t i = 1; i + 2 < teeth.size(); ++i) {
+    EXPECT_NEAR(teeth[i].s - teeth[i - 1].s, 20.0 / 100.0, 1e-5) << i;
+  }
+}
+
 TEST(PictureTrack, FindsTheInflectionBetweenOppositeArcsAndAVertexWhereRunsMeet) {
   StoredContour stored = arc_chain({-0.5, 0.25, 1.0, 0.5}, 0.4);
   stored.contour.runs = {{0, 2, 1}, {3, 3, -1}};

@@ -37,7 +37,7 @@ def _with_heights(points: Points) -> Source:
 
 
 def alignment(points: Points, heights: Optional[Points] = None, **options: Any) -> Alignment:
-    """The fewest lines, arcs and clothoids within a tolerance. Options as of `obvid alignment`: noise,
+    """Few lines, arcs and clothoids within a tolerance. Options as of `obvid alignment`: noise,
     closed, open, min_length, min_radius, joints, transitions, station, lateral_acceleration, profile_noise, profile_curves,
     min_vertical_length, units, ...; progress, cancelled. `heights`: stations and heights; without them
     the third numbers of points or a column z of a file are heights.

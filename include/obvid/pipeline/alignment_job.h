@@ -85,7 +85,7 @@ struct AlignmentReport {
   std::vector<PlacedTransition> transitions{};  ///< these
 };
 
-/// The fewest lines, arcs and clothoids found (`fit_alignment`) within the tolerances of a series.
+/// Few lines, arcs and clothoids found (`fit_alignment`) within the tolerances of a series.
 /// With heights, of the points or of a file, also their profile (`fit_profile`). Lines, arcs and
 /// clothoids of a drawing (`PointSeries::kept`) are passed at points along them, not at joints
 /// alone. What the file says of its own alignment (`AlignmentJob::road`) is kept: the first station

@@ -253,7 +253,8 @@ void profile_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentDia
 
 std::string alignment_svg(const StoredContour& stored, const PictureTitles& titles,
                           const AlignmentDiagram& diagram) {
-  const PictureTrack track = make_track(stored.contour);
+  PictureTrack track = make_track(stored.contour);
+  track.even_teeth = true;  // else arcs have few beside clothoids
   const std::string units = stored.contour.units.text();
   PictureCanvas body;
   body.label({kPictureMargin, 40.0}, "start", "title", titles.name);

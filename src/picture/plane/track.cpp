@@ -295,7 +295,7 @@ std::vector<PictureTooth> comb_teeth(const PictureTrack& track, int count) {
   const std::vector<double> change = curvature_change(track);
   const double variation = std::accumulate(change.begin(), change.end(), 0.0);
   const bool varies = variation > kStraightPart * track.largest_kappa;
-  const double even = varies ? 0.5 : 1.0;
+  const double even = varies && !track.even_teeth ? 0.5 : 1.0;
   double done = 0.0;
   double next = 0.0;  // measure at which the next tooth stands
   for (std::size_t i = 0; i < track.pieces.size(); ++i) {

@@ -47,7 +47,8 @@ struct PictureTrack {
   std::vector<int> direction;          ///< per piece, of its run; 2 when no run covers it
   std::vector<bool> corner;            ///< per piece, whether it starts at a corner
   bool closed = false;
-  bool runs_tell = true;  ///< vertices lie between runs; else wherever the samples turn back
+  bool even_teeth = false;  ///< of the comb: also where the curvature changes fast
+  bool runs_tell = true;    ///< vertices lie between runs; else wherever the samples turn back
   std::vector<PictureFeature> features;  ///< where marks go: as far as samples tell
   PictureCounts counts;                  ///< what texts say: see take_counts
   Box2 box{{}, {}};  ///< curve and points, without the comb; relative to `reference`

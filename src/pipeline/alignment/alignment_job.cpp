@@ -16,7 +16,9 @@
 #include "obvid/certify/internal/crossings.h"
 #include "obvid/core/internal/figures.h"
 #include "obvid/curve/internal/clothoid.h"
+#include "obvid/geom/internal/angle.h"
 #include "obvid/io/internal/json_text.h"
+#include "obvid/numeric/internal/median.h"
 #include "obvid/picture/internal/alignment_svg.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/element_table.h"
@@ -201,31 +203,167 @@ Result<std::optional<SpeedLimit>> speed_limit(const Units& units,
   return std::optional(SpeedLimit{*acceleration, *metres});
 }
 
-/// Whether it goes around a loop. A last point within its tolerance of the first one is one with
-/// it, as in fits; one that is the first one exactly stays, for its deviation is told.
-bool closes(PointSeries& series, std::vector<double>& tolerance, Closing closing,
-            AlignmentReport& report) {
-  std::vector<Vec2>& points = series.points;
-  if (closing != Closing::kAutomatic) return closing == Closing::kClosed;
-  if (!returns_to_start(points, tolerance.front(), tolerance.back())) return false;
-  if (points.front() == points.back()) {
-    report.remarks.emplace_back("the last point is the first one: closed (--open leaves it open)");
-    return true;
+/// How a series without --closed or --open is taken.
+enum class Ends {
+  kApart,     ///< they do not meet
+  kTouching,  ///< they lie within their tolerances, which makes no loop of it
+  kMeeting,   ///< a loop
+  kRepeated,  ///< a loop, whose last point is the first one
+};
+
+/// Whether chords that are longer than what tolerances move their ends by go on from the end of a
+/// series to its start.
+bool goes_on(const std::vector<Vec2>& points, double reach) {
+  constexpr double kFar = 4.0;  // reaches: chords from there show where a curve goes
+  constexpr double kMostTurn = std::numbers::pi / 3;
+  const auto far_from = [&](Vec2 end, bool forwards) {
+    const std::size_t n = points.size();
+    for (std::size_t i = 0; i < n / 2; ++i) {
+      const Vec2 p = points[forwards ? i : n - 1 - i];
+      if (norm(p - end) > kFar * reach) return p;
+    }
+    return points[n / 2];
+  };
+  const Vec2 in = points.back() - far_from(points.back(), false);
+  const Vec2 out = far_from(points.front(), true) - points.front();
+  return std::abs(turning(in, out)) <= kMostTurn;
+}
+
+/// Ends that meet as those of fits, where a loop makes sense: their gap is like those of neighbours
+/// or small against the length, the tolerances are too, and the curve goes on there.
+Ends ends_of(const std::vector<Vec2>& points, const std::vector<double>& tolerance) {
+  constexpr double kNeighbours = 2.0;    // middle chords
+  constexpr double kOfLength = 0.025;    // of the whole
+  constexpr double kLeastLength = 10.0;  // of the whole, in tolerances of both ends
+  if (!returns_to_start(points, tolerance.front(), tolerance.back())) return Ends::kApart;
+  if (points.front() == points.back()) return Ends::kRepeated;
+  std::vector<double> chords;
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    chords.push_back(norm(points[i] - points[i - 1]));
+    length += chords.back();
   }
+  const double gap = norm(points.back() - points.front());
+  const double reach = tolerance.front() + tolerance.back();
+  const bool near = gap <= std::max(kNeighbours * median_of(chords), kOfLength * length);
+  if (near && length >= kLeastLength * reach && goes_on(points, reach)) return Ends::kMeeting;
+  return Ends::kTouching;
+}
+
+/// A last point within its tolerance of the first one becomes one with it, as in fits; one that is
+/// the first one exactly stays, for its deviation is told.
+double join_ends(PointSeries& series, std::vector<double>& tolerance) {
+  std::vector<Vec2>& points = series.points;
   const JoinedPoint joined =
       join_points(points.front(), tolerance.front(), points.back(), tolerance.back());
   const double away =
       std::max(norm(joined.point - points.front()), norm(joined.point - points.back()));
-  report.warnings.push_back(fmt::format(
-      "the last point lies within its tolerance of the first one: the alignment is closed, and "
-      "both became one at {}, {}, up to {} from them; --open keeps both",
-      significant(joined.point.x, 9), significant(joined.point.y, 9), significant(away, 4)));
   points.front() = joined.point;
   tolerance.front() = joined.tolerance;
   points.pop_back();
   tolerance.pop_back();
   if (!series.fixed.empty()) series.fixed.pop_back();
-  return true;
+  return away;
+}
+
+/// What makes an alignment that is taken as a loop, but was not asked to be, doubtful.
+bool is_doubtful(const Alignment& loop) { return loop.has_chords || loop.found_within < 1.0; }
+
+/// A loop that was not asked for is no better than the open curve.
+bool is_no_better(const Alignment& loop, const Alignment& open) {
+  return is_doubtful(open) ? loop.elements.size() > open.elements.size() + 1 : true;
+}
+
+/// Finds the alignment of a series that is closed or not as the job says, or as its ends say; the
+/// points and tolerances are those that it was found of then.
+Result<Alignment> found_alignment(PointSeries& series, std::vector<double>& tolerance,
+                                  AlignmentOptions limits, const AlignmentJob& job, bool drawn,
+                                  AlignmentReport& report, const RunContext& run) {
+  if (job.closing != Closing::kAutomatic) {
+    limits.closed = job.closing == Closing::kClosed;
+    return fit_alignment(series.points, tolerance, limits, run);
+  }
+  const Ends ends = ends_of(series.points, tolerance);
+  limits.closed = false;
+  if (ends == Ends::kApart) {
+    auto hint = pipeline_detail::hint_at_closing(series.points, series.units);
+    if (hint && !drawn) report.warnings.push_back(std::move(*hint));
+    return fit_alignment(series.points, tolerance, limits, run);
+  }
+  if (ends == Ends::kTouching) {
+    report.remarks.emplace_back(
+        "the ends lie within their tolerances of each other, but nothing else says that it goes "
+        "around: taken as open (--closed closes it)");
+    return fit_alignment(series.points, tolerance, limits, run);
+  }
+  PointSeries around = series;
+  std::vector<double> tolerance_around = tolerance;
+  const double away = ends == Ends::kRepeated ? 0.0 : join_ends(around, tolerance_around);
+  limits.closed = true;
+  auto loop = fit_alignment(around.points, tolerance_around, limits, run);
+  if (!loop && loop.error().code == ErrorCode::kCancelled) return loop;
+  if (!loop || (ends == Ends::kMeeting && is_doubtful(*loop))) {
+    limits.closed = false;
+    auto open = fit_alignment(series.points, tolerance, limits, run);
+    if (!open && (!loop || open.error().code == ErrorCode::kCancelled)) return open;
+    if (open && (!loop || is_no_better(*loop, *open))) {
+      report.warnings.push_back(fmt::format(
+          "the ends meet within their tolerances, but as a loop {}: taken as open (--closed asks "
+          "for the loop)",
+          loop ? "there are no better elements" : "there are no elements"));
+      return open;
+    }
+  }
+  series = std::move(around);
+  tolerance = std::move(tolerance_around);
+  if (ends == Ends::kRepeated) {
+    report.remarks.emplace_back("the last point is the first one: closed (--open leaves it open)");
+  } else {
+    const Vec2 joined = series.points.front();
+    report.warnings.push_back(fmt::format(
+        "taken as a loop: the last point lies within its tolerance of the first one, and both "
+        "became one at {}, {}, up to {} from them; --open keeps both",
+        significant(joined.x, 9), significant(joined.y, 9), significant_above(away, 4)));
+  }
+  return loop;
+}
+
+/// Down to so many digits: a limit that is told is one that is kept.
+std::string rounded_down(double value) {
+  constexpr int kDigits = 4;
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - kDigits + 1);
+  return significant(std::floor(value / unit) * unit, kDigits);
+}
+
+/// Names the limits that nothing was found with, and what elements without them keep.
+void tell_limits(const PointSeries& series, const std::vector<double>& tolerance,
+                 AlignmentOptions limits, bool closed, Error& error, const RunContext& run) {
+  const bool by_search =
+      error.code == ErrorCode::kNoSpiral || error.code == ErrorCode::kToleranceNotReached;
+  const bool lengths = limits.least_length > 0.0, radii = limits.least_radius > 0.0;
+  if (!by_search || (!lengths && !radii) || limits.without_steps) return;
+  const char* named = lengths && radii ? "smaller --min-length and --min-radius"
+                      : lengths        ? "a smaller --min-length"
+                                       : "a smaller --min-radius";
+  const std::size_t others = error.hint.find(", or set ");  // that there are not yet
+  const std::string rest = others == std::string::npos ? "" : error.hint.substr(others);
+  const std::string advice = fmt::format("allow a larger --noise, or {}", named);
+  error.hint = advice + rest;
+  limits.least_length = limits.least_radius = 0.0;
+  limits.closed = closed;
+  const auto free = fit_alignment(series.points, tolerance, limits, without_progress(run));
+  if (!free) return;
+  double shortest = HUGE_VAL, sharpest = 0.0;
+  for (const AlignmentElement& e : free->elements) {
+    shortest = std::min(shortest, e.length);
+    sharpest = std::max({sharpest, std::abs(e.start.kappa), std::abs(e.kappa1)});
+  }
+  std::string kept;
+  if (lengths) kept = "--min-length " + rounded_down(shortest);
+  if (radii && sharpest > 0.0) {
+    kept += (kept.empty() ? "" : " with ") + ("--min-radius " + rounded_down(1.0 / sharpest));
+  }
+  if (!kept.empty()) error.hint = fmt::format("{} ({} was found to do){}", advice, kept, rest);
 }
 
 double first_station(const AlignmentJob& job, const Units& units,
@@ -249,11 +387,6 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
       pipeline_detail::with_drawn_points(given, job.noise.value_or(0.0), out.remarks, out.warnings);
   auto tolerance = tolerances_of(series, job, out.remarks);
   OBVID_TRY(tolerance);
-  const bool closed = closes(series, *tolerance, job.closing, out);
-  if (!closed && job.closing == Closing::kAutomatic && given.kept.empty()) {
-    auto hint = pipeline_detail::hint_at_closing(series.points, series.units);
-    if (hint) out.warnings.push_back(std::move(*hint));
-  }
   const auto limit = speed_limit(series.units, job.acceleration);
   OBVID_TRY(limit);
   AlignmentOptions limits;
@@ -262,8 +395,11 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
   limits.transitions = job.transitions;
   limits.without_transitions = job.without_transitions;
   limits.without_steps = job.without_steps;
-  limits.closed = closed;
-  auto alignment = fit_alignment(series.points, *tolerance, limits, run);
+  auto alignment = found_alignment(series, *tolerance, limits, job, !given.kept.empty(), out, run);
+  if (!alignment) {
+    tell_limits(series, *tolerance, limits, job.closing == Closing::kClosed, alignment.error(),
+                run);
+  }
   if (auto hint = no_order_hint(series.points)) {
     if (alignment) {
       out.warnings.push_back(std::move(*hint));
@@ -312,7 +448,7 @@ std::string kinds_text(const Alignment& alignment) {
 
 std::string alignment_verdict(const AlignmentReport& report) {
   return fmt::format("{}; all points within {} {}", kinds_text(report.alignment),
-                     significant(report.tolerance, 3), report.units.text());
+                     significant_above(report.tolerance, 3), report.units.text());
 }
 
 std::string alignment_picture(const AlignmentReport& report) {

@@ -73,7 +73,7 @@ std::string scatter_text(const Scatter& seen, const char* what, const Units& uni
   return fmt::format(
       "{} may be {} {} off, {} times their scatter of {} about cubics through four neighbours each "
       "(median of {} points)",
-      what, significant(seen.bound, 4), units.text(), significant(seen.bound_factor, 3),
+      what, significant_above(seen.bound, 4), units.text(), significant(seen.bound_factor, 3),
       significant(seen.deviation, 4), seen.places);
 }
 
@@ -83,14 +83,14 @@ double tolerance_as_points(const std::vector<Vec2>& heights, double noise, doubl
   if (rounding > noise) {
     remarks.push_back(
         fmt::format("heights within {} {}, half a unit of their last digit: more than --noise",
-                    significant(rounding, 3), units.text()));
+                    significant_above(rounding, 3), units.text()));
     return rounding;
   }
   std::string said =
-      fmt::format("heights within {} {} as --noise", significant(noise, 3), units.text());
+      fmt::format("heights within {} {} as --noise", significant_above(noise, 3), units.text());
   if (const auto seen = scatter_of(heights); seen && seen->bound > noise) {
     said += fmt::format("; their own scatter of {} may reach {} (--profile-noise auto)",
-                        significant(seen->deviation, 3), significant(seen->bound, 3));
+                        significant(seen->deviation, 3), significant_above(seen->bound, 3));
   }
   remarks.push_back(std::move(said));
   return noise;
@@ -108,7 +108,7 @@ double tolerance_of_scatter(const std::vector<Vec2>& heights, double rounding, c
   if (rounding > 0.0) {
     remarks.push_back(fmt::format(
         "heights within {} {}, half a unit of their last digit: {}; --profile-noise says another",
-        significant(rounding, 3), units.text(),
+        significant_above(rounding, 3), units.text(),
         seen ? "they scatter by no more" : seen.error().what));
   }
   return rounding;
@@ -147,7 +147,7 @@ Result<bool> repeats_first(const std::vector<Vec2>& heights, bool of_points, dou
   if (!same || last.y == first.y) return same;
   return error(ErrorCode::kBadOption, "the first and the last height of the loop are of one place")
       .where(of_points ? "z" : "--profile")
-      .hint("give one height there, or leave the loop open (without --closed)")
+      .hint("give one height there, or leave the loop open (--open)")
       .point(static_cast<std::ptrdiff_t>(heights.size()) - 1)
       .value(last.y - first.y);
 }
@@ -170,7 +170,7 @@ Result<void> close_around(const std::vector<Vec2>& heights, double lap, double t
   return error(ErrorCode::kToleranceNotReached, "the heights of the loop do not close")
       .where(of_points ? "z" : "--profile")
       .hint(fmt::format("they differ by {} over {} at the seam, more steeply than anywhere else: "
-                        "adjust them, or leave the loop open (without --closed)",
+                        "adjust them, or leave the loop open (--open)",
                         significant(off, 4), significant(first.x - last.x, 4)))
       .value(off);
 }
@@ -214,8 +214,8 @@ Result<void> cover(const std::vector<Vec2>& heights, double from, double length,
 constexpr int kGradeDigits = 5;  // tell grades apart that are not borne
 
 /// Warns of a hump between heights that do not show it.
-void tell_humps(const std::vector<UnborneGrade>& humps, double tolerance, const Units& units,
-                std::vector<std::string>& remarks) {
+void tell_humps(const std::vector<UnborneGrade>& humps, double tolerance, bool has_least_length,
+                const Units& units, std::vector<std::string>& remarks) {
   if (humps.empty()) return;
   const auto off = [](const UnborneGrade& g) {
     return std::max(g.borne.low - g.grade, g.grade - g.borne.high);
@@ -225,12 +225,15 @@ void tell_humps(const std::vector<UnborneGrade>& humps, double tolerance, const 
       [&](const UnborneGrade& a, const UnborneGrade& b) { return off(a) < off(b); });
   remarks.push_back(fmt::format(
       "the profile has a grade of {} % at station {} {}, where the heights bear {} to {} % ({} in "
-      "all): within {} {} none without was found; allow more (--profile-noise), or shorter "
-      "elements (--min-vertical-length), or give heights nearer to each other there",
+      "all): within {} {} none without was found{}; allow more (--profile-noise){}, or give "
+      "heights "
+      "nearer to each other there",
       significant(100.0 * worst.grade, kGradeDigits), significant(worst.station, 7), units.text(),
       significant(100.0 * worst.borne.low, kGradeDigits),
       significant(100.0 * worst.borne.high, kGradeDigits),
-      counted(humps.size(), "such joint", "such joints"), significant(tolerance, 3), units.text()));
+      counted(humps.size(), "such joint", "such joints"), significant_above(tolerance, 3),
+      units.text(), has_least_length ? " with elements as long as that" : "",
+      has_least_length ? ", or shorter elements (--min-vertical-length)" : ""));
 }
 
 /// The profile that is drawn, at the stations of the alignment. Around a loop it would have to
@@ -341,7 +344,7 @@ Result<std::optional<ProfileReport>> profile_of_heights(const PointSeries& serie
   auto profile = fit_profile(ascending, of_each, options, run);
   OBVID_TRY(profile);
   tell_humps(unborne_grades(*profile, BorneGrades(ascending, of_each, options.lap)), *tolerance,
-             series.units, remarks);
+             options.least_length > 0.0, series.units, remarks);
   std::vector<double> offsets(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) offsets[order[k]] = profile->offsets[k];
   if (again) offsets.push_back(offsets.front());
