@@ -244,7 +244,8 @@ TEST(PictureMoves, StandBetweenTheLinesOfTheToleranceInAStripOfTheirOwn) {
 
 /// Of these deviations with a tolerance of 0.1 three are within half of it.
 TEST(PictureMoves, AreAMapInThreeColoursOnRequest) {
-  const StoredContour stored = measured(kAngles, {0.03, -0.095, 0.0, 0.045, -0.07}, 0.1);
+  StoredContour stored = measured(kAngles, {0.03, -0.095, 0.0, 0.045, -0.07}, 0.1);
+  stored.report.emplace().moves = {0.03, 0.095, 0.0, 0.045, 0.07};
   const std::string svg = picture_svg(stored, {}, {.deviations = true});
   EXPECT_TRUE(paths_of(svg, "teeth").empty());
   EXPECT_NE(svg.find("3 points within half their tolerance"), std::string::npos);
