@@ -113,6 +113,9 @@ OBVID_LATER(Result<Drawing> read_cad(const std::string&, const CadRun&))
 OBVID_LATER(Result<void> check_cad())
 OBVID_LATER(Result<std::string> cad_text(const std::vector<CadCurve>&, const CadWriteOptions&,
                                          const CadRun&))
+namespace exchange {
+OBVID_LATER(Result<void> check_gcode_decimals(std::optional<int>))
+}  // namespace exchange
 OBVID_LATER(std::string dxf_unit(const Units&))
 OBVID_LATER(Result<DxfText> dxf_text(const Contour&, const DxfOptions&, Watch*))
 OBVID_LATER(Result<void> can_export_together(FileFormat, const ExportOptions&))

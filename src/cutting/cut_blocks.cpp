@@ -36,8 +36,8 @@ class Along {
 
   /// The way off the path from there, as `at`.
   [[nodiscard]] ArcPiece lead_at(double length, const Leads& leads) const {
-    const auto [k, begin] = piece_at(std::fmod(length, ends_.back()));
-    return leads.at(path_.pieces[k], begin / (ends_[k + 1] - ends_[k]), false);
+    const auto [k, t] = path_.parameter(std::fmod(length, path_.length()));
+    return leads.at(path_.pieces()[k], t, false);
   }
 
   /// The pieces between two lengths, 0 <= from < to; beyond its end a closed path begins again.

@@ -67,7 +67,9 @@ BlockRules milling(double depth, double pass_depth) {
 
 CutBlocks blocks_around(const ArcPath& axis, const BlockRules& rules,
                         CutSide side = CutSide::kOutside) {
-  return blocks_of({track_of(axis, side)}, {Visit{0, axis, {}, {}, false}}, rules);
+  const Edges none;
+  return blocks_of({track_of(axis, side)}, {Visit{0, axis, {}, {}, false}}, rules,
+                   Leads(none, 0.0, 0.5 * rules.tool_diameter, true));
 }
 
 /// A block that cuts, with the height where it begins.
@@ -228,12 +230,9 @@ TEST(Leads, AreQuarterCirclesTangentToTheWay) {
     tracks.all.back().edge = edge;
     tracks.edges.add(edge, 0);
     tracks.edges.finish();
-    VisitRules rules;
-    rules.lead_radius = kLead;
-    rules.tool_radius = kTool;
-    rules.waste_left = waste_left;
     Watch watch{RunContext{}};
-    const std::vector<Visit> visits = ordered(tracks, rules, watch);
+    const Leads leads(tracks.edges, kLead, kTool, waste_left);
+    const std::vector<Visit> visits = ordered(tracks, std::nullopt, leads, watch);
     ASSERT_EQ(visits.size(), 1U);
     const Visit& visit = visits.front();
     ASSERT_TRUE(visit.lead_in && visit.lead_out);
