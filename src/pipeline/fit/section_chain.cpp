@@ -131,8 +131,11 @@ class SectionChooser {
 
  private:
   [[nodiscard]] Error in_whole_series(const Error& error) const {
-    return renumbered(error, [this](std::size_t i) { return index_[i % index_.size()]; });
+    return renumbered(error, [this](std::size_t i) { return told(index_[i % index_.size()]); });
   }
+
+  /// The measured point by which one is told.
+  [[nodiscard]] std::size_t told(std::size_t i) const { return series_.named(i); }
 
   /// The fairest chain with the data that are given or held, inside their ranges: what leaves its
   /// range is held at the end that it passed, until nothing does. Where that leads nowhere, the
@@ -383,18 +386,19 @@ class SectionChooser {
     return std::pair(index_[(k + n - 1) % n], index_[(k + 1) % n]);
   }
 
-  static std::string range(const SeriesChain& chain, const WanderingPart& part) {
-    return fmt::format("{} to {}", *chain.source[part.first] + 1, *chain.source[part.last] + 1);
+  [[nodiscard]] std::string range(const SeriesChain& chain, const WanderingPart& part) const {
+    return fmt::format("{} to {}", told(*chain.source[part.first]) + 1,
+                       told(*chain.source[part.last]) + 1);
   }
 
-  static Error swings_out(const SeriesChain& chain, const WanderingPart& worst) {
+  [[nodiscard]] Error swings_out(const SeriesChain& chain, const WanderingPart& worst) const {
     return error(ErrorCode::kWanders,
                  fmt::format(
                      "the contour would swing out by {:.0f} degrees more than the points ask for",
                      worst.beyond / kOneDegree))
         .where("points " + range(chain, worst))
         .hint("mark corners there, or put points between them")
-        .point(*chain.source[worst.first])
+        .point(told(*chain.source[worst.first]))
         .value(worst.beyond);
   }
 
@@ -409,7 +413,7 @@ class SectionChooser {
   }
 
   /// Where the points leave open what the contour does.
-  static void tell_guessed(SectionChain& best, const Wandering& found) {
+  void tell_guessed(SectionChain& best, const Wandering& found) const {
     for (std::size_t k = 0; k < std::min(found.guessed.size(), kMostGuesses); ++k) {
       best.warnings.push_back(fmt::format(
           "the points leave open what the contour does over the long chord from point {}: it "
@@ -450,6 +454,8 @@ class SectionChooser {
                                      const std::vector<std::size_t>& whole) {
     const auto analysis = analyse(points);
     OBVID_TRY(analysis);
+    std::vector<std::size_t> names;
+    for (const std::size_t i : whole) names.push_back(told(i));
     auto chain = form_elements(points, *analysis, constraints, watch_);
     if (!moves_ && constraints.to_the_edge && !constraints.central) {
       if (auto found = at_the_edge(points, *analysis, constraints, chain)) {
@@ -458,7 +464,7 @@ class SectionChooser {
       }
     }
     if (chain || moves_) {
-      if (chain) tell(warn(*analysis, *chain, whole));
+      if (chain) tell(warn(*analysis, *chain, names));
       return chain;
     }
     // where the points alone have a curve, it is the given data that are in the way: more vertices
@@ -466,7 +472,7 @@ class SectionChooser {
     if (chain.error().code == ErrorCode::kFixedDataContradict) return chain;
     auto mended = with_more_vertices(points, *analysis, constraints, watch_);
     if (!mended || bends_back(*mended)) return chain;
-    tell(warn(*analysis, *mended, whole));
+    tell(warn(*analysis, *mended, names));
     return mended;
   }
 
@@ -772,7 +778,7 @@ class SectionChooser {
     const auto& all = strays->points;
     std::string named;
     for (std::size_t k = 0; k < std::min(all.size(), kMostNamed); ++k) {
-      named += fmt::format("{}{}", k > 0 ? ", " : "", index_[all[k].index] + 1);
+      named += fmt::format("{}{}", k > 0 ? ", " : "", told(index_[all[k].index]) + 1);
     }
     const bool one = all.size() == 1;
     return fmt::format("; {} {}{} off the curve of {} neighbours: --drop-outliers leaves {} out",
@@ -794,7 +800,7 @@ class SectionChooser {
                              m.middle.kappa == 0.0 ? std::string("a line")
                                                    : fmt::format("an arc of radius {:.4g}",
                                                                  std::abs(1.0 / m.middle.kappa)),
-                             index_[m.first % n] + 1, index_[m.last % n] + 1);
+                             told(index_[m.first % n]) + 1, told(index_[m.last % n]) + 1);
     }
     if (missing.empty()) return {};
     const MeantPiece& first = meant.front();
