@@ -19,6 +19,9 @@ constexpr std::size_t kArcGain = 3;
 /// What bends away from a line or arc far from the corner has no say in where the corner lies: of
 /// the points, those in the nearer three quarters count.
 constexpr std::size_t kCounted = 3, kOf = 4;
+/// A corner that was found at a point stays there where the place lies within this part of its
+/// tolerance: the whole lines and arcs beside may meet a little farther off.
+constexpr double kStays = 0.5;
 /// A corner lies no farther beyond a point than so many of the longest chord beside it.
 constexpr double kMostBeyond = 2.0;
 
@@ -175,9 +178,9 @@ class CornersBetween {
   }
 
   [[nodiscard]] bool has_side(std::size_t end, bool forward, std::size_t count) const {
-    if (room(end, forward, count) < count) return false;
-    return shape_at(end, forward, count, false) ||
-           (count >= kFewestOfArc && shape_at(end, forward, count, true));
+    const std::size_t arc = std::max(count, kFewestOfArc), most = room(end, forward, arc);
+    return (most >= count && shape_at(end, forward, count, false)) ||
+           (most >= arc && shape_at(end, forward, arc, true));
   }
 
   [[nodiscard]] std::optional<MetCorner> candidate(std::size_t gap) const {
@@ -223,10 +226,19 @@ class CornersBetween {
     return 0.5 * turn * turn > 2.0 * reach * apart;
   }
 
-  /// A corner that was found at a point stays there where the two meet within its tolerance.
   [[nodiscard]] bool stays(std::size_t point, std::size_t other, Vec2 meet) const {
     if (!corner_[point] || corner_[other]) return false;
-    return norm(s_.points[point] - meet) <= s_.tolerance[point];
+    return norm(s_.points[point] - meet) <= kStays * s_.tolerance[point];
+  }
+
+  /// Corners that were found at the points that a line or arc has beside the gap are none.
+  void take_back(std::size_t from, bool forward) {
+    const std::size_t n = s_.points.size();
+    for (std::size_t k = room(from, forward, kFewestOfLine - 1), i = from; k > 0; --k) {
+      if (corner_[i]) s_.reach[i] = s_.tolerance[i];
+      corner_[i] = false;
+      i = forward ? next(i) : (i + n - 1) % n;
+    }
   }
 
   void put(const std::vector<MetCorner>& chosen) {
@@ -235,10 +247,8 @@ class CornersBetween {
     for (const MetCorner& one : chosen) {
       const std::size_t p = one.gap, q = next(p);
       if (stays(p, q, one.corner) || stays(q, p, one.corner)) continue;
-      for (const std::size_t i : {p, q}) {
-        if (corner_[i]) s_.reach[i] = s_.tolerance[i];
-        corner_[i] = false;
-      }
+      take_back(p, false);
+      take_back(q, true);
       s_.after.push_back(p);
       corners.push_back(one.corner);
     }
