@@ -14,6 +14,11 @@ constexpr std::size_t kFewestOfLine = 4, kFewestOfArc = 6;
 /// Points on each side beyond which nobody asks whether one line or arc has all of them: one that
 /// has so many is no corner.
 constexpr std::size_t kMostAcross = 16;
+/// Where one line or arc has this many points on each side there is no telling that the curve
+/// breaks; more of them ask for so many times as many on a side, and that the points nearest to the
+/// gap turn there by this part of what all of them do: along a curve they turn the less the fewer.
+constexpr std::size_t kAlways = 2, kSideOfAcross = 3;
+constexpr double kTurnNear = 0.7;
 /// An arc takes the place of a line that reaches half as far again, and this many points more.
 constexpr std::size_t kArcGain = 3;
 /// What bends away from a line or arc far from the corner has no say in where the corner lies: of
@@ -28,6 +33,7 @@ constexpr double kMostBeyond = 2.0;
 /// A line or arc along points that end, or begin, beside a gap.
 struct Flank {
   Shape shape;
+  std::optional<Shape> near;  ///< along the nearer half of its points
   std::size_t points = 0;
   bool arc = false;
 };
@@ -135,13 +141,13 @@ class CornersBetween {
 
   /// The most points on each side that one line or arc has.
   [[nodiscard]] std::size_t across(std::size_t gap) const {
-    std::size_t most = 2;  // two on each side may lie on a circle whatever they do
+    std::size_t most = kAlways;  // they may lie on a circle whatever they do
     while (most < kMostAcross && is_one_across(gap, most + 1)) ++most;
     return most;
   }
 
   /// The line or arc with the most points that end, or begin, beside a gap.
-  [[nodiscard]] std::optional<Flank> side(std::size_t end, bool forward) const {
+  [[nodiscard]] std::optional<Flank> flank(std::size_t end, bool forward) const {
     const std::size_t most = room(end, forward, s_.points.size());
     const std::size_t line = longest(end, forward, most, false);
     const std::size_t arc = longest(end, forward, most, true);
@@ -155,6 +161,7 @@ class CornersBetween {
     if (!shape) shape = shape_at(end, forward, out.points, out.arc);
     if (!shape) return std::nullopt;
     out.shape = *shape;
+    out.near = shape_at(end, forward, std::max(fewest, out.points / 2), out.arc);
     return out;
   }
 
@@ -187,12 +194,30 @@ class CornersBetween {
     const std::size_t after = next(gap);
     if (!is_free(gap) || !is_free(after)) return std::nullopt;
     if (is_one_across(gap, kMostAcross)) return std::nullopt;
-    // one curve across has fewer points than the lines and arcs beside: it is none of them
-    const std::size_t fewest = std::max(kFewestOfLine, 2 * across(gap));
+    const std::size_t both = across(gap);
+    const std::size_t fewest = both == kAlways ? kFewestOfLine : kSideOfAcross * both;
     if (!has_side(gap, false, fewest) || !has_side(after, true, fewest)) return std::nullopt;
-    const auto a = side(gap, false), b = side(after, true);
+    const auto a = flank(gap, false), b = flank(after, true);
     if (!a || !b || std::min(a->points, b->points) < fewest) return std::nullopt;
+    if (both > kAlways && !turns_near(*a, *b, 0.5 * (s_.points[gap] + s_.points[after]))) {
+      return std::nullopt;
+    }
     return meets(gap, *a, *b);
+  }
+
+  /// How far the contour turns where both meet near a place, rad; nothing where they do not.
+  static std::optional<double> turn_at(const Shape& a, const Shape& b, Vec2 near) {
+    const auto corner = meeting(a, b, near);
+    if (!corner) return std::nullopt;
+    return std::abs(
+        turn_between(a.theta + a.kappa * a.foot(*corner), b.theta + b.kappa * b.foot(*corner)));
+  }
+
+  static bool turns_near(const Flank& a, const Flank& b, Vec2 gap) {
+    const auto whole = turn_at(a.shape, b.shape, gap);
+    if (!whole || !a.near || !b.near) return false;
+    const auto near = turn_at(*a.near, *b.near, gap);
+    return near && *near >= kTurnNear * *whole;
   }
 
   [[nodiscard]] std::optional<MetCorner> meets(std::size_t gap, const Flank& a,
