@@ -474,7 +474,10 @@ bool ContourReader::rows_fit(std::size_t rows) const {
   }
   // points between joints have a row each where the contour passes them in order
   const bool between = info_of(contour.carrier).between_joints;
-  return between ? rows >= parts && rows <= chords : rows == parts;
+  const auto cuts = static_cast<std::size_t>(  // chords that are two rows
+      std::count_if(contour.joints.begin(), contour.joints.end(),
+                    [](const Joint& joint) { return !joint.source && joint.after; }));
+  return between ? rows >= parts && rows <= chords + cuts : rows == parts;
 }
 
 std::vector<double> ContourReader::moves(const Node& node) {

@@ -574,7 +574,7 @@ class TextCheck {
     } else if (label == "vertices" || label == "inflections" || label == "corners") {
       figure_is("verify " + label, s.figures.empty() ? "" : s.figures[0],
                 figure(certificate_, label.c_str()).value);
-    } else if (label == "corners") {
+    } else if (label == "corners between") {
       corners_between(s);
     } else if (label == "self-intersections") {
       tells_crossings_ = true;

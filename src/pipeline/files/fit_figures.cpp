@@ -160,7 +160,7 @@ std::string corners_between_text(const Contour& contour) {
                           (*joint.after + 1) % contour.points.size() + 1);
   }
   if (count == 0) return places;
-  return fmt::format("{} where lines and arcs meet between points {}{}",
+  return fmt::format("{} where lines and arcs meet, points {}{}",
                      counted(count, "corner", "corners"), places, and_more(count, kMostNamed));
 }
 
@@ -202,7 +202,7 @@ FigureRows fit_figures(const Contour& contour, const FitReport& report,
     facts.emplace_back("taken over", kept);
   }
   if (std::string between = corners_between_text(contour); !between.empty()) {
-    facts.emplace_back("corners", std::move(between));
+    facts.emplace_back("corners between", std::move(between));
   }
   facts.emplace_back("fairness", fairness_text(report));
   if (const int crossings = certificate.self_intersections; crossings > 0) {

@@ -26,7 +26,7 @@ constexpr std::size_t kArcGain = 3;
 constexpr std::size_t kCounted = 3, kOf = 4;
 /// A corner that was found at a point stays there where the place lies within this part of its
 /// tolerance: the whole lines and arcs beside may meet a little farther off.
-constexpr double kStays = 0.5;
+constexpr double kStays = 0.75;
 /// A corner lies no farther beyond a point than so many of the longest chord beside it.
 constexpr double kMostBeyond = 2.0;
 

@@ -760,7 +760,8 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
   }
   if (!formed) {
     Error error = formed.error();
-    if (auto hint = no_order_hint(prepared.points)) {
+    const auto measured = static_cast<std::ptrdiff_t>(prepared.measured());
+    if (auto hint = no_order_hint({prepared.points.begin(), prepared.points.begin() + measured})) {
       error.hint = std::move(*hint);
     } else if (!prepared.polygon.empty()) {
       error.hint += (error.hint.empty() ? "" : "; ") + prepared.polygon;
@@ -822,9 +823,6 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   auto prepared = prepare(series, job);
   OBVID_TRY(prepared);
   if (watch.cancelled()) return fail(cancelled_error());
-  if (looks_between(job) && reach.part > 0.0) {
-    add_corners_between(*prepared, job.corner_angle.value_or(kDefaultCornerAngle));
-  }
   if (reach.part == 0.0) {
     prepared->reach.assign(prepared->points.size(), 0.0);
     prepared->tolerance.clear();
@@ -832,6 +830,9 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   const double least = least_tolerance(prepared->points);
   const auto asked = tolerance_of(job, prepared->points, least);
   OBVID_TRY(asked);
+  if (looks_between(job) && reach.part > 0.0) {
+    add_corners_between(*prepared, job.corner_angle.value_or(kDefaultCornerAngle));
+  }
   const double tolerance =
       info_of(job.carrier).between_joints ? share_tolerance(*prepared, *asked, least) : *asked;
   for (double& one : prepared->reach) one *= reach.part;
