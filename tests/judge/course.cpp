@@ -110,7 +110,7 @@ std::vector<Station> stations_of(const ContourFile& contour, const Path& path, P
     Real order = before;
     if (known[i]) {
       order = *known[i];
-    } else if (k == 0) {
+    } else if (k == 0 && !begins_at_corner) {
       order = 0.0L;
     } else if (k + 1 == n && !contour.closed) {
       order = path.end();
