@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "exact_cross.h"
@@ -14,6 +15,7 @@ namespace obvid {
 namespace {
 
 using namespace curve_detail;
+using numeric::DoubleDouble;
 
 /// Ends that are right to this part of their curvature stay as they are.
 constexpr double kRight = 1e-10;
@@ -60,6 +62,60 @@ double curvature_of(const End& e) {
 double wanted_cross(const End& e, double kappa) {
   const double length = norm(rounded(leg(e.p0, e.p1)));
   return kappa / e.factor * length * length * length;
+}
+
+/// Whether a curvature comes out of a jet with all digits but the last four: both derivatives carry
+/// roundings of the control points, the second one with the squared degree.
+bool keeps_digits(const RationalBezier& piece, const Jet& jet) {
+  constexpr double kLost = 1e-12;  // of the area
+  constexpr double kRoundingsOfDifferences = 8.0 * 0x1p-53;
+  double size = 0.0;
+  for (int j = 1; j <= piece.degree; ++j) {
+    size = std::max(size, norm(piece.offset[static_cast<std::size_t>(j)] - piece.offset[0]));
+  }
+  const double n = piece.degree;
+  const double blur =
+      kRoundingsOfDifferences * n * size * ((n - 1.0) * norm(jet.d1) + norm(jet.d2));
+  return blur <= kLost * std::abs(cross(jet.d1, jet.d2));
+}
+
+/// A weighted point, from the start of its piece.
+struct WeightedPoint {
+  DoubleDouble x, y, w;
+};
+
+WeightedPoint between(const WeightedPoint& a, const WeightedPoint& b, DoubleDouble s,
+                      DoubleDouble t) {
+  return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.w + t * b.w};
+}
+
+/// From one weighted point to another, times both weights.
+Leg weighted_leg(const WeightedPoint& from, const WeightedPoint& to) {
+  return {from.w * to.x - to.w * from.x, from.w * to.y - to.w * from.y};
+}
+
+/// Curvature at t < 1: that of the first end of the part behind t, whose control points the
+/// algorithm of de Casteljau leaves, in some 106 bits. Nothing where that end has no tangent.
+std::optional<double> inner_curvature(const RationalBezier& piece, double t) {
+  std::array<WeightedPoint, kMaxBezierDegree + 1> net{};
+  const auto degree = static_cast<std::size_t>(piece.degree);
+  for (std::size_t j = 0; j <= degree; ++j) {
+    const Leg from_start = leg(piece.offset[0], piece.offset[j]);
+    const DoubleDouble w{piece.weight[j], 0.0};
+    net[j] = {w * from_start.x, w * from_start.y, w};
+  }
+  const DoubleDouble s = numeric::two_sum(1.0, -t), then{t, 0.0};
+  for (std::size_t left = degree; left > 0; --left) {
+    // the last of each row stays: it belongs to the part behind t
+    for (std::size_t j = 0; j < left; ++j) net[j] = between(net[j], net[j + 1], s, then);
+  }
+  const Leg first = weighted_leg(net[0], net[1]);
+  const double length = norm(rounded(first)), weight = net[0].w.hi;
+  if (!(length > 0.0)) return std::nullopt;
+  const double n = piece.degree;
+  const double area =
+      cross(first, weighted_leg(net[0], net[2])).hi / length * weight / length * weight;
+  return (n - 1.0) / n * area / length;
 }
 
 double spacing(double x, double size) {
@@ -330,11 +386,13 @@ double accurate_curvature(const Piece& piece, double t) {
 
 double accurate_curvature(const Piece& piece, double t, const Jet& jet) {
   const auto* bezier = std::get_if<RationalBezier>(&piece);
+  if (bezier == nullptr || bezier->degree < 2) return curvature(jet);
   const bool at_end = t == 0.0 || t == 1.0;
-  if (bezier != nullptr && bezier->degree > 1 && at_end && !is_singular_end(piece, t)) {
-    return stored_curvature(*bezier, t == 0.0);
+  if (at_end) {
+    return is_singular_end(piece, t) ? curvature(jet) : stored_curvature(*bezier, t == 0.0);
   }
-  return curvature(jet);
+  if (keeps_digits(*bezier, jet)) return curvature(jet);
+  return inner_curvature(*bezier, t).value_or(curvature(jet));
 }
 
 void keep_end_curvatures(RationalBezier& piece, WantedCurvatures wanted, InnerWeights weights) {

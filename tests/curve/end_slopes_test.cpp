@@ -49,6 +49,33 @@ TEST(EndCurvatures, OfANearlyStraightPieceKeepTheDigitsThatItsJetLoses) {
   EXPECT_GT(std::abs(of_jet / kEnd - 1.0), 1e-6) << "no test of what it is for";
 }
 
+TEST(EndCurvatures, InsideOfANearlyStraightPieceKeepTheirDigitsToo) {
+  RationalBezier piece;
+  piece.degree = 5;
+  const std::array<Vec2, 6> points = {{{-3033983.384364171, 1292654.4990971878},
+                                       {-3034020.60075603, 1292675.724350767},
+                                       {-3034057.817070317, 1292696.9497403603},
+                                       {-3034095.033307026, 1292718.1752659644},
+                                       {-3034132.249466168, 1292739.400927585},
+                                       {-3034169.4655477367, 1292760.6267252187}}};
+  std::copy(points.begin(), points.end(), piece.offset.begin());
+  piece.weight.fill(1.0);
+  constexpr double kEarly = 0.18685419099226333;
+  // in 50 digits, from the derivatives of the polynomials
+  constexpr double kFirst = -6.8242460944823275666e-8, kThen = -6.8242370613092422375e-8;
+  EXPECT_NEAR(accurate_curvature(piece, kEarly) / kFirst, 1.0, 1e-15);
+  EXPECT_NEAR(accurate_curvature(piece, 0.7) / kThen, 1.0, 1e-15);
+  const double of_jet = curvature(evaluate(Piece{piece}, kEarly));
+  EXPECT_GT(std::abs(of_jet / kFirst - 1.0), 1e-10) << "no test of what it is for";
+  // the quarter of a circle: weights count
+  RationalBezier quarter{{}, 2, {Vec2{2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}}, {1.0, 1.0, 2.0}};
+  for (const double t : {0.1, 0.5, 0.9}) {
+    Jet flat = evaluate(Piece{quarter}, t);
+    flat.d2 = {};  // a jet that knows nothing
+    EXPECT_NEAR(accurate_curvature(quarter, t, flat), 0.5, 1e-16);
+  }
+}
+
 TEST(EndSlopes, AreTheDerivativeOfTheCurvature) {
   for (const double turn : {0.9, 0.1, 1e-3}) {
     const RationalBezier piece = flat_quartic(turn, 0.2);

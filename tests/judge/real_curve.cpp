@@ -130,6 +130,7 @@ Homogeneous sum_of(const std::vector<Homogeneous>& c, Real t) {
   return {scale * out.p, scale * out.w};
 }
 
+/// Its point as seen from the base of the form.
 Jet at_rational(const RationalForm& r, Real t) {
   const Homogeneous a = sum_of(r.point, t), a1 = sum_of(r.first, t), a2 = sum_of(r.second, t);
   Jet out;
@@ -141,8 +142,9 @@ Jet at_rational(const RationalForm& r, Real t) {
 
 }  // namespace
 
-Span::Span(std::vector<Vec> points, std::vector<Real> weights) {
+Span::Span(std::vector<Vec> points, std::vector<Real> weights, Vec base) {
   RationalForm out;
+  out.base = base;
   const std::size_t n = points.size() - 1;
   for (std::size_t j = 0; j <= n; ++j) {
     const Real w = binomial(n, j) * weights[j];
@@ -163,10 +165,10 @@ Span::Span(const Piece& piece, Point origin) {
   if (const auto* bezier = std::get_if<Bezier>(&piece)) {
     std::vector<Vec> points;
     std::vector<Real> weights(bezier->weight.begin(), bezier->weight.end());
-    for (const Point p : bezier->offset) {
-      points.push_back(seen(bezier->origin, origin) + Vec{p.x, p.y});
-    }
-    *this = Span(std::move(points), std::move(weights));
+    const Point start = bezier->offset.front();
+    for (const Point p : bezier->offset) points.push_back(seen(p, start));
+    *this = Span(std::move(points), std::move(weights),
+                 seen(bezier->origin, origin) + Vec{start.x, start.y});
     return;
   }
   SpiralForm out;
@@ -186,22 +188,27 @@ Span::Span(const Piece& piece, Point origin) {
 
 Jet Span::at(Real t) const {
   if (const auto* spiral = std::get_if<SpiralForm>(&form_)) return at_spiral(*spiral, t);
-  return at_rational(std::get<RationalForm>(form_), t);
+  const auto& rational = std::get<RationalForm>(form_);
+  Jet out = at_rational(rational, t);
+  out.p = rational.base + out.p;
+  return out;
 }
 
 Vec Span::point(Real t) const {
   if (const auto* spiral = std::get_if<SpiralForm>(&form_)) return at_spiral(*spiral, t, true).p;
-  const Homogeneous a = sum_of(std::get<RationalForm>(form_).point, t);
-  return (1.0L / a.w) * a.p;
+  const auto& rational = std::get<RationalForm>(form_);
+  const Homogeneous a = sum_of(rational.point, t);
+  return rational.base + (1.0L / a.w) * a.p;
 }
 
 Vec Span::third(Real t) const {
-  const Jet jet = at(t);
   if (const auto* s = std::get_if<SpiralForm>(&form_)) {
+    const Jet jet = at(t);
     const Real kappa = s->kappa0 + t * (s->kappa1 - s->kappa0), turn = kappa * s->length;
     return (s->length * (s->kappa1 - s->kappa0)) * left_of(jet.d) - (turn * turn) * jet.d;
   }
   const auto& r = std::get<RationalForm>(form_);
+  const Jet jet = at_rational(r, t);
   const Homogeneous a = sum_of(r.point, t), a1 = sum_of(r.first, t), a2 = sum_of(r.second, t),
                     a3 = sum_of(derivative_of(r.second), t);
   return (1.0L / a.w) * (a3.p - (3.0L * a1.w) * jet.dd - (3.0L * a2.w) * jet.d - a3.w * jet.p);

@@ -57,6 +57,7 @@ struct Homogeneous {
   Real w = 0.0L;
 };
 struct RationalForm {
+  Vec base;  ///< from where its points are seen: they keep the digits of a short span far away
   std::vector<Homogeneous> point;  ///< numerator and weight
   std::vector<Homogeneous> first;  ///< of their first derivatives, one degree lower
   std::vector<Homogeneous> second;
@@ -66,8 +67,8 @@ struct RationalForm {
 class Span {
  public:
   Span(const Piece& piece, Point origin);
-  /// A rational Bezier span, control points as seen.
-  Span(std::vector<Vec> points, std::vector<Real> weights);
+  /// A rational Bezier span, control points as seen from `base`.
+  Span(std::vector<Vec> points, std::vector<Real> weights, Vec base = {});
   /// A circle arc (or a line for kappa = 0).
   Span(Vec start, Real theta0, Real kappa, Real length);
 

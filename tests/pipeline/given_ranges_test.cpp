@@ -181,6 +181,27 @@ TEST(GivenRanges, ACornerMayLieAtBothEndsOfItsRange) {
             (std::vector<ActiveRange>{{0, true, false}}));
 }
 
+TEST(GivenRanges, AJointThatIsTheNearestPlaceHasTwoSides) {
+  // the second point is beside a joint of no point, which turns by a thousandth
+  const double turn = 1e-3;
+  Contour bent;
+  bent.points = {{-1.0, 0.0}, {0.0, -1e-6}, {std::cos(turn), std::sin(turn)}};
+  const Vec2 joint{0.0, 0.0};
+  bent.pieces = {LinePiece{bent.points[0], joint}, LinePiece{joint, bent.points[2]}};
+  bent.joints = {Joint{{bent.points[0], 0.0, 0.0}, 0}, Joint{{joint, 0.0, 0.0}, std::nullopt},
+                 Joint{{bent.points[2], turn, 0.0}, 2}};
+  GivenDatum given;
+  given.point = 1;
+  for (const double theta : {0.0, turn}) {
+    given.theta = theta;
+    bent.given = {given};
+    EXPECT_NEAR(pipeline_detail::measure_given(bent).heading_miss, turn, 1e-11);
+  }
+  given.theta = 0.25 * turn;
+  bent.given = {given};
+  EXPECT_NEAR(pipeline_detail::measure_given(bent).heading_miss, 0.75 * turn, 1e-11);
+}
+
 TEST(GivenRanges, OnlyTheEndItselfSaysHowNearIsAtTheEnd) {
   // radius 1,000 in the range of curvatures 0.000999 to 100: a thousandth of its least end away
   Contour arc;

@@ -20,6 +20,9 @@ namespace {
 constexpr double kKeptHeading = 1e-6;    // rad
 constexpr double kSameCurvature = 1e-6;  // of the given one
 
+/// Places are one when nothing but this share of their coordinates is between them.
+constexpr double kSamePlace = 64.0 * 0x1p-53;
+
 struct Miss {
   double heading = 0.0;
   double curvature = 0.0;
@@ -131,7 +134,7 @@ class GivenCheck {
  private:
   [[nodiscard]] std::vector<Side> sides_of(std::size_t point) const {
     const std::size_t n = contour_.pieces.size(), joint = joint_[point];
-    if (joint == contour_.joints.size()) return {nearest(contour_.points[point])};
+    if (joint == contour_.joints.size()) return sides_nearest(contour_.points[point]);
     std::vector<Side> out;
     if (joint > 0 || contour_.closed) {
       out.push_back({&contour_.pieces[joint > 0 ? joint - 1 : n - 1], 1.0});
@@ -162,16 +165,32 @@ class GivenCheck {
     });
   }
 
-  /// At the place of the contour nearest to a point that is no joint.
-  [[nodiscard]] Side nearest(Vec2 p) const {
-    Side out{&contour_.pieces.front(), 0.0};
-    double least = HUGE_VAL;
-    for (const Piece& piece : contour_.pieces) {
-      const double t = nearest_parameter(piece, p);
-      const double away = norm(evaluate(piece, t).point - p);
+  /// At the place of the contour nearest to a point that is on no joint; where a joint of other
+  /// points, or of none, is that place but for rounding, on both sides of it.
+  [[nodiscard]] std::vector<Side> sides_nearest(Vec2 p) const {
+    const std::size_t n = contour_.pieces.size();
+    std::size_t found = 0;
+    double at = 0.0, least = HUGE_VAL;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = nearest_parameter(contour_.pieces[i], p);
+      const double away = norm(evaluate(contour_.pieces[i], t).point - p);
       if (away >= least) continue;
       least = away;
-      out = {&piece, t};
+      found = i;
+      at = t;
+    }
+    const Vec2 place = evaluate(contour_.pieces[found], at).point;
+    const double rounding = kSamePlace * (std::abs(place.x) + std::abs(place.y));
+    const auto is_at = [&](double end) {
+      return norm(evaluate(contour_.pieces[found], end).point - place) <= rounding;
+    };
+    std::vector<Side> out;
+    if (is_at(0.0) && (found > 0 || contour_.closed)) {
+      out.push_back({&contour_.pieces[(found + n - 1) % n], 1.0});
+    }
+    out.push_back({&contour_.pieces[found], at});
+    if (is_at(1.0) && (found + 1 < n || contour_.closed)) {
+      out.push_back({&contour_.pieces[(found + 1) % n], 0.0});
     }
     return out;
   }

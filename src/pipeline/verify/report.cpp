@@ -252,15 +252,17 @@ class PartMeasure {
     return {evaluate(local(s.first), s.t0), evaluate(local(s.last), s.t1)};
   }
 
-  /// Both ends as the pieces have them; arcs leave a joint's curvature to its element.
+  /// Both ends as the pieces have them, directions and curvatures with their own digits (a short
+  /// piece that is seen from far has lost some); arcs leave a joint's curvature to its element.
   [[nodiscard]] ChordFrame frame_of(const Stretch& s, const Ends& e) const {
     const bool arcs = steps_at_joints(contour_.carrier);
-    const std::vector<Piece>& pieces = contour_.pieces;
-    const double start = arcs ? start_element(contour_, s.first).kappa
-                              : accurate_curvature(pieces[s.first], s.t0, e.start);
-    const double end = arcs ? end_element(contour_, s.last).kappa
-                            : accurate_curvature(pieces[s.last], s.t1, e.end);
-    return chord_frame(e.start.point, e.start.d1, start, e.end.point, e.end.d1, end);
+    const Piece &first = contour_.pieces[s.first], &last = contour_.pieces[s.last];
+    const Jet from = evaluate(first, s.t0), to = evaluate(last, s.t1);
+    const double start =
+        arcs ? start_element(contour_, s.first).kappa : accurate_curvature(first, s.t0, from);
+    const double end =
+        arcs ? end_element(contour_, s.last).kappa : accurate_curvature(last, s.t1, to);
+    return chord_frame(e.start.point, from.d1, start, e.end.point, to.d1, end);
   }
 
   const Contour& contour_;

@@ -19,9 +19,9 @@ enum class InnerWeights { kFixed, kFree };
 /// control points are computed without rounding.
 [[nodiscard]] double stored_curvature(const RationalBezier& piece, bool at_start);
 
-/// Signed curvature of a piece at t in [0, 1], per unit of length: at an end of a Bezier piece with
-/// all digits that its numbers have (`stored_curvature`), else that of its jet, which in nearly
-/// straight pieces has lost those that cancel.
+/// Signed curvature of a piece at t in [0, 1], per unit of length, with the digits that its numbers
+/// have but for the last four: where more of them may cancel in the jet of a Bezier piece (nearly
+/// straight ones, their ends), from control points of the part behind t in twice the precision.
 [[nodiscard]] double accurate_curvature(const Piece& piece, double t);
 /// The same where the jet is at hand.
 [[nodiscard]] double accurate_curvature(const Piece& piece, double t, const Jet& jet);
