@@ -686,18 +686,18 @@ class SectionChooser {
            between <= faired.primitives - (loop_ ? 0 : 1);
   }
 
-  /// Where the points mean lines and arcs alone and `chain` has fewer of them, the one that keeps
-  /// these takes its place. What they mean, if that is more than was found.
+  /// Where the points mean lines and arcs alone and another chain has more of their points on them,
+  /// that one takes the place of `chain`. What they mean.
   std::vector<MeantPiece> keep_meant(MeasuredSeries measured, const std::vector<std::size_t>& whole,
                                      std::optional<SeriesChain>& chain, FairedSeries& faired) {
     if (goes_on_ || series_.part < 1.0) return {};
-    const auto had = static_cast<std::size_t>(chain ? faired.primitives : 0);
     measured.loose.clear();
     measured.meant = aligned_lines(measured, middle_deviation(series_.points), watch_);
-    if (measured.meant.size() <= had) return {};
+    const std::size_t had = chain ? points_kept(faired, measured.meant) : 0;
+    if (measured.meant.empty()) return {};
     FairedSeries more;
     auto other = runs_of_least_bends(measured, whole, more);
-    if (other && static_cast<std::size_t>(more.primitives) > had) {
+    if (other && points_kept(more, measured.meant) > had) {
       chain = std::move(other);
       faired = std::move(more);
     }
@@ -752,9 +752,7 @@ class SectionChooser {
   }
 
   void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {
-    const std::string missing = meant.size() > static_cast<std::size_t>(faired.primitives)
-                                    ? missing_text(faired, meant)
-                                    : std::string{};
+    const std::string missing = missing_text(faired, meant);
     if (!missing.empty()) {
       out_.warnings.push_back(missing + strays_text());
     } else if (meant.empty() && faired.given_up > 0) {
@@ -795,7 +793,7 @@ class SectionChooser {
     std::string missing;
     const std::size_t n = points_.size();
     for (const MeantPiece& m : meant) {
-      if (is_on_primitive(faired, (m.first + (m.last - m.first) / 2) % n)) continue;
+      if (2 * points_kept(faired, {m}) > m.last - m.first) continue;
       missing += fmt::format("{}{} (points {}-{})", missing.empty() ? "" : ", ",
                              m.middle.kappa == 0.0 ? std::string("a line")
                                                    : fmt::format("an arc of radius {:.4g}",
@@ -812,6 +810,18 @@ class SectionChooser {
                           : "none that has all points within their tolerances was found")
             : "no transitions beside them were found that stay within the tolerance; `obvid "
               "alignment` has them, with steps of the curvature");
+  }
+
+  /// Points of lines and arcs that are meant which lie on one of the contour.
+  [[nodiscard]] std::size_t points_kept(const FairedSeries& faired,
+                                        const std::vector<MeantPiece>& meant) const {
+    std::size_t count = 0;
+    for (const MeantPiece& m : meant) {
+      for (std::size_t i = m.first; i <= m.last; ++i) {
+        count += is_on_primitive(faired, i % points_.size()) ? 1 : 0;
+      }
+    }
+    return count;
   }
 
   /// Whether point i lies between the first and last point of a line or arc of the contour.
