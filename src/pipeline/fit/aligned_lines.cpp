@@ -58,7 +58,7 @@ class AlignedLines {
     for (const double reach : all) least = reach > 0.0 ? std::min(least, reach) : least;
     if (!(least > 0.0)) return {};
     for (double& reach : all) {
-      if (!(reach > 0.0)) reach = least;  // corners, which stay where they are
+      if (!(reach > 0.0)) reach = least;  // points that stay where they are
       narrow.push_back(std::min(reach, std::max(bound, kLeastShare * reach)));
     }
     const double most = kMostScatter * std::max(*scatter, kLeastScatter * least);
@@ -79,10 +79,17 @@ class AlignedLines {
     AlignmentOptions options;
     options.closed = s_.closed;
     options.without_transitions = true;
-    std::vector<Vec2> points = points_;
-    std::vector<double> allowed = tolerance;
+    std::vector<Vec2> points;
+    std::vector<double> allowed;
     place_.clear();
-    for (std::size_t i = 0; i < points.size(); ++i) place_.push_back(i);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      // corners at the ends have no say: what lies between them meets there afterwards
+      const bool end = !s_.closed && (i == 0 || i + 1 == points_.size());
+      if (end && !(s_.reach[i * step_] > 0.0) && points_.size() > kFewestOnPiece + 2) continue;
+      points.push_back(points_[i]);
+      allowed.push_back(tolerance[i]);
+      place_.push_back(i);
+    }
     auto found = fit_alignment(points, allowed, options, run);
     for (std::size_t k = 0; k < kMostLeftOut && !found; ++k) {
       const std::ptrdiff_t bad = found.error().index;
