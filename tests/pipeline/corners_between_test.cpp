@@ -188,7 +188,7 @@ PointSeries rounded_polygon(int sides, double size) {
 }
 
 TEST(TangentRows, SidesAndRoundingsOfPolygonsAreLinesAndArcs) {
-  for (const int sides : {4, 6}) {
+  for (const int sides : {3, 5, 6}) {
     const PointSeries series = rounded_polygon(sides, 0.02);
     FitJob job = scan_job(1.0);
     job.noise = 0.03;
