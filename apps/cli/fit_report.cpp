@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "obvid/core/internal/data_table.h"
@@ -21,24 +20,9 @@
 namespace obvid {
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
-/// Joint that stands on each input point.
-std::vector<std::size_t> joints_of_points(const Contour& contour) {
-  std::vector<std::size_t> joint(contour.points.size(), kNone);
-  for (std::size_t j = 0; j < contour.joints.size(); ++j) {
-    const auto source = contour.joints[j].source;
-    if (source && *source < joint.size() && joint[*source] == kNone) joint[*source] = j;
-  }
-  return joint;
-}
-
-/// Pieces from one joint to another; around the seam of a closed contour the last joint is the
-/// first.
-std::string pieces_text(const Contour& contour, std::size_t from, std::size_t to) {
-  if (from == kNone || to == kNone) return "-";
-  const std::size_t end = to > from ? to : to + (contour.closed ? contour.pieces.size() : 0);
-  return end > from ? std::to_string(end - from) : "-";
+/// Pieces of a part whose ends are joints.
+std::string pieces_text(const EndCurvatures& row) {
+  return row.pieces > 0 ? std::to_string(row.pieces) : "-";
 }
 
 /// How far a line may be off what is called straight: a hundredth of what the points may be off,
@@ -54,7 +38,6 @@ double straight_within(const Contour& contour) {
 
 Table fit_segments(const Fit& fit) {
   const Contour& contour = fit.contour;
-  const std::vector<std::size_t> joint = joints_of_points(contour);
   Table table;
   table.column("points");
   table.column("chord");
@@ -73,10 +56,9 @@ Table fit_segments(const Fit& fit) {
     if (i > before) table.gap();
     before = i + 1;
     const SegmentReport& segment = fit.report.segments[i];
-    const std::size_t from = joint[segment.from.value_or(0)], to = joint[segment.to.value_or(0)];
     table.row({points_of_segment(segment), significant(segment.chord),
                significant(segment.points_only_error, 4), significant(segment.width, 4),
-               std::to_string(segment.inserted), pieces_text(contour, from, to),
+               std::to_string(segment.inserted), pieces_text(curvatures[i]),
                radius_over(curvatures[i].start, segment.chord, within),
                radius_over(curvatures[i].end, segment.chord, within)});
   }
@@ -144,12 +126,10 @@ void add_gaps(Facts& facts, const Certificate& certificate, Carrier carrier) {
 std::string fit_report_csv(const Fit& fit) {
   DataTable out{heads_of(
       "from,to,chord,points_only_error,width,deviation,inserted,pieces,kappa_start,kappa_end")};
-  const std::vector<std::size_t> joint = joints_of_points(fit.contour);
   const std::vector<EndCurvatures> curvatures = end_curvatures(fit.contour);
   for (std::size_t i = 0; i < fit.report.segments.size(); ++i) {
     const SegmentReport& s = fit.report.segments[i];
-    const std::string pieces =
-        pieces_text(fit.contour, joint[s.from.value_or(0)], joint[s.to.value_or(0)]);
+    const std::string pieces = pieces_text(curvatures[i]);
     out.rows.push_back({s.from.value_or(0) + 1, s.to.value_or(0) + 1, finite_cell(s.chord),
                         finite_cell(s.points_only_error), finite_cell(s.width),
                         finite_cell(s.deviation), s.inserted,

@@ -408,11 +408,30 @@ std::string missed_point(const Contour& contour) {
   }
   const bool exact = contour.point_tolerance.empty();
   std::size_t met = 0, first = 0, due = 0;  // due: counted from the first source on
+  bool begins_between = false;              // with a corner between the last point and that one
   for (std::size_t j = 0; j < contour.joints.size(); ++j) {
     const Joint& joint = contour.joints[j];
+    if (!joint.source && joint.after) {  // points behind it are due
+      if (*joint.after >= n) return fmt::format("joint {} claims a point that is not there", j + 1);
+      if (!joint.leaving) {
+        return fmt::format("joint {} claims a corner between points, and is none", j + 1);
+      }
+      if (j == 0) {
+        first = (*joint.after + 1) % n;
+        begins_between = true;
+        continue;
+      }
+      const std::size_t place = (*joint.after + n - first) % n;
+      if (place + 1 < due || (exact && place + 1 != due)) {
+        return fmt::format("joint {} claims a corner behind point {} where point {} is due", j + 1,
+                           *joint.after + 1, (due + first) % n + 1);
+      }
+      due = place + 1;
+      continue;
+    }
     if (!joint.source) continue;
     if (*joint.source >= n) return fmt::format("joint {} claims a point that is not there", j + 1);
-    if (met == 0 && contour.closed) first = *joint.source;
+    if (met == 0 && due == 0 && contour.closed && !begins_between) first = *joint.source;
     const std::size_t place = (*joint.source + n - first) % n;
     if (exact ? place != due : place < due) {
       return fmt::format("joint {} claims point {} where point {} is due", j + 1, *joint.source + 1,

@@ -38,26 +38,36 @@ class Distances {
     own_.assign(n, contour_.joints.size());
     std::vector<std::size_t> standing;  // joints on points
     for (std::size_t j = 0; j < std::min(contour_.joints.size(), pieces + 1); ++j) {
-      const auto source = contour_.joints[j].source;
+      const auto source = contour_.joints[j].source, after = contour_.joints[j].after;
+      if (!source && after && *after < n) standing.push_back(j);
       if (!source || *source >= n || range_[*source].known) continue;
       own_[*source] = j;
       range_[*source] = {j > 0 ? j - 1 : 0, std::min(j, pieces - 1), true};
       standing.push_back(j);
     }
     for (std::size_t k = 0; k + 1 < standing.size(); ++k) {
-      fill_after(standing[k], {standing[k], standing[k + 1] - 1, true});
+      fill_after(standing[k], standing[k + 1], {standing[k], standing[k + 1] - 1, true});
     }
     if (contour_.closed && !standing.empty()) {
-      fill_after(standing.back(), {standing.back(), pieces - 1, true});
+      fill_after(standing.back(), standing.front(), {standing.back(), pieces - 1, true});
     }
   }
 
+  /// The point that a joint is, or that lies behind a corner between two.
+  [[nodiscard]] std::size_t first_behind(std::size_t joint, bool itself) const {
+    const Joint& one = contour_.joints[joint];
+    return one.source ? *one.source + (itself ? 0 : 1) : *one.after + 1;
+  }
+
   /// Gives the points after a joint's own one the pieces after that joint, up to the next joint's.
-  void fill_after(std::size_t joint, Range range) {
+  void fill_after(std::size_t joint, std::size_t next, Range range) {
     const std::size_t n = contour_.points.size();
     range.first = std::min(range.first, range.last);
-    for (std::size_t i = *contour_.joints[joint].source + 1; i < n || contour_.closed; ++i) {
-      if (range_[i % n].known) return;
+    const std::size_t first = first_behind(joint, false), end = first_behind(next, true) % n;
+    const bool to_corner = !contour_.joints[next].source;
+    for (std::size_t i = first; i < n || contour_.closed; ++i) {
+      if (range_[i % n].known || (to_corner && i % n == end && (i > first || joint != next)))
+        return;
       range_[i % n] = range;
     }
   }

@@ -39,6 +39,7 @@ class ContourReader : private JsonValues {
   Joint joint(const Node& node);
   void kept(const Node& node);
   void corner(const Node& node, Joint& joint);
+  void between(const Node& node, Joint& joint);
   void check_ends(const Node& elements);
   void check_range();
   Piece piece(const Node& node);
@@ -158,7 +159,25 @@ Joint ContourReader::joint(const Node& node) {
   }
   corner(node, joint);
   joint.slope_step = optional_flag(node, "slope_step", false);
+  between(node, joint);
   return joint;
+}
+
+/// The points on both sides of a corner that stands on none.
+void ContourReader::between(const Node& node, Joint& joint) {
+  const auto both = optional_field(node, "between");
+  if (!both) return;
+  const std::size_t count = stored_.contour.points.size();
+  std::vector<std::size_t> points;
+  each(*both, [&](const Node& one) { points.push_back(index(one, count, "points")); });
+  if (failed()) return;
+  if (joint.source || !joint.leaving) {
+    refuse(*both, "the field stands at corners that stand on no point only");
+  } else if (points.size() != 2 || points[1] != (points[0] + 1) % count) {
+    refuse(*both, "a corner lies between two neighbouring points");
+  } else {
+    joint.after = points[0];
+  }
 }
 
 /// Heading and curvature behind a corner stand there and nowhere else: where the mark is taken
@@ -451,11 +470,14 @@ bool ContourReader::rows_fit(std::size_t rows) const {
   if (contour.point_tolerance.empty()) return false;
   std::size_t parts = 1;
   for (std::size_t i = 1; i < contour.pieces.size(); ++i) {
-    if (contour.joints[i].source) ++parts;
+    if (is_station(contour.joints[i])) ++parts;
   }
   // points between joints have a row each where the contour passes them in order
   const bool between = info_of(contour.carrier).between_joints;
-  return between ? rows >= parts && rows <= chords : rows == parts;
+  const auto cuts = static_cast<std::size_t>(  // chords that are two rows
+      std::count_if(contour.joints.begin(), contour.joints.end(),
+                    [](const Joint& joint) { return !joint.source && joint.after; }));
+  return between ? rows >= parts && rows <= chords + cuts : rows == parts;
 }
 
 std::vector<double> ContourReader::moves(const Node& node) {

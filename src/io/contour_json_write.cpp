@@ -65,6 +65,7 @@ class Writer {
   std::string buffer_;
   Watch* watch_;
   Questions questions_;
+  std::size_t points_ = 0;  ///< of the contour
 };
 
 void Writer::number(double value) {
@@ -161,6 +162,10 @@ void Writer::element(const Joint& joint) {
     figure("kappa_out", joint.leaving->kappa);
   }
   if (joint.slope_step) raw(", \"slope_step\": true");
+  if (joint.after) {
+    const std::size_t next = *joint.after + 1 == points_ ? 0 : *joint.after + 1;
+    format_into(buffer_, ", \"between\": [{}, {}]", *joint.after, next);
+  }
   raw("}");
 }
 
@@ -493,6 +498,7 @@ std::string Writer::write(const StoredContour& stored) {
     line_list("given", contour.given, "  ", [&](const GivenDatum& one) { given(one); });
     raw(",\n");
   }
+  points_ = contour.points.size();
   line_list("elements", contour.joints, "  ", [&](const Joint& joint) { element(joint); });
   raw(",\n");
   line_list("pieces", contour.pieces, "  ",

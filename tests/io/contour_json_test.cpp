@@ -507,6 +507,21 @@ TEST(ContourJson, HalfACornerIsRefused) {
   EXPECT_TRUE(contour_from_json(closed, "f").has_value()) << "a seam may be a corner";
 }
 
+TEST(ContourJson, ACornerOnNoPointNamesThePointsBesideIt) {
+  const std::string smooth = "\"heading\": 0, \"kappa\": 0, \"source\": null";
+  const std::string corner = smooth + ", \"corner\": true, \"heading_out\": 1.5, \"kappa_out\": -2";
+  const auto beside = [](const std::string& points) { return ", \"between\": [" + points + "]"; };
+  const auto read = contour_from_json(with(smooth, corner + beside("0, 1")), "f");
+  ASSERT_TRUE(read.has_value()) << to_line(read.error());
+  EXPECT_EQ(read->contour.joints[1].after, std::optional<std::size_t>(0));
+  EXPECT_NE(contour_to_json(*read).find(corner + beside("0, 1")), std::string::npos);
+  const ErrorCode bad = ErrorCode::kBadJson;
+  for (const char* points : {"0", "0, 2", "1, 0", "0, 1, 2"}) {
+    expect_refused(with(smooth, corner + beside(points)), bad, "f: /elements/1/between");
+  }
+  expect_refused(with(smooth, smooth + beside("0, 1")), bad, "f: /elements/1/between");
+}
+
 TEST(ContourJson, TolerancesAndMovesAreOneForEachPoint) {
   const ErrorCode bad = ErrorCode::kBadJson;
   const std::string elements = "\"elements\"";

@@ -161,6 +161,20 @@ void check_sizes(const Course& course, Sheet& sheet) {
   sheet.holds("pieces.sizes");
 }
 
+/// Corners that stand on no point lie between two neighbours, of points that may be passed.
+void check_between(const ContourFile& file, Sheet& sheet) {
+  for (const FileElement& e : file.elements) {
+    if (!e.between) continue;
+    const auto [before, behind] = *e.between;
+    const std::size_t n = file.points.size();
+    const bool neighbours = before < n && (file.closed ? behind == (before + 1) % n
+                                                       : behind == before + 1 && behind < n);
+    sheet.expect(neighbours && e.corner && !e.source && !file.tolerance.empty(), "elements.between",
+                 fmt::format("{}, {}", before, behind),
+                 std::string("neighbours around a corner on no point"), "");
+  }
+}
+
 /// Elements that name a point stand on it, or as near as its tolerance; all points are met in
 /// order.
 void check_points_met(const Course& course, Sheet& sheet) {
@@ -170,6 +184,7 @@ void check_points_met(const Course& course, Sheet& sheet) {
   const bool claimed = flag(file.certificate, "through_points").value_or(true);
   if (!claimed && !fault.empty()) return sheet.holds("points met");
   sheet.expect(fault.empty(), "points met", std::string("every point"), fault, "");
+  check_between(file, sheet);
   if (file.points.size() < 2 || file.closed) return;
   std::size_t due = 0;
   for (const FileElement& e : file.elements) {

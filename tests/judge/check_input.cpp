@@ -393,9 +393,16 @@ void check_corners(const Course& course, const Expected& expected, const Input& 
                    Sheet& sheet) {
   const ContourFile& file = course.file;
   constexpr double kDefaultAngle = 20.0;  // degrees (docs/cli.md)
+  constexpr double kNearly = 0.9;  // of lines and arcs, the points nearest to the corner decide
   const double least = input.corner_angle.value_or(kDefaultAngle) * std::numbers::pi / 180.0;
   const std::size_t n = expected.points.size();
   for (const FileElement& e : file.elements) {
+    if (e.between) {  // of lines and arcs, where corners are searched
+      const double turn =
+          std::abs(std::remainder(e.heading_out - e.heading, 2.0 * std::numbers::pi));
+      sheet.expect(input.primitives && input.searches_corners && turn >= kNearly * least,
+                   "corners between", least, turn, fmt::format("point {}", e.between->first + 1));
+    }
     if (!e.corner || !e.source || *e.source >= n || expected.points[*e.source].corner) continue;
     const std::string where = fmt::format("point {}", *e.source + 1);
     if (!input.searches_corners) {

@@ -69,6 +69,9 @@ bool find_points(const ContourFile& file, Stretch& one) {
   for (std::size_t k = 0; k <= one.pieces; ++k) {
     const FileElement* joint = before(file, one.first + k);
     if (joint != nullptr && joint->source) at.push_back(*joint->source);
+    if (joint != nullptr && joint->between) {  // the points on this side of a corner
+      at.push_back(k == 0 ? joint->between->second : joint->between->first);
+    }
   }
   if (at.size() < 2) return false;
   const std::size_t n = file.points.size();

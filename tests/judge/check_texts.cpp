@@ -309,6 +309,24 @@ class TextCheck {
     sheet_.expect(right, claim, whole, fmt::format("{}:{}", count, words), "");
   }
 
+  /// Corners that stand on no point, with the points on both sides.
+  void corners_between(const Sentence& s) {
+    constexpr std::size_t kMostNamed = 8;
+    std::vector<double> due;
+    for (const FileElement& e : file_.elements) {
+      if (!e.between) continue;
+      due.push_back(static_cast<double>(e.between->first + 1));
+      due.push_back(static_cast<double>(e.between->second + 1));
+    }
+    const std::size_t count = due.size() / 2, named = std::min(count, kMostNamed);
+    count_is("corners between points", s, 0, static_cast<double>(count));
+    say(s.figures.size() == 1 + 2 * named + (count > named ? 1U : 0U), "corners between points",
+        "places", static_cast<double>(count));
+    for (std::size_t k = 0; k < 2 * named; ++k) {
+      count_is("corners between points", s, k + 1, due[k]);
+    }
+  }
+
   /// The points at or before joints that are said to step.
   void slope_steps_beside(const Sentence& s) {
     constexpr std::size_t kMostNamed = 8;
@@ -318,6 +336,7 @@ class TextCheck {
       const FileElement* e = file_.joint(i);
       if (e == nullptr) continue;
       if (e->source) last = static_cast<std::size_t>(*e->source);
+      if (e->between) last = e->between->first;
       if (!e->slope_step || !last) continue;
       if (beside.empty() || beside.back() != *last) beside.push_back(*last);
     }
@@ -565,6 +584,8 @@ class TextCheck {
     } else if (label == "vertices" || label == "inflections" || label == "corners") {
       figure_is("verify " + label, s.figures.empty() ? "" : s.figures[0],
                 figure(certificate_, label.c_str()).value);
+    } else if (label == "corners between") {
+      corners_between(s);
     } else if (label == "self-intersections") {
       tells_crossings_ = true;
       figure_is(command + " " + label, s.figures.empty() ? "" : s.figures[0],

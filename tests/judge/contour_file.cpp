@@ -65,6 +65,11 @@ FileElement element_of(const Json& json) {
   out.corner = flag(json, "corner").value_or(false);
   out.step = flag(json, "curvature_step").value_or(false);
   out.slope_step = flag(json, "slope_step").value_or(false);
+  const Json& between = member(json, "between");
+  if (!between.is_null()) {
+    if (between.size() != 2) throw std::runtime_error("between names no two points");
+    out.between = {between[0].index(), between[1].index()};
+  }
   if (out.parted()) {
     out.heading_out = number(json, "heading_out");
     out.kappa_out = number(json, "kappa_out");

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "json_text.h"
@@ -19,6 +20,8 @@ struct FileElement {
   bool step = false;  ///< a common tangent, and two curvatures
   [[nodiscard]] bool parted() const { return corner || step; }
   bool slope_step = false;  ///< of a G3 contour: G2 only
+  /// Of a corner that stands on no point: the points before and behind it.
+  std::optional<std::pair<std::size_t, std::size_t>> between;
   double heading_out = 0.0, kappa_out = 0.0;
 };
 

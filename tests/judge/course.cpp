@@ -2,6 +2,7 @@
 #include "course.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -21,9 +22,10 @@ Vec seen_from(const BallVec& p, Point origin) {
 
 bool is_joint(Real order) { return order == std::floor(order); }
 
-/// Stations in the order of the contour: point and place.
+/// Stations in the order of the contour: place, and the points as which parts end and begin there.
+/// At a corner that stands on no point these are the points before and behind it.
 struct Station {
-  std::size_t point = 0;
+  std::size_t ends = 0, begins = 0;
   Real order = 0.0L;
 };
 
@@ -43,16 +45,31 @@ Real place_behind(const Path& path, Vec p, Real from, Real to) {
   return best.distance < std::numeric_limits<Real>::max() ? best.order() : from;
 }
 
-/// The points that rows of the report name; empty: they name none. Only those are stations: points
-/// with tolerances need not have a place of their own that follows those before it.
-std::set<std::size_t> named_by_rows(const ContourFile& contour) {
+/// The points at which a row of the report ends and the next one begins; nothing: rows name none.
+/// Only those are stations: points with tolerances need not have a place of their own that follows
+/// those before it. Where a row ends as one point and the next begins as another there is a corner.
+std::optional<std::set<std::size_t>> named_by_rows(const ContourFile& contour) {
   std::set<std::size_t> named;
+  std::vector<std::array<std::size_t, 2>> rows;
   for (const Json& row : member(contour.report, "segments")) {
+    std::vector<std::size_t> both;
     for (const Json& point : member(row, "points")) {
       if (point.is_number() && point.number >= 0.0) {
-        named.insert(static_cast<std::size_t>(point.number));
+        both.push_back(static_cast<std::size_t>(point.number));
       }
     }
+    if (both.size() == 2) rows.push_back({both[0], both[1]});
+  }
+  if (rows.empty()) return std::nullopt;
+  const auto meet = [&](std::size_t before, std::size_t behind) {
+    if (before == behind) named.insert(before);
+  };
+  for (std::size_t k = 0; k + 1 < rows.size(); ++k) meet(rows[k][1], rows[k + 1][0]);
+  if (contour.closed) {
+    meet(rows.back()[1], rows.front()[0]);
+  } else {
+    named.insert(rows.front()[0]);
+    named.insert(rows.back()[1]);
   }
   return named;
 }
@@ -61,32 +78,46 @@ std::vector<Station> stations_of(const ContourFile& contour, const Path& path, P
   std::vector<Station> out;
   const std::size_t n = contour.points.size();
   if (n < 2 || contour.pieces.empty()) return out;
-  std::vector<std::optional<Real>> known(n);
+  std::vector<std::optional<Real>> known(n), corner(n);  // corner: behind the point
   for (std::size_t j = 0; j < contour.elements.size(); ++j) {
     const auto source = contour.elements[j].source;
     if (source && *source < n && !known[*source]) known[*source] = static_cast<Real>(j);
+    const auto between = contour.elements[j].between;
+    if (between && between->first < n) corner[between->first] = static_cast<Real>(j);
   }
   std::size_t first = 0;
+  bool begins_at_corner = false;
   if (contour.closed) {
     for (std::size_t i = 0; i < n; ++i) {
       if (known[i] == 0.0L) first = i;
+      if (corner[i] != 0.0L) continue;
+      first = (i + 1) % n;
+      begins_at_corner = true;
+      corner[i] = path.end();
     }
   }
-  const std::set<std::size_t> named = named_by_rows(contour);
+  const auto named = named_by_rows(contour);
+  const auto is_named = [&](std::size_t i) { return !named || named->contains(i); };
   Real before = 0.0L;
+  if (begins_at_corner) out.push_back({first, first, 0.0L});
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = (first + k) % n;
-    if (!named.empty() && !named.contains(i)) continue;
+    if (k > 0 && corner[(i + n - 1) % n]) {
+      before = std::max(before, *corner[(i + n - 1) % n]);
+      out.push_back({(i + n - 1) % n, i, before});
+    }
+    if (!is_named(i)) continue;
     Real order = before;
     if (known[i]) {
       order = *known[i];
-    } else if (k == 0) {
+    } else if (k == 0 && !begins_at_corner) {
       order = 0.0L;
     } else if (k + 1 == n && !contour.closed) {
       order = path.end();
     } else {
-      Real to = path.end();
-      for (std::size_t m = k + 1; m < n; ++m) {
+      Real to = corner[i].value_or(path.end());
+      for (std::size_t m = k + 1; m < n && !corner[(first + m - 1) % n]; ++m) {
+        if (corner[(first + m) % n]) to = *corner[(first + m) % n];
         if (known[(first + m) % n]) {
           to = *known[(first + m) % n];
           break;
@@ -94,11 +125,14 @@ std::vector<Station> stations_of(const ContourFile& contour, const Path& path, P
       }
       order = place_behind(path, seen(contour.points[i], origin), before, to);
     }
-    out.push_back({i, std::max(order, before)});
+    out.push_back({i, i, std::max(order, before)});
     before = out.back().order;
   }
-  if (contour.closed && (named.empty() || named.contains(first))) {
-    out.push_back({first, path.end()});
+  if (begins_at_corner) {
+    const std::size_t last = (first + n - 1) % n;
+    out.push_back({last, last, path.end()});
+  } else if (contour.closed && is_named(first)) {
+    out.push_back({first, first, path.end()});
   }
   return out;
 }
@@ -115,7 +149,7 @@ Course::Course(const ContourFile& contour)
   const std::vector<Station> stations = stations_of(contour, path, origin);
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
     Part part{
-        stations[k].point, stations[k + 1].point, stations[k].order, stations[k + 1].order, {}, {}};
+        stations[k].begins, stations[k + 1].ends, stations[k].order, stations[k + 1].order, {}, {}};
     // over half a turn or more a region is none: there all joints count (docs/claims.md)
     const bool far = turning_both_ways(part.from, part.to) >= std::numbers::pi_v<Real>;
     part.turns = cuts_of(part.from, part.to, false);

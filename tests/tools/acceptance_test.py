@@ -409,6 +409,20 @@ class Scans(unittest.TestCase):
         self.assertFalse(scans.held_against(row, case, {"pieces": [{**arc, "kappa": 0.2}]})["found"])
         self.assertFalse(scans.held_against(row, case, None)["found"])
 
+    def test_outlines_close_and_no_point_stands_on_their_corners(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, shape in scans.outlines():
+                case = scans.outline_case(pathlib.Path(folder), name, shape, 0.0, 0)
+                points = [complex(*p) for p in case.truth["points"]]
+                self.assertLess(abs(case.truth["corners"][-1] if shape[-1][2] else 0), 1e-9, name)
+                self.assertEqual(len(case.truth["corners"]), sum(turn != 0 for _, _, turn in shape))
+                for corner in case.truth["corners"]:
+                    self.assertGreater(min(abs(p - corner) for p in points), 0.005, name)
+            case.truth["corners"] = [0j, 1 + 0j]
+            made = {"elements": [{"point": [1.0, 0.0], "corner": True}, {"point": [5.0, 0.0], "corner": True}]}
+            self.assertEqual(scans.corners_met(case, made), (2, 1, 1))
+            self.assertEqual(scans.corners_met(case, None), (2, 0, 0))
+
     def test_the_numbers_of_what_is_left_out_are_read(self):
         text = "left out 2 points that lie off the curve of their neighbours: 128 (2.457 units), 162 (2.066 mm); the others"
         self.assertEqual(scans.LEFT_OUT.findall(text), ["128", "162"])

@@ -10,7 +10,9 @@ outliers: the same curves with single points moved along the normal: `--drop-out
 these and no other.
 primitives: chains of lines and arcs with Gaussian errors, tolerance four standard deviations:
 `--primitives` must give each line and arc as one, radius and centre as well as the points know them;
-`obvid alignment`, which needs no transitions, gets the same points."""
+`obvid alignment`, which needs no transitions, gets the same points.
+corners: outlines of lines and arcs with corners on which no point stands, tolerance four standard deviations: `--primitives`
+must give each side as one and each corner where the sides meet, and no other."""
 import cmath
 import json
 import math
@@ -24,6 +26,8 @@ from .cases import Case, number_rows, write_points
 from .matching import TruePiece
 
 ORDER, NOISE, OUTLIERS, NONE, PRIMITIVES = "order", "noise", "outliers", "no outliers", "primitives"
+CORNERS = "corners"
+STEP, CORNER_SIGMAS = 0.5, (0.005, 0.02)  # of points along outlines, units; standard deviations
 SEEDS = 4
 PER_UNIT = 3  # points of chains
 POINTS = 200
@@ -64,6 +68,21 @@ def chains():
             ("arch", [(30, 0), (math.pi * 25, 1 / 25), (30, 0)], False)]
 
 
+def outlines():
+    """Lines and arcs around: length, curvature, and the turn behind each, which is 0 where they touch."""
+    right, mouth = math.pi / 2, math.asin(0.3)
+    bend = (math.pi / 2 * 6, 1 / 6, 0)
+    tooth = [(5, 0, right), (4, 0, -right), (5, 0, -right), (4, 0, right)]
+    return [("rectangle", [(40, 0, right), (24, 0, right)] * 2),
+            ("hexagon", [(20, 0, math.pi / 3)] * 6),
+            ("bracket", [(40, 0, right), (12, 0, right), (26, 0, -right), (18, 0, right), (14, 0, right), (30, 0, right)]),
+            ("arc and chord", [(20 * math.pi, 1 / 15, math.pi / 3), (15 * math.sqrt(3), 0, math.pi / 3)]),
+            ("keyhole", [(20 * (math.pi - mouth), 1 / 10, mouth - right), (15, 0, right), (6, 0, right),
+                         (15, 0, mouth - right)]),
+            ("one sharp corner", [(34, 0, 0), bend, (12, 0, 0), bend, (28, 0, 0), bend, (18, 0, right)]),
+            ("comb", tooth * 3 + [(5, 0, right), (10, 0, right), (35, 0, right), (10, 0, right)])]
+
+
 def noisy(points, sigma, dice):
     return [z + complex(dice.gauss(0, sigma), dice.gauss(0, sigma)) for z in points]
 
@@ -90,6 +109,10 @@ def cases(data, work, _options):
         for sigma in SIGMAS:
             for seed in range(SEEDS):
                 found.append(chain_case(work, name, chain, closed, sigma, seed))
+    for name, pieces in outlines():
+        for sigma in CORNER_SIGMAS:
+            for seed in range(SEEDS):
+                found.append(outline_case(work, name, pieces, sigma, seed))
     return found, [f"Curves of {POINTS} points with errors of {', '.join(f'{p:g}' for p in PARTS)} of their size (100), "
                    f"{PLANTED} points {FARTHER[0]:g} to {FARTHER[1]:g} standard deviations off.\n"]
 
@@ -142,6 +165,46 @@ def chain_case(work, name, chain, closed, sigma, seed):
                              repr(4 * sigma)], sigma, PRIMITIVES, {"pieces": truth, "points": pairs(points)})
 
 
+def outline_case(work, name, shape, sigma, seed):
+    name = f"{name} {sigma:g} {seed}"
+    dice = random.Random(name + "c")
+    pieces, start, theta, corners = [], 0j, dice.uniform(0, 6), []
+    for k, (length, kappa, turn) in enumerate(shape):
+        pieces.append(TruePiece(k, start, theta, length, kappa, kappa))
+        start, theta = pieces[-1].end()
+        if turn:
+            corners.append(start)
+        theta += turn
+    count = round(sum(p.length for p in pieces) / STEP)
+    places = off_corners([p.length for p in pieces], count, dice)
+    points, truth = [], []
+    for k, piece in enumerate(pieces):
+        own = [along_ for number, along_ in places if number == k]
+        truth.append({"kind": piece.kind(), "first": len(points), "last": len(points) + len(own) - 1, "length": piece.length,
+                      "kappa": piece.kappa0,
+                      "centre": piece.start + 1j * cmath.exp(1j * piece.theta) / piece.kappa0 if piece.kappa0 else 0})
+        points += [piece.at(s) for s in own]
+    file = write_points(work / (name.replace(" ", "_") + ".csv"), pairs(noisy(points, sigma, dice)), name)
+    return Case(name, file, ["--closed", "--primitives", "--noise", repr(4 * sigma)], sigma, CORNERS,
+                {"pieces": truth, "points": pairs(points), "corners": corners})
+
+
+def off_corners(lengths, count, dice):
+    """Piece and arc length on it of points at one distance around, none on an end of a piece."""
+    whole, least = sum(lengths), 0.02 * STEP
+    while True:
+        begin, out = dice.uniform(0, STEP), []
+        for k in range(count):
+            s = begin + whole * k / count
+            number = 0
+            while number + 1 < len(lengths) and s > lengths[number]:
+                s -= lengths[number]
+                number += 1
+            out.append((number, s))
+        if all(least < s < lengths[number] - least for number, s in out):
+            return out
+
+
 # -------------------------------------------------------------------------------------------- runs
 def run(cases, options):
     """`obvid analyse` or `fit`, as the question wants it."""
@@ -152,7 +215,7 @@ def run_case(case, program, work):
     output = work / "scan.json"
     output.unlink(missing_ok=True)
     command = [program, "analyse" if case.group == ORDER else "fit", str(case.path), *case.arguments,
-               "--json"] + (["-o", str(output)] if case.group == PRIMITIVES else [])
+               "--json"] + (["-o", str(output)] if case.group in (PRIMITIVES, CORNERS) else [])
     begin = time.perf_counter()
     done = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS_AT_MOST, check=False)
     outcome = {"name": case.name, "group": case.group, "tolerance": case.tolerance, "exit": done.returncode,
@@ -166,6 +229,10 @@ def run_case(case, program, work):
     elif case.group == NOISE:
         said = SCATTER.search(done.stderr)
         outcome["ratio"] = float(said.group(1)) / case.tolerance if said else None
+    elif case.group == CORNERS:
+        contour = json.loads(output.read_text()) if output.exists() else None
+        outcome["sides"] = [held_against(row, case, contour)["found"] for row in case.truth["pieces"]]
+        outcome["corners"], outcome["met"], outcome["more"] = corners_met(case, contour)
     elif case.group == PRIMITIVES:
         contour = json.loads(output.read_text()) if output.exists() else None
         rows = case.truth["pieces"]
@@ -193,6 +260,14 @@ def alignment(case, program):
         pieces.append({"type": e["kind"], "start": [start.real, start.imag], "end": [end.real, end.imag],
                        "theta0": e["heading"], "kappa": e["curvature_start"], "length": e["length"]})
     return {"pieces": pieces}
+
+
+def corners_met(case, contour):
+    """How many corners there are, of how many one lies within the tolerance, and how many others were made."""
+    made = [complex(*e["point"]) for e in contour["elements"] if e.get("corner")] if contour else []
+    true, near = case.truth["corners"], 4 * case.tolerance
+    met = sum(any(abs(z - c) <= near for z in made) for c in true)
+    return len(true), met, sum(all(abs(z - c) > near for c in true) for z in made)
 
 
 def clear(points, closed):
@@ -298,7 +373,7 @@ def groups(outcomes):
     for o in outcomes:
         words = o["name"].rsplit(" ", 2)
         key = (o["name"].split("_")[0] if o["group"] == ORDER else
-               f"{words[0]}, errors {words[1]}" if o["group"] == PRIMITIVES else words[0])
+               f"{words[0]}, errors {words[1]}" if o["group"] in (PRIMITIVES, CORNERS) else words[0])
         rows.setdefault((o["group"], key), []).append(o)
     return rows
 
@@ -320,6 +395,10 @@ def figure(group, some):
     if group == NOISE:
         ratios = [o["ratio"] for o in some if o["ratio"] is not None]
         return f"{min(ratios, default=math.nan):.2f} to {max(ratios, default=math.nan):.2f} of the errors"
+    if group == CORNERS:
+        count = lambda key: sum(o[key] for o in some)  # noqa: E731
+        sides = [side for o in some for side in o["sides"]]
+        return f"found {sum(sides)} of {len(sides)}; corners {count('met')} of {count('corners')}, {count('more')} others"
     if group == PRIMITIVES:
         rows = [r for o in some for r in o["primitives"]]
         arcs = [r for r in rows if "radius_off" in r]
@@ -333,6 +412,7 @@ def figure(group, some):
 
 
 ORDER_RIGHT, ORDER_CLEAR, NOISE_RIGHT, FOUND, OTHERS, SEEN, RADII = 99, 95, 98, 98, 0.1, 98, 90
+SIDES = 98
 RADIUS_OFF = 0.02
 
 
@@ -350,6 +430,10 @@ def criteria(outcomes):
     seen = tables.percent(r["found"] or r["flat"] for r in rows)
     aligned = tables.percent(r["found"] for o in of(PRIMITIVES) for r in o["elements"])
     radii = tables.percent(r["radius_off"] <= RADIUS_OFF and r["centre_off"] <= RADIUS_OFF for r in arcs)
+    sharp = of(CORNERS)
+    sides = tables.percent(side for o in sharp for side in o["sides"])
+    corners = 100.0 * sum(o["met"] for o in sharp) / max(1, sum(o["corners"] for o in sharp))
+    more = sum(o["more"] for o in sharp)
     given = [o for o in order if o["exit"] == 0]
     right, certain = tables.percent(o["right"] for o in given), tables.percent(o["right"] for o in bright)
     scatter = tables.percent(within)
@@ -365,5 +449,8 @@ def criteria(outcomes):
             (f"lines (or arcs that points cannot tell from them) and arcs found where errors are below {LOUD:g}, "
              f"at least {SEEN} %", f"{seen:.1f} % of {len(rows)}", seen >= SEEN),
             (f"lines and arcs found by `obvid alignment`, at least {SEEN} %", f"{aligned:.1f} %", aligned >= SEEN),
+            (f"sides of outlines without a point at their corners, at least {SIDES} %", f"{sides:.1f} %", sides >= SIDES),
+            (f"their corners within the tolerance, at least {SIDES} %, and no others", f"{corners:.1f} %, {more} others",
+             corners >= SIDES and more == 0),
             (f"radius and centre within {100 * RADIUS_OFF:g} % of the radius where points know it to a third of that, at least "
              f"{RADII} %", f"{radii:.1f} % of {len(arcs)}", radii >= RADII)]

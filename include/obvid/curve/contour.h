@@ -31,7 +31,13 @@ struct Joint {
                                       ///< at a corner, and where the curvature steps between pieces
                                       ///< that the input drew
   bool slope_step = false;            ///< in a contour that is G3 elsewhere: G2 only
+  std::optional<std::size_t> after{};  ///< of a corner that stands on no point: the one before it,
+                                       ///< index into `Contour::points`; the next one lies behind
 };
+
+/// Whether a joint is one of those between which a report says what it knows: it stands on a point,
+/// or is a corner between two.
+[[nodiscard]] inline bool is_station(const Joint& joint) { return joint.source || joint.after; }
 
 /// What the user fixed at a point.
 struct GivenDatum {

@@ -74,6 +74,8 @@ struct FitJob {
   bool find_corners = true;            ///< where the series turns at once; else only marked ones
   std::optional<double> corner_angle;  ///< rad, what counts as a corner at least
   bool primitives = false;             ///< exact lines and arcs where the points allow them
+  bool corners_between = true;         ///< and with them corners where two of them meet between
+                                       ///< two points
   std::vector<PointConstraint>
       constraints;                      ///< ascending, at most one per point; range not checked
   bool measure_against_spirals = true;  ///< other carriers: how far they are from the spirals

@@ -32,7 +32,7 @@ std::vector<int> chord_directions(const PictureTrack& track, const Contour& cont
   std::optional<std::size_t> chord;
   int common = 0;
   for (std::size_t j = 0; j < track.pieces.size(); ++j) {
-    if (contour.joints[j].source) {
+    if (is_station(contour.joints[j])) {
       chord = contour.joints[j].source;
       common = 0;
     }

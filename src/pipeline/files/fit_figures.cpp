@@ -138,7 +138,7 @@ std::string stepping_points_text(const Contour& contour) {
   std::vector<std::size_t> beside;
   std::optional<std::size_t> last = contour.joints.front().source;
   for (const Joint& joint : contour.joints) {
-    if (joint.source) last = joint.source;
+    if (is_station(joint)) last = joint.source ? joint.source : joint.after;
     if (!joint.slope_step || !last) continue;
     if (beside.empty() || beside.back() != *last) beside.push_back(*last);
   }
@@ -148,6 +148,22 @@ std::string stepping_points_text(const Contour& contour) {
     out += fmt::format("{}{}", i > 0 ? ", " : "", beside[i] + 1);
   }
   return out + and_more(beside.size(), kMostNamed);
+}
+
+/// Corners that stand on no point: the points before and behind them.
+std::string corners_between_text(const Contour& contour) {
+  constexpr std::size_t kMostNamed = 8;
+  std::size_t count = 0;
+  std::string places;
+  for (const Joint& joint : contour.joints) {
+    if (joint.source || !joint.after) continue;
+    if (++count > kMostNamed) continue;
+    places += fmt::format("{}{} and {}", count > 1 ? ", " : "", *joint.after + 1,
+                          (*joint.after + 1) % contour.points.size() + 1);
+  }
+  if (count == 0) return places;
+  return fmt::format("{} where lines and arcs meet, points {}{}",
+                     counted(count, "corner", "corners"), places, and_more(count, kMostNamed));
 }
 
 }  // namespace
@@ -186,6 +202,9 @@ FigureRows fit_figures(const Contour& contour, const FitReport& report,
                      fmt::format("{} in {}", pieces, counted(contour.runs.size(), "run", "runs")));
   if (const std::string kept = kept_text(contour, certificate); !kept.empty()) {
     facts.emplace_back("taken over", kept);
+  }
+  if (std::string between = corners_between_text(contour); !between.empty()) {
+    facts.emplace_back("corners between", std::move(between));
   }
   facts.emplace_back("fairness", fairness_text(report));
   if (const int crossings = certificate.self_intersections; crossings > 0) {

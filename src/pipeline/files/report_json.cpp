@@ -105,6 +105,19 @@ void add_lines_and_arcs(JsonText& json, const Contour& contour) {
   json.end_array();
 }
 
+/// Corners that stand on no point.
+void add_corners_between(JsonText& json, const Contour& contour) {
+  json.key("corners_between").begin_array();
+  for (const Joint& joint : contour.joints) {
+    if (joint.source || !joint.after || !joint.leaving) continue;
+    json.begin_object().key("points").begin_array().value(*joint.after);
+    json.value((*joint.after + 1) % contour.points.size()).end_array();
+    json.pair("x", joint.element.point.x).pair("y", joint.element.point.y);
+    json.pair("turn", principal_angle(joint.leaving->theta - joint.element.theta)).end_object();
+  }
+  json.end_array();
+}
+
 }  // namespace
 
 std::string fit_report_json(const Fit& fit, const Written& written, Watch* watch) {
@@ -119,6 +132,7 @@ std::string fit_report_json(const Fit& fit, const Written& written, Watch* watch
   json.pair("points", fit.contour.points.size()).pair("pieces", fit.contour.pieces.size());
   add_taken_over(json, fit.contour);
   add_lines_and_arcs(json, fit.contour);
+  add_corners_between(json, fit.contour);
   json.key("report").raw(report_to_json(fit.report, watch));
   add_certificate(json, fit.certificate, watch);
   add_list(json, "warnings", fit.warnings);

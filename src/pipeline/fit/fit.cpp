@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fit/assemble.h"
+#include "fit/corners_between.h"
 #include "fit/excursion.h"
 #include "fit/form.h"
 #include "fit/given.h"
@@ -128,8 +129,9 @@ struct Formed {
 /// How far the contour may pass each point: a carrier that follows the spirals needs its tolerance.
 std::vector<double> point_tolerance(const Prepared& series, Carrier carrier, double tolerance) {
   std::vector<double> out = series.tolerance;
+  if (!out.empty()) out.resize(series.measured());
   if (!info_of(carrier).between_joints) return out;
-  out.resize(series.points.size(), 0.0);
+  out.resize(series.measured(), 0.0);
   for (double& one : out) one = std::max(one, tolerance);
   return out;
 }
@@ -149,12 +151,13 @@ void add_section(const SectionChain& section, Formed& formed) {
 }
 
 /// Where G3 could not be had, for the user.
-std::string slope_steps_text(const SeriesChain& chain, const SmoothedSlopes& slopes) {
+std::string slope_steps_text(const Prepared& series, const SeriesChain& chain,
+                             const SmoothedSlopes& slopes) {
   std::size_t point = 0;  // at the first of them, or before it
   for (std::size_t i = 0; i <= slopes.stepped.front(); ++i) point = chain.source[i].value_or(point);
   return fmt::format(
       "no common slope of curvature was found at {} of {} joints, first beside point {}: G2 there",
-      slopes.stepped.size(), slopes.joints, point + 1);
+      slopes.stepped.size(), slopes.joints, series.named(point) + 1);
 }
 
 /// Parts of a series whose runs stay G2 where slopes are made continuous.
@@ -189,10 +192,14 @@ class SectionForming {
         tolerance_(tolerance),
         chains_(chains),
         watch_(watch),
+        place_(places_of(series_.split.order)),
         have_spirals_(job.measure_against_spirals) {}
 
   static Prepared with_whole_sections(Prepared series) {
     lay_whole_sections(series);
+    for (std::size_t i = series.measured(); i < series.placed.size(); ++i) {
+      series.points[i] = series.placed[i];
+    }
     return series;
   }
 
@@ -228,15 +235,17 @@ class SectionForming {
   /// Sections between corners without a line or arc, in one sentence.
   void tell_bare_sections() {
     if (bare_.empty()) return;
-    const auto number = [&](std::size_t place) {
-      return series_.split.point_at(place) % series_.points.size() + 1;
+    const auto number = [&](std::size_t place, bool begins) {
+      const std::size_t i = series_.split.point_at(place) % series_.points.size();
+      const std::size_t on = begins && series_.is_between(i) ? 1 : 0;
+      return (series_.named(i) + on) % series_.measured() + 1;
     };
     std::string where;
     const std::size_t named = std::min(bare_.size(), kMostBareNamed);
     for (std::size_t k = 0; k < named; ++k) {
       const Section& one = series_.split.sections[bare_[k]];
       where += fmt::format("{} points {} and {}", k == 0 ? " between" : ", between",
-                           number(one.first), number(one.last));
+                           number(one.first, true), number(one.last, false));
     }
     if (bare_.size() > named) {
       where += " and in " + counted(bare_.size() - named, "section more", "sections more");
@@ -308,7 +317,7 @@ class SectionForming {
   Result<Contour> smoothed(SectionChain& section, const Contour& spirals) {
     note_slope_step(spirals);
     const std::vector<bool> keep = kept_links(section.chain);
-    PassingChain passing(section.chain, spirals, series_.points);
+    PassingChain passing(section.chain, spirals, series_.points, series_.split.order);
     SeriesChain chain = section.chain;
     SmoothedSlopes slopes =
         smooth_slopes(chain, series_.split.smooth_loop, watch_, keep, section.seam);
@@ -323,7 +332,7 @@ class SectionForming {
     if (!smooth) return smooth;
     section.chain = std::move(chain);
     if (!slopes.stepped.empty() && job_.continuity == Continuity::kG3) {
-      section.warnings.push_back(slope_steps_text(section.chain, slopes));
+      section.warnings.push_back(slope_steps_text(series_, section.chain, slopes));
     }
     return smooth;
   }
@@ -338,26 +347,38 @@ class SectionForming {
     const auto mark = [&](std::size_t i) {
       out[i] = std::max(0.0, distance[i] - series_.tolerance[i]);
     };
-    const std::size_t n = out.size();
     const Joint *first = &section.joints.front(), *last = &section.joints.back();
     if (!first->source || !last->source) return out;
-    const std::size_t over = (*last->source + n - *first->source) % n;
-    for (std::size_t i = 0; i <= (over > 0 ? over : n - 1); ++i) mark((*first->source + i) % n);
+    mark(*first->source);
+    for (const std::size_t i : points_between(*first->source, *last->source)) mark(i);
+    mark(*last->source);
+    return out;
+  }
+
+  /// Points of the series between two of it, in order; around a loop where both are the same.
+  [[nodiscard]] std::vector<std::size_t> points_between(std::size_t from, std::size_t to) const {
+    const std::vector<std::size_t>& order = series_.split.order;
+    const std::size_t n = order.size();
+    std::vector<std::size_t> out;
+    const std::size_t at = place_[from];
+    for (std::size_t k = 1; k < n && order[(at + k) % n] != to; ++k) {
+      out.push_back(order[(at + k) % n]);
+    }
     return out;
   }
 
   /// Links whose runs stay as they are; empty when there are none.
   [[nodiscard]] std::vector<bool> kept_links(const SeriesChain& chain) const {
     std::vector<bool> out;
-    const std::size_t n = series_.points.size();
     std::size_t begun = 0;  // the first link behind a point
     for (std::size_t k = 1; k < chain.elements.size() && !kept_.empty(); ++k) {
       if (!chain.source[k]) continue;
-      const std::size_t from = *chain.source[begun], over = (*chain.source[k] + n - from) % n;
-      bool keep = kept_.leaving[from];
-      for (std::size_t i = 1; i < (over > 0 ? over : n) && !keep; ++i) {
-        keep = kept_.around[(from + i) % n];
-      }
+      const std::size_t from = *chain.source[begun];
+      const std::vector<std::size_t> between = points_between(from, *chain.source[k]);
+      const bool keep = kept_.leaving[series_.named(from)] ||
+                        std::any_of(between.begin(), between.end(), [&](std::size_t i) {
+                          return !series_.is_between(i) && kept_.around[i];
+                        });
       if (keep) {
         out.resize(chain.links.size(), false);
         std::fill(out.begin() + static_cast<std::ptrdiff_t>(begun),
@@ -435,7 +456,13 @@ class SectionForming {
   [[nodiscard]] Contour finished(Assembly& assembly, Carrier carrier) const {
     if (series_.closed) assembly.close(series_.split.smooth_loop);
     Contour contour = assembly.take();
-    contour.points = series_.points;
+    contour.points.assign(series_.points.begin(),
+                          series_.points.begin() + static_cast<std::ptrdiff_t>(series_.measured()));
+    for (Joint& joint : contour.joints) {
+      if (!joint.source || !series_.is_between(*joint.source)) continue;
+      joint.after = series_.named(*joint.source);
+      joint.source.reset();
+    }
     contour.point_tolerance = point_tolerance(series_, carrier, tolerance_);
     contour.given = series_.asked;
     contour.carrier = carrier;
@@ -452,10 +479,11 @@ class SectionForming {
   Assembly assembly_, spirals_;
   Waviness waviness_g2_{watch_};
   KeptParts kept_;
-  std::size_t given_up_ = 0;       ///< lines and arcs of all sections
-  std::string strays_;             ///< that break them, of the first section that has such
-  std::vector<std::size_t> bare_;  ///< sections without a line or arc that were asked for
-  bool have_spirals_;              // as long as they are asked for, and all sections have them
+  std::vector<std::size_t> place_;  ///< of each point in the order of the series
+  std::size_t given_up_ = 0;        ///< lines and arcs of all sections
+  std::string strays_;              ///< that break them, of the first section that has such
+  std::vector<std::size_t> bare_;   ///< sections without a line or arc that were asked for
+  bool have_spirals_;               // as long as they are asked for, and all sections have them
 };
 
 Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,
@@ -499,7 +527,7 @@ bool lost_by_moves(const Result<Formed>& formed, Watch& watch) {
 /// nearer to its points it has their order. False when there are none.
 bool narrow_disorder(const Contour& contour, Watch& watch, Prepared& series) {
   bool any = false;
-  const std::size_t n = series.reach.size();
+  const std::size_t n = series.measured();
   for (const std::size_t i : points_out_of_order(contour, watch)) {
     for (const std::size_t k : {i, i > 0 ? i - 1 : n - 1}) {
       any = any || series.reach[k] > 0.0;
@@ -732,7 +760,8 @@ Result<Measured> form_and_measure(Prepared& prepared, const FitJob& job, const U
   }
   if (!formed) {
     Error error = formed.error();
-    if (auto hint = no_order_hint(prepared.points)) {
+    const auto measured = static_cast<std::ptrdiff_t>(prepared.measured());
+    if (auto hint = no_order_hint({prepared.points.begin(), prepared.points.begin() + measured})) {
       error.hint = std::move(*hint);
     } else if (!prepared.polygon.empty()) {
       error.hint += (error.hint.empty() ? "" : "; ") + prepared.polygon;
@@ -782,6 +811,12 @@ struct Reach {
   double part = 1.0;
 };
 
+/// Carriers through points alone know no lines and arcs.
+bool looks_between(const FitJob& job) {
+  return job.primitives && job.corners_between && job.find_corners &&
+         info_of(job.carrier).needs != CarrierNeeds::kPoints;
+}
+
 Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, FoundChains& chains,
                               Watch& watch, const KeptParts& kept = {}, Reach reach = {}) {
   watch.tell("analysing", 0.0);
@@ -795,6 +830,9 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   const double least = least_tolerance(prepared->points);
   const auto asked = tolerance_of(job, prepared->points, least);
   OBVID_TRY(asked);
+  if (looks_between(job) && reach.part > 0.0) {
+    add_corners_between(*prepared, job.corner_angle.value_or(kDefaultCornerAngle));
+  }
   const double tolerance =
       info_of(job.carrier).between_joints ? share_tolerance(*prepared, *asked, least) : *asked;
   for (double& one : prepared->reach) one *= reach.part;

@@ -113,13 +113,20 @@ class Regions {
 
 }  // namespace
 
+std::optional<std::size_t> station_of(const Contour& contour, std::size_t joint) {
+  const Joint& one = contour.joints[joint];
+  if (one.source || !one.after) return one.source;
+  return contour.points.size() + *one.after;
+}
+
 double distance_outside_regions(const Contour& spirals, const std::vector<CurvePoint>& points,
                                 Watch& watch) {
   if (spirals.pieces.empty()) return 0.0;
   const std::size_t links = spirals.pieces.size();
-  std::vector<std::size_t> link_of(spirals.points.size(), links);  // that starts at an input point
+  // that starts at an input point, or at a corner between two
+  std::vector<std::size_t> link_of(2 * spirals.points.size(), links);
   for (std::size_t j = 0; j < links; ++j) {
-    const auto source = spirals.joints[j].source;
+    const auto source = station_of(spirals, j);
     if (source && *source < link_of.size()) link_of[*source] = j;
   }
   const auto link_at = [&](const CurvePoint& p) {

@@ -10,7 +10,10 @@
 
 namespace obvid::pipeline_detail {
 
-/// Point of a curve; `source`: the input point that it stands on, if any.
+/// A number of the input point that a joint stands on, or of the corner between two that it is.
+[[nodiscard]] std::optional<std::size_t> station_of(const Contour& contour, std::size_t joint);
+
+/// Point of a curve; `source`: the `station_of` the joint that it is, if any.
 struct CurvePoint {
   Vec2 point;
   std::optional<std::size_t> source;

@@ -9,11 +9,12 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-/// A place of the contour that stands for a point.
+/// A place of the contour that stands for a point, or a corner between two.
 struct Station {
-  std::size_t point = 0;
+  std::size_t before = 0;  ///< the point as which a part ends there
   std::size_t piece = 0;
   double t = 0.0;
+  bool between = false;
 };
 
 bool ahead(const Station& a, const Station& b) {
@@ -29,18 +30,23 @@ class Stations {
   std::vector<Station> run() {
     const std::size_t n = contour_.pieces.size();
     for (std::size_t j = 0; j < n; ++j) {
-      const auto source = contour_.joints[j].source;
-      if (j > 0 && !source) continue;
+      const Joint& joint = contour_.joints[j];
+      if (j > 0 && !is_station(joint)) continue;
       if (questions_.end()) return std::move(stations_);
-      reach({source.value_or(0), j, 0.0});
+      reach(at_joint(joint, 0, j, 0.0));
     }
     const Joint& last = contour_.joints[n % contour_.joints.size()];
     const std::size_t points = contour_.points.size();
-    reach({last.source.value_or(points > 0 ? points - 1 : 0), n - 1, 1.0});
+    reach(at_joint(last, points > 0 ? points - 1 : 0, n - 1, 1.0));
     return std::move(stations_);
   }
 
  private:
+  static Station at_joint(const Joint& joint, std::size_t otherwise, std::size_t piece, double t) {
+    const bool between = !joint.source && joint.after;
+    return {between ? *joint.after : joint.source.value_or(otherwise), piece, t, between};
+  }
+
   /// Adds a station, and before it those of the points between the last one and it.
   void reach(const Station& next) {
     if (info_of(contour_.carrier).between_joints && !stations_.empty()) add_feet(next);
@@ -49,8 +55,10 @@ class Stations {
 
   void add_feet(const Station& next) {
     const std::size_t n = contour_.points.size();
-    for (std::size_t i = stations_.back().point + 1; i % n != next.point && !questions_.end();
-         ++i) {
+    const std::size_t first = stations_.back().before + 1;
+    std::size_t count = (next.before + (next.between ? 1 : 0) + 2 * n - first) % n;
+    if (count == 0 && next.between && stations_.size() == 1) count = n;  // around to its one corner
+    for (std::size_t i = first; i < first + count && !questions_.end(); ++i) {
       if (i >= n && !contour_.closed) return;
       const Station foot = foot_of(i % n, next);
       if (ahead(stations_.back(), foot) && ahead(foot, next)) stations_.push_back(foot);
@@ -69,7 +77,7 @@ class Stations {
       const double away = norm(evaluate(near, t).point);
       if (away < least) {
         least = away;
-        best = {point, k, t};
+        best = {point, k, t, false};
       } else if (away > kPassed * least) {
         break;
       }
@@ -107,7 +115,8 @@ std::vector<Part> parts_of(const Contour& contour, Watch* watch) {
   const std::vector<Station> stations = Stations(contour, watch).run();
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
     const Station &a = stations[k], &b = stations[k + 1];
-    Part part{a.point, b.point, a.piece, b.piece, a.t, b.t};
+    const std::size_t from = a.between ? (a.before + 1) % contour.points.size() : a.before;
+    Part part{from, b.before, a.piece, b.piece, a.t, b.t};
     if (part.t1 == 0.0) {  // at the end of the piece before
       --part.last_piece;
       part.t1 = 1.0;

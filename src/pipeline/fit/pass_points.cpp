@@ -18,9 +18,20 @@ constexpr double kLeastStep = 0.02;
 
 }  // namespace
 
+std::vector<std::size_t> places_of(const std::vector<std::size_t>& order) {
+  std::vector<std::size_t> out(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) out[order[k]] = k;
+  return out;
+}
+
 PassingChain::PassingChain(const SeriesChain& chain, const Contour& spirals,
-                           const std::vector<Vec2>& points)
-    : chain_(chain), spirals_(spirals), points_(points), places_(chain.links.size()) {
+                           const std::vector<Vec2>& points, const std::vector<std::size_t>& order)
+    : chain_(chain),
+      spirals_(spirals),
+      points_(points),
+      order_(order),
+      place_(places_of(order)),
+      places_(chain.links.size()) {
   std::size_t piece = 0;
   for (std::size_t i = 0; i < chain.links.size(); ++i) {
     while (piece < spirals.pieces.size() &&
@@ -38,10 +49,11 @@ bool PassingChain::pass(const std::vector<double>& excess) {
   std::size_t begun = 0;  // the first link behind a point
   for (std::size_t k = 1; k < chain_.elements.size(); ++k) {
     if (!chain_.source[k]) continue;
-    const std::size_t from = *chain_.source[begun], over = (*chain_.source[k] + n - from) % n;
+    const std::size_t from = place_[*chain_.source[begun]],
+                      over = (place_[*chain_.source[k]] + n - from) % n;
     std::size_t worst = n;
     for (std::size_t i = 1; i < (over > 0 ? over : n); ++i) {
-      const std::size_t at = (from + i) % n;
+      const std::size_t at = order_[(from + i) % n];
       if (excess[at] > 0.0 && (worst == n || excess[at] > excess[worst])) worst = at;
     }
     for (std::size_t link = begun; worst < n && link < k; ++link) {

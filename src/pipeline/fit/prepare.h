@@ -49,10 +49,20 @@ struct Prepared {
   /// the line or arc that it is. Empty without any.
   std::vector<Vec2> placed{};
   std::vector<std::optional<WholePiece>> whole{};
+  /// Corners that lie between two measured points stand behind all of these in `points`: of each
+  /// the measured point before it. `split` has them in their places.
+  std::vector<std::size_t> after{};
   std::vector<std::string> warnings;
   std::string polygon;  ///< what is said when the points may be corners of a polygon; mostly empty
 
   [[nodiscard]] bool exact() const { return tolerance.empty(); }
+  /// How many points were measured: the first ones.
+  [[nodiscard]] std::size_t measured() const { return points.size() - after.size(); }
+  [[nodiscard]] bool is_between(std::size_t i) const { return i >= measured(); }
+  /// The measured point that a point is, or that lies before a corner between two.
+  [[nodiscard]] std::size_t named(std::size_t i) const {
+    return is_between(i) ? after[i - measured()] : i;
+  }
   /// The line or arc that a section is.
   [[nodiscard]] std::optional<WholePiece> whole_of(const Section& section) const {
     for (std::size_t k = 0; k < whole.size(); ++k) {

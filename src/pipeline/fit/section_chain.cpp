@@ -131,8 +131,11 @@ class SectionChooser {
 
  private:
   [[nodiscard]] Error in_whole_series(const Error& error) const {
-    return renumbered(error, [this](std::size_t i) { return index_[i % index_.size()]; });
+    return renumbered(error, [this](std::size_t i) { return told(index_[i % index_.size()]); });
   }
+
+  /// The measured point by which one is told.
+  [[nodiscard]] std::size_t told(std::size_t i) const { return series_.named(i); }
 
   /// The fairest chain with the data that are given or held, inside their ranges: what leaves its
   /// range is held at the end that it passed, until nothing does. Where that leads nowhere, the
@@ -383,18 +386,19 @@ class SectionChooser {
     return std::pair(index_[(k + n - 1) % n], index_[(k + 1) % n]);
   }
 
-  static std::string range(const SeriesChain& chain, const WanderingPart& part) {
-    return fmt::format("{} to {}", *chain.source[part.first] + 1, *chain.source[part.last] + 1);
+  [[nodiscard]] std::string range(const SeriesChain& chain, const WanderingPart& part) const {
+    return fmt::format("{} to {}", told(*chain.source[part.first]) + 1,
+                       told(*chain.source[part.last]) + 1);
   }
 
-  static Error swings_out(const SeriesChain& chain, const WanderingPart& worst) {
+  [[nodiscard]] Error swings_out(const SeriesChain& chain, const WanderingPart& worst) const {
     return error(ErrorCode::kWanders,
                  fmt::format(
                      "the contour would swing out by {:.0f} degrees more than the points ask for",
                      worst.beyond / kOneDegree))
         .where("points " + range(chain, worst))
         .hint("mark corners there, or put points between them")
-        .point(*chain.source[worst.first])
+        .point(told(*chain.source[worst.first]))
         .value(worst.beyond);
   }
 
@@ -409,7 +413,7 @@ class SectionChooser {
   }
 
   /// Where the points leave open what the contour does.
-  static void tell_guessed(SectionChain& best, const Wandering& found) {
+  void tell_guessed(SectionChain& best, const Wandering& found) const {
     for (std::size_t k = 0; k < std::min(found.guessed.size(), kMostGuesses); ++k) {
       best.warnings.push_back(fmt::format(
           "the points leave open what the contour does over the long chord from point {}: it "
@@ -450,6 +454,8 @@ class SectionChooser {
                                      const std::vector<std::size_t>& whole) {
     const auto analysis = analyse(points);
     OBVID_TRY(analysis);
+    std::vector<std::size_t> names;
+    for (const std::size_t i : whole) names.push_back(told(i));
     auto chain = form_elements(points, *analysis, constraints, watch_);
     if (!moves_ && constraints.to_the_edge && !constraints.central) {
       if (auto found = at_the_edge(points, *analysis, constraints, chain)) {
@@ -458,7 +464,7 @@ class SectionChooser {
       }
     }
     if (chain || moves_) {
-      if (chain) tell(warn(*analysis, *chain, whole));
+      if (chain) tell(warn(*analysis, *chain, names));
       return chain;
     }
     // where the points alone have a curve, it is the given data that are in the way: more vertices
@@ -466,7 +472,7 @@ class SectionChooser {
     if (chain.error().code == ErrorCode::kFixedDataContradict) return chain;
     auto mended = with_more_vertices(points, *analysis, constraints, watch_);
     if (!mended || bends_back(*mended)) return chain;
-    tell(warn(*analysis, *mended, whole));
+    tell(warn(*analysis, *mended, names));
     return mended;
   }
 
@@ -680,18 +686,18 @@ class SectionChooser {
            between <= faired.primitives - (loop_ ? 0 : 1);
   }
 
-  /// Where the points mean lines and arcs alone and `chain` has fewer of them, the one that keeps
-  /// these takes its place. What they mean, if that is more than was found.
+  /// Where the points mean lines and arcs alone and another chain has more of their points on them,
+  /// that one takes the place of `chain`. What they mean.
   std::vector<MeantPiece> keep_meant(MeasuredSeries measured, const std::vector<std::size_t>& whole,
                                      std::optional<SeriesChain>& chain, FairedSeries& faired) {
     if (goes_on_ || series_.part < 1.0) return {};
-    const auto had = static_cast<std::size_t>(chain ? faired.primitives : 0);
     measured.loose.clear();
     measured.meant = aligned_lines(measured, middle_deviation(series_.points), watch_);
-    if (measured.meant.size() <= had) return {};
+    const std::size_t had = chain ? points_kept(faired, measured.meant) : 0;
+    if (measured.meant.empty()) return {};
     FairedSeries more;
     auto other = runs_of_least_bends(measured, whole, more);
-    if (other && static_cast<std::size_t>(more.primitives) > had) {
+    if (other && points_kept(more, measured.meant) > had) {
       chain = std::move(other);
       faired = std::move(more);
     }
@@ -746,9 +752,7 @@ class SectionChooser {
   }
 
   void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {
-    const std::string missing = meant.size() > static_cast<std::size_t>(faired.primitives)
-                                    ? missing_text(faired, meant)
-                                    : std::string{};
+    const std::string missing = missing_text(faired, meant);
     if (!missing.empty()) {
       out_.warnings.push_back(missing + strays_text());
     } else if (meant.empty() && faired.given_up > 0) {
@@ -772,7 +776,7 @@ class SectionChooser {
     const auto& all = strays->points;
     std::string named;
     for (std::size_t k = 0; k < std::min(all.size(), kMostNamed); ++k) {
-      named += fmt::format("{}{}", k > 0 ? ", " : "", index_[all[k].index] + 1);
+      named += fmt::format("{}{}", k > 0 ? ", " : "", told(index_[all[k].index]) + 1);
     }
     const bool one = all.size() == 1;
     return fmt::format("; {} {}{} off the curve of {} neighbours: --drop-outliers leaves {} out",
@@ -789,12 +793,12 @@ class SectionChooser {
     std::string missing;
     const std::size_t n = points_.size();
     for (const MeantPiece& m : meant) {
-      if (is_on_primitive(faired, (m.first + (m.last - m.first) / 2) % n)) continue;
+      if (2 * points_kept(faired, {m}) > m.last - m.first) continue;
       missing += fmt::format("{}{} (points {}-{})", missing.empty() ? "" : ", ",
                              m.middle.kappa == 0.0 ? std::string("a line")
                                                    : fmt::format("an arc of radius {:.4g}",
                                                                  std::abs(1.0 / m.middle.kappa)),
-                             index_[m.first % n] + 1, index_[m.last % n] + 1);
+                             told(index_[m.first % n]) + 1, told(index_[m.last % n]) + 1);
     }
     if (missing.empty()) return {};
     const MeantPiece& first = meant.front();
@@ -806,6 +810,18 @@ class SectionChooser {
                           : "none that has all points within their tolerances was found")
             : "no transitions beside them were found that stay within the tolerance; `obvid "
               "alignment` has them, with steps of the curvature");
+  }
+
+  /// Points of lines and arcs that are meant which lie on one of the contour.
+  [[nodiscard]] std::size_t points_kept(const FairedSeries& faired,
+                                        const std::vector<MeantPiece>& meant) const {
+    std::size_t count = 0;
+    for (const MeantPiece& m : meant) {
+      for (std::size_t i = m.first; i <= m.last; ++i) {
+        count += is_on_primitive(faired, i % points_.size()) ? 1 : 0;
+      }
+    }
+    return count;
   }
 
   /// Whether point i lies between the first and last point of a line or arc of the contour.

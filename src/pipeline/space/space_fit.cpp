@@ -272,6 +272,7 @@ class SpatialForming {
     const PlaneRounding rounding = rounding_in(out.frame, series_.rounding);
     PointSeries plan = flat_series(series_, out.frame, job_, ends_);
     FitJob plan_job = job_.fit;
+    plan_job.corners_between = false;  // no height stands there
     // both parts move a point: together no further than the noise
     if (plan_job.noise) plan_job.noise = std::numbers::sqrt2 / 2.0 * *plan_job.noise;
     // what ends elsewhere is open, also where its projection returns
@@ -409,6 +410,7 @@ Result<SpaceFit> planar_fit(const SpaceSeries& series, const SpaceJob& job, cons
   out.flatness = flatness;
   const PointSeries flat = flat_series(series, frame, job, ends);
   FitJob plane_job = job.fit;
+  plane_job.corners_between = false;
   const bool line = flat.points.size() == 2 && (ends.first_is_corner || ends.last_is_corner);
   if (line) {
     plane_job.start_heading = plane_job.end_heading = heading(flat.points[1] - flat.points[0]);

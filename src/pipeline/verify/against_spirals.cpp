@@ -21,7 +21,7 @@ std::vector<CurvePoint> sample_points(const Contour& contour, Watch& watch) {
   out.reserve(contour.pieces.size() * static_cast<std::size_t>(each) + 1);
   for (std::size_t k = 0; k < contour.pieces.size() && !watch.cancelled(); ++k) {
     const Piece& piece = contour.pieces[k];
-    out.push_back({start_point(piece), contour.joints[k].source});
+    out.push_back({start_point(piece), station_of(contour, k)});
     for (int i = 1; i < each; ++i) {
       out.push_back({evaluate(piece, static_cast<double>(i) / each).point, std::nullopt});
     }

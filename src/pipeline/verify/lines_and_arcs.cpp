@@ -91,10 +91,12 @@ class Stretches {
     std::optional<std::size_t> from, to;
     const auto take = [&](std::size_t joint) {
       const auto source = c_.joints[joint].source;
-      if (!source) return;
-      (from ? to : from) = source;
+      const auto place = source ? source : c_.joints[joint].after;
+      if (!place) return;
+      (from ? to : from) = place;
     };
     take(first);
+    if (from && !c_.joints[first].source) from = (*from + 1) % c_.points.size();
     std::size_t longest = first;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t piece = (first + k) % pieces_;

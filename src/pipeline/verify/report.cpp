@@ -296,8 +296,10 @@ void forget_around(const std::vector<int>& direction, const std::vector<double>&
 std::vector<std::vector<std::size_t>> sections_of(const Contour& contour) {
   const std::size_t n = contour.points.size();
   std::vector<std::size_t> cuts;
+  std::vector<bool> between(n, false);  // behind these
   for (const Joint& joint : contour.joints) {
-    if (joint.leaving && joint.source) cuts.push_back(*joint.source);
+    if (joint.leaving && is_station(joint)) cuts.push_back(joint.source.value_or(*joint.after));
+    if (!joint.source && joint.after) between[*joint.after] = true;
   }
   for (const std::size_t i : contour.kept) {  // both ends
     for (const std::size_t j : {i, (i + 1) % contour.joints.size()}) {
@@ -316,7 +318,8 @@ std::vector<std::vector<std::size_t>> sections_of(const Contour& contour) {
   std::vector<std::vector<std::size_t>> out;
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
     out.emplace_back();
-    for (std::size_t i = cuts[k]; i <= cuts[k + 1]; ++i) out.back().push_back(i % n);
+    const std::size_t first = cuts[k] + (between[cuts[k] % n] ? 1 : 0);
+    for (std::size_t i = first; i <= cuts[k + 1]; ++i) out.back().push_back(i % n);
   }
   return out;
 }
