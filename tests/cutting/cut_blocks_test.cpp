@@ -18,7 +18,7 @@ using Kind = CutBlock::Kind;
 
 constexpr double kStraight = std::numbers::pi;
 constexpr double kRound = 10.0;
-constexpr double kRounding = 1e-11;  // of lengths: rounding
+constexpr double kBlockRounding = 1e-11;  // of lengths: rounding
 
 Track track_of(ArcPath axis, CutSide side) {
   Track track;
@@ -119,14 +119,14 @@ TEST(RampsAroundAClosedPath, FallByTheirAngleAndAreFollowedByOneLevelTurn) {
         EXPECT_NEAR(std::atan(cut.fall()) * 180.0 / kStraight, degrees, 1e-7);
       }
       EXPECT_EQ(deepest, -6.0);
-      EXPECT_NEAR(level, 3.0 * perimeter, kRounding * perimeter);
+      EXPECT_NEAR(level, 3.0 * perimeter, kBlockRounding * perimeter);
       const double ramps = 6.0 / std::tan(degrees * kStraight / 180.0);
       EXPECT_NEAR(length_of_cuts(cuts), ramps + 3.0 * perimeter,
-                  kRounding * (ramps + 3.0 * perimeter));
+                  kBlockRounding * (ramps + 3.0 * perimeter));
       // each begins where the last one ended
       for (std::size_t i = 1; i < cuts.size(); ++i) {
         EXPECT_NEAR(norm(start_point(cuts[i].block.piece) - end_point(cuts[i - 1].block.piece)),
-                    0.0, kRounding * perimeter);
+                    0.0, kBlockRounding * perimeter);
       }
     }
   }
@@ -145,7 +145,7 @@ TEST(RampsAlongAnOpenPath, GoToAndFroAndEndWithALevelLeg) {
   const double lengths[] = {30.0, 30.0, 20.0, 10.0, 30.0};
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_NEAR(cuts[i].block.z, ends[i], 1e-12);
-    EXPECT_NEAR(cuts[i].length(), lengths[i], kRounding * kLength);
+    EXPECT_NEAR(cuts[i].length(), lengths[i], kBlockRounding * kLength);
   }
 }
 
@@ -208,7 +208,7 @@ TEST(Tabs, LeaveBridgesOfTheirWidth) {
     // gaps that are no lines are widened by steps of 1 %
     EXPECT_GE(over, count * expected * (1.0 - 1e-9));
     EXPECT_LE(over, count * expected * 1.0100001);
-    EXPECT_NEAR(over + at_bottom, length_of(axis), kRounding * length_of(axis));
+    EXPECT_NEAR(over + at_bottom, length_of(axis), kBlockRounding * length_of(axis));
   }
   rules.tabs.count = 4;
   // a chord of 8 is longer than any on a circle of radius 3
@@ -239,16 +239,16 @@ TEST(Leads, AreQuarterCirclesTangentToTheWay) {
     const Vec2 start = start_point(visit.path.pieces.front());
     const double along = heading_at_start(visit.path.pieces.front());
     for (const ArcPiece& lead : {*visit.lead_in, *visit.lead_out}) {
-      EXPECT_NEAR(lead.length, 0.5 * kStraight * kLead, kRounding);
-      EXPECT_NEAR(std::abs(lead.kappa), 1.0 / kLead, kRounding);
-      EXPECT_NEAR(norm(lead.end - lead.start), std::numbers::sqrt2 * kLead, kRounding);
+      EXPECT_NEAR(lead.length, 0.5 * kStraight * kLead, kBlockRounding);
+      EXPECT_NEAR(std::abs(lead.kappa), 1.0 / kLead, kBlockRounding);
+      EXPECT_NEAR(norm(lead.end - lead.start), std::numbers::sqrt2 * kLead, kBlockRounding);
     }
-    EXPECT_NEAR(norm(visit.lead_in->end - start), 0.0, kRounding);
-    EXPECT_NEAR(norm(visit.lead_out->start - start), 0.0, kRounding);
+    EXPECT_NEAR(norm(visit.lead_in->end - start), 0.0, kBlockRounding);
+    EXPECT_NEAR(norm(visit.lead_out->start - start), 0.0, kBlockRounding);
     EXPECT_NEAR(std::remainder(heading_at_end(*visit.lead_in) - along, 2.0 * kStraight), 0.0,
-                kRounding);
+                kBlockRounding);
     EXPECT_NEAR(std::remainder(heading_at_start(*visit.lead_out) - along, 2.0 * kStraight), 0.0,
-                kRounding);
+                kBlockRounding);
     // the centre lies inside, 8 from the middle; the far ends 2 from it, along the way
     const double far = std::hypot(kRound - kLead, kLead);
     EXPECT_NEAR(norm(visit.lead_in->start), far, 1e-9);

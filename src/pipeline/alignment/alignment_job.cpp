@@ -215,7 +215,7 @@ enum class Ends {
 /// series to its start.
 bool goes_on(const std::vector<Vec2>& points, double reach) {
   constexpr double kFar = 4.0;  // reaches: chords from there show where a curve goes
-  constexpr double kMostTurn = std::numbers::pi / 3;
+  constexpr double kTurnWhereItCloses = std::numbers::pi / 3;
   const auto far_from = [&](Vec2 end, bool forwards) {
     const std::size_t n = points.size();
     for (std::size_t i = 0; i < n / 2; ++i) {
@@ -226,12 +226,12 @@ bool goes_on(const std::vector<Vec2>& points, double reach) {
   };
   const Vec2 in = points.back() - far_from(points.back(), false);
   const Vec2 out = far_from(points.front(), true) - points.front();
-  return std::abs(turning(in, out)) <= kMostTurn;
+  return std::abs(turning(in, out)) <= kTurnWhereItCloses;
 }
 
 /// Ends that meet as those of fits, where a loop makes sense: their gap is like those of neighbours
 /// or small against the length, the tolerances are too, and the curve goes on there.
-Ends ends_of(const std::vector<Vec2>& points, const std::vector<double>& tolerance) {
+Ends how_ends_meet(const std::vector<Vec2>& points, const std::vector<double>& tolerance) {
   constexpr double kNeighbours = 2.0;    // middle chords
   constexpr double kOfLength = 0.025;    // of the whole
   constexpr double kLeastLength = 10.0;  // of the whole, in tolerances of both ends
@@ -283,7 +283,7 @@ Result<Alignment> found_alignment(PointSeries& series, std::vector<double>& tole
     limits.closed = job.closing == Closing::kClosed;
     return fit_alignment(series.points, tolerance, limits, run);
   }
-  const Ends ends = ends_of(series.points, tolerance);
+  const Ends ends = how_ends_meet(series.points, tolerance);
   limits.closed = false;
   if (ends == Ends::kApart) {
     auto hint = pipeline_detail::hint_at_closing(series.points, series.units);
