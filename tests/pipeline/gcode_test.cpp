@@ -530,7 +530,7 @@ TEST(Gcode, ProgramsHaveTheFormOfTheirControllers) {
             std::string::npos)
       << grbl;
   EXPECT_NE(grbl.find("G0 Z5.000\nM2\n"), std::string::npos);
-  EXPECT_NE(grbl.find("a nested 100 name)"), std::string::npos);
+  EXPECT_NE(grbl.find("a nested 100 nameae)"), std::string::npos);
   options.controller = GcodeController::kFanuc;
   const std::string fanuc = gcode_text(three_quarters(5.0), options)->text;
   EXPECT_EQ(fanuc.substr(0, 8), "%\nO0001\n");
