@@ -23,8 +23,12 @@ std::string significant(double value, int digits) {
 std::string significant_above(double bound, int digits) {
   std::string text = significant(bound, digits);
   if (!(bound > 0.0) || !std::isfinite(bound) || std::stod(text) >= bound) return text;
-  const double unit = std::pow(10.0, std::floor(std::log10(bound)) - digits + 1);
-  return significant(bound + unit / 2.0, digits);
+  // by a unit of the last digit that is shown, which is more of them than asked for above them
+  const std::size_t power = text.find('e'), point = text.find('.');
+  const std::size_t end = std::min(power, text.size());
+  const auto decimals = point < end ? static_cast<int>(end - point) - 1 : 0;
+  const int exponent = power < text.size() ? std::stoi(text.substr(power + 1)) : 0;
+  return significant(std::stod(text) + std::pow(10.0, exponent - decimals), digits);
 }
 
 std::string counted(std::size_t count, const char* one, const char* many) {

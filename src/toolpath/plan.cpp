@@ -452,7 +452,9 @@ Result<Toolpath> planned(const SurfaceModel& model, const ToolpathOptions& optio
     const auto append = [&](const Family& more) {
       all.insert(all.end(), more.begin(), more.end());
     };
-    if (left != nullptr || all_added > 0) {
+    // fronts need no links along their rails; passes cut short by what was added lie anywhere
+    const bool scattered = all_added > 0 && options.strategy == ToolpathStrategy::kConstantScallop;
+    if (left != nullptr || scattered) {
       append(in_short_order(*family, !options.one_way));
     } else {
       append(*family);

@@ -35,6 +35,8 @@ TEST(Figures, BoundsAreNeverPrintedBelowThemselvesAndHardlyAbove) {
   }
   EXPECT_EQ(significant_above(0.25, 3), "0.250");
   EXPECT_EQ(significant_above(0.99991, 3), "1.000");
+  EXPECT_EQ(significant_above(115790.1, 2), "115791");
+  EXPECT_EQ(significant_above(1.001e-7, 3), "1.01e-07");
   EXPECT_EQ(significant_above(0.0, 3), "0");
 }
 

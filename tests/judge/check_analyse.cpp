@@ -33,6 +33,13 @@ class AnalyseCheck {
                           kSameFigure * std::abs(kappa_.back()));
       turning_.push_back(std::atan2(cross(a, b), dot(a, b)));
     }
+    Real size = 0.0L;
+    for (const Vec& p : p_) size = std::max(size, norm(p));  // at least half of the size
+    constexpr Real kNothing = 1e-9L;
+    const Real digit = rounding_of(input.points);  // of both coordinates
+    straight_ = input.placed
+                    ? HUGE_VALL
+                    : std::max(2.0L * kNothing * size, 2.0L * std::numbers::sqrt2_v<Real> * digit);
   }
 
   void json(const Json& json) {
@@ -179,6 +186,12 @@ class AnalyseCheck {
          "");
   }
 
+  /// Of an arc of that curvature as long as both chords at a point.
+  [[nodiscard]] Real height_over_chord(std::size_t i, Real kappa) const {
+    const Real length = norm(p_[i] - p_[i - 1]) + norm(p_[i + 1] - p_[i]);
+    return kappa * length * length / 8.0L;
+  }
+
   void printed(const std::string& what, const std::string& text, std::optional<double> value) {
     sheet_.expect(prints(text, value), "text: analyse " + what, text,
                   value ? shown(*value) : std::string("-"), "");
@@ -195,9 +208,11 @@ class AnalyseCheck {
     if (i >= points.size() || words.size() < 3) return sheet_.unjudged("text: analyse", "row");
     if (i > 0 && i + 1 < points.size()) {
       const double kappa = figure(points[i], "kappa").value.value_or(0.0);
-      if (kappa == 0.0) {
-        sheet_.expect(words[1] == "straight", "text: analyse radius", words[1],
-                      std::string("straight"), "");
+      const bool straight = words[1] == "straight";
+      if (kappa == 0.0 || straight) {
+        const Real height = std::abs(height_over_chord(i, kappa));
+        sheet_.expect(straight && height <= straight_ * (1.0L + 1e-6L), "text: analyse radius",
+                      words[1], straight ? shown(static_cast<double>(height)) : "straight", "");
       } else {
         printed("radius", words[1], 1.0 / kappa);
       }
@@ -222,7 +237,9 @@ class AnalyseCheck {
     const std::string key = fact->label + ": " + s.shape;
     if (key == "size: # U") {
       printed("size", s.figures[0], figure(json, "size").value);
-    } else if (key == "vertices: # (curvature extrema, at least # unless a curve winds between the point)") {
+    } else if (key ==
+               "vertices: # (curvature extrema, at least # unless a curve winds between the "
+               "point)") {
       printed("vertices", s.figures[0], figure(json, "vertices").value);
       printed("vertices bound", s.figures[1], figure(json, "vertices_lower_bound").value);
     } else if (key == "inflections: # (at least # unless a curve winds between the point)") {
@@ -253,6 +270,7 @@ class AnalyseCheck {
   std::string unit_;
   std::vector<Vec> p_;
   std::vector<Real> kappa_, rounding_, turning_;
+  Real straight_ = 0.0L;  ///< height over a chord that is called straight
   Real coordinate_ = 0.0L;
 };
 

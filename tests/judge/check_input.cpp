@@ -11,6 +11,21 @@
 #include "checks.h"
 
 namespace judge {
+
+double rounding_of(const std::vector<GivenPoint>& points) {
+  constexpr int kMostDecimals = 15;
+  for (int decimals = 0; decimals < kMostDecimals; ++decimals) {
+    const auto shows = [decimals](double x) {
+      return std::strtod(fmt::format("{:.{}f}", x, decimals).c_str(), nullptr) == x;
+    };
+    if (std::all_of(points.begin(), points.end(),
+                    [&](const GivenPoint& p) { return shows(p.point.x) && shows(p.point.y); })) {
+      return 0.5 * std::pow(10.0, -decimals);
+    }
+  }
+  return 0.0;
+}
+
 namespace {
 
 constexpr double kGivenHeading = 1e-6;      // rad (docs/claims.md)
@@ -25,21 +40,6 @@ struct Expected {
 
 double reach_of(const GivenPoint& p, const Input& input) {
   return p.tolerance.value_or(input.noise.value_or(0.0));
-}
-
-/// Half a unit of the last decimal that any coordinate of the points shows.
-double rounding_of(const std::vector<GivenPoint>& points) {
-  constexpr int kMostDecimals = 15;
-  for (int decimals = 0; decimals < kMostDecimals; ++decimals) {
-    const auto shows = [decimals](double x) {
-      return std::strtod(fmt::format("{:.{}f}", x, decimals).c_str(), nullptr) == x;
-    };
-    if (std::all_of(points.begin(), points.end(),
-                    [&](const GivenPoint& p) { return shows(p.point.x) && shows(p.point.y); })) {
-      return 0.5 * std::pow(10.0, -decimals);
-    }
-  }
-  return 0.0;
 }
 
 /// Where the ends are as far apart as their tolerances reach, to the last digits, rounding decides.
