@@ -315,7 +315,7 @@ def main():
         report, _, said = program(binary, folder, "--scallop", 0.1, "--one-way", "--ramp", 0.05, "--ramp-height", 3)
         told = report["entries"]
         assert told["straight"] == 0 and abs(told["steepest"] - math.degrees(math.atan(3 / (40 * 6)))) < 1e-3, told
-        assert "at up to 0.716 degrees" in said and "where 0.05 were asked for" in said, said
+        assert "at up to 0.717 degrees" in said and "where 0.05 were asked for" in said, said
         for wrong in (["--acceleration", "1e-300"], ["--ramp", "0"], ["--ramp", "90"], ["--entry", "spiral"], ["--ramp-height", "2"],
                       ["--ramp", "5", "--ramp-height", "0"], ["--strategy", "rough", "--ramp-height", "2"]):
             refused(binary, folder, *wrong)
