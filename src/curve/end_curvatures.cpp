@@ -94,9 +94,9 @@ Leg weighted_leg(const WeightedPoint& from, const WeightedPoint& to) {
   return {from.w * to.x - to.w * from.x, from.w * to.y - to.w * from.y};
 }
 
-/// Curvature at t < 1: that of the first end of the part behind t, whose control points the
+/// Curvature at t <= 1/2: that of the first end of the part behind t, whose control points the
 /// algorithm of de Casteljau leaves, in some 106 bits. Nothing where that end has no tangent.
-std::optional<double> inner_curvature(const RationalBezier& piece, double t) {
+std::optional<double> curvature_of_rest(const RationalBezier& piece, double t) {
   std::array<WeightedPoint, kMaxBezierDegree + 1> net{};
   const auto degree = static_cast<std::size_t>(piece.degree);
   for (std::size_t j = 0; j <= degree; ++j) {
@@ -116,6 +116,17 @@ std::optional<double> inner_curvature(const RationalBezier& piece, double t) {
   const double area =
       cross(first, weighted_leg(net[0], net[2])).hi / length * weight / length * weight;
   return (n - 1.0) / n * area / length;
+}
+
+/// The same anywhere, by the longer of both parts: a short one has lost its digits.
+std::optional<double> inner_curvature(const RationalBezier& piece, double t) {
+  if (t <= 0.5) return curvature_of_rest(piece, t);
+  RationalBezier back = piece;
+  const auto end = piece.degree + 1;
+  std::reverse(back.offset.begin(), back.offset.begin() + end);
+  std::reverse(back.weight.begin(), back.weight.begin() + end);
+  const auto found = curvature_of_rest(back, 1.0 - t);
+  return found ? std::optional(-*found) : std::nullopt;
 }
 
 double spacing(double x, double size) {
