@@ -36,7 +36,11 @@ class AnalyseCheck {
     Real size = 0.0L;
     for (const Vec& p : p_) size = std::max(size, norm(p));  // at least half of the size
     constexpr Real kNothing = 1e-9L;
-    const Real digit = rounding_of(input.points);  // of both coordinates
+    // each coordinate has digits of its own
+    std::vector<GivenPoint> along = input.points, up = input.points;
+    for (GivenPoint& p : along) p.point.y = 0.0;
+    for (GivenPoint& p : up) p.point.x = 0.0;
+    const Real digit = std::max(rounding_of(along), rounding_of(up));
     straight_ = input.placed
                     ? HUGE_VALL
                     : std::max(2.0L * kNothing * size, 2.0L * std::numbers::sqrt2_v<Real> * digit);
