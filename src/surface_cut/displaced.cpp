@@ -73,18 +73,10 @@ class PatchIntegrals {
   /// A cell in which the branch is a function of one parameter: below it, or above.
   void take_cut(const SectionCell& cell, bool over_u, Range u, Range v) {
     const Range along = over_u ? u : v, across = over_u ? v : u;
-    std::vector<double> ends{0.0, 1.0};
-    for (const std::size_t side :
-         over_u ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{0, 1}) {
-      for (const double t : sign_changes(side_of(cell, patch_.u.degree, patch_.v.degree, side))) {
-        ends.push_back(t);
-      }
-    }
-    std::sort(ends.begin(), ends.end());
-    Strand strand;
-    strand.over_u = over_u;
-    strand.least = across.from;
-    strand.most = across.to;
+    const StrandOfCell found =
+        strand_of_cell(cell, patch_.u.degree, patch_.v.degree, over_u, across);
+    const Strand& strand = found.strand;
+    const std::vector<double>& ends = found.cuts;
     const auto below = [&](double t, double other) {
       const SurfaceJet jet =
           over_u ? evaluate(*patch_.surface, t, other) : evaluate(*patch_.surface, other, t);

@@ -120,6 +120,23 @@ class StrandFinder {
 
 }  // namespace
 
+StrandOfCell strand_of_cell(const SectionCell& cell, int degree_u, int degree_v, bool over_u,
+                            Range across) {
+  StrandOfCell out;
+  out.strand.over_u = over_u;
+  out.strand.least = across.from;
+  out.strand.most = across.to;
+  out.cuts = {0.0, 1.0};
+  for (const std::size_t side :
+       over_u ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{0, 1}) {
+    for (const double t : sign_changes(side_of(cell, degree_u, degree_v, side))) {
+      out.cuts.push_back(t);
+    }
+  }
+  std::sort(out.cuts.begin(), out.cuts.end());
+  return out;
+}
+
 Result<PatchStrands> strands_of(const CutPatch& patch, std::size_t number, const CutPlane& plane,
                                 double noise, const RunContext& run) {
   StrandFinder finder(patch, number);

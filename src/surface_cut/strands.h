@@ -27,6 +27,16 @@ struct Strand {
   double least = 0.0, most = 0.0;  ///< range of the other parameter in its cell
 };
 
+/// A strand that runs across a cell, by what the cell says of it.
+struct StrandOfCell {
+  Strand strand;             ///< without patch and ends
+  std::vector<double> cuts;  ///< shares of the cell along it, 0 and 1 among them, ascending:
+                             ///< between two of them the branch is there all along, or nowhere
+};
+/// `across`: range of the other parameter in the cell; degrees as of `side_of`.
+[[nodiscard]] StrandOfCell strand_of_cell(const SectionCell& cell, int degree_u, int degree_v,
+                                          bool over_u, Range across);
+
 /// Ends of strands by number: 2 * strand + 0 or 1.
 using EndNumber = std::size_t;
 inline constexpr EndNumber kNoEnd = static_cast<EndNumber>(-1);

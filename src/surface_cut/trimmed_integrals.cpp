@@ -147,18 +147,9 @@ void TrimmedIntegrals::around(Range u, Range v) {
 
 void TrimmedIntegrals::along_waterline(const SectionCell& cell, bool over_u, Range u, Range v) {
   const Range range = over_u ? u : v, other = over_u ? v : u;
-  std::vector<double> ends{0.0, 1.0};
-  for (const std::size_t side :
-       over_u ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{0, 1}) {
-    for (const double t : sign_changes(side_of(cell, cut_.u.degree, cut_.v.degree, side))) {
-      ends.push_back(t);
-    }
-  }
-  std::sort(ends.begin(), ends.end());
-  Strand strand;
-  strand.over_u = over_u;
-  strand.least = other.from;
-  strand.most = other.to;
+  const StrandOfCell found = strand_of_cell(cell, cut_.u.degree, cut_.v.degree, over_u, other);
+  const Strand& strand = found.strand;
+  const std::vector<double>& ends = found.cuts;
   const auto place = [&](double t, double at) { return over_u ? Vec2{t, at} : Vec2{at, t}; };
   const Path path = [&](double t) {
     const SectionPoint root = foot_.on_strand(cut_, strand, t, 0.5 * (strand.least + strand.most));

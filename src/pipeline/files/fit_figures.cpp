@@ -168,8 +168,8 @@ std::string corners_between_text(const Contour& contour) {
 
 }  // namespace
 
-std::string known_length(double value, const std::string& unit) {
-  return std::isnan(value) ? "unknown" : significant(value, 4) + " " + unit;
+std::string known_length(double value, const std::string& unit, int digits) {
+  return std::isnan(value) ? "unknown" : significant(value, digits) + " " + unit;
 }
 
 std::string points_of_segment(const SegmentReport& segment) {

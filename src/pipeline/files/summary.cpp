@@ -10,6 +10,7 @@
 #include "obvid/core/internal/figures.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/picture/internal/joints_claim.h"
+#include "obvid/pipeline/internal/fit_figures.h"
 
 namespace obvid {
 namespace {
@@ -26,12 +27,6 @@ SummaryCell with_bound(const char* name, int count, int bound, const char* one, 
           fmt::format("{} ({})", counted(static_cast<std::size_t>(count), one, many),
                       short_bound_text(bound)),
           std::to_string(count)};
-}
-
-/// A length, or that it is not known.
-std::string known(double length, const std::string& unit) {
-  if (std::isnan(length)) return "unknown";
-  return fmt::format("{} {}", significant(length, kErrorDigits), unit);
 }
 
 SummaryCell bound_cell(const char* name, int bound) { return {name, "", std::to_string(bound)}; }
@@ -90,7 +85,7 @@ std::vector<SummaryCell> summary_cells(const Fit& fit) {
                ? fmt::format("moves up to {} {}", significant(r.largest_move, kErrorDigits), unit)
                : "",
            csv_cell(r.largest_move)},
-          {"largest_error", "error " + known(r.largest_deviation, unit),
+          {"largest_error", "error " + known_length(r.largest_deviation, unit, kErrorDigits),
            csv_cell(r.largest_deviation)}};
 }
 

@@ -124,19 +124,8 @@ class CornersBetween {
     const std::size_t after = std::min({count, room(next(gap), true, count), n - before});
     const ShapePoints points = points_from((gap + n + 1 - before) % n, before + after);
     if (points.at.size() < kFewestOfLine) return true;
-    if (is_near_circle(points)) return true;
+    if (are_near_circle_of_squares(points.at, points.reach)) return true;  // at once, most gaps
     return shape_within(points, false) || shape_within(points, true);
-  }
-
-  /// At once, for most gaps.
-  static bool is_near_circle(const ShapePoints& points) {
-    const auto circle = circle_of_squares(points.at);
-    if (!circle) return false;
-    for (std::size_t i = 0; i < points.at.size(); ++i) {
-      const double away = norm(points.at[i] - circle->centre) - circle->radius;
-      if (!(std::abs(away) <= points.reach[i])) return false;
-    }
-    return true;
   }
 
   /// The most points on each side that one line or arc has.

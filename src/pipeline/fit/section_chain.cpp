@@ -729,7 +729,8 @@ class SectionChooser {
 
   /// Of a loop whose points lie within their tolerances of one circle, which has no vertex.
   std::optional<SeriesChain> whole_circle(MeasuredSeries measured) {
-    if (!loop_ || measured.primitives || has_data() || !lies_near_one_circle(measured)) {
+    if (!loop_ || measured.primitives || has_data() ||
+        !are_near_circle_of_squares(measured.points, measured.reach)) {
       return std::nullopt;
     }
     measured.primitives = true;
@@ -739,16 +740,6 @@ class SectionChooser {
         chain && faired.primitives == 1 &&
         std::all_of(chain->direction.begin(), chain->direction.end(), [](int d) { return d == 0; });
     return whole ? std::move(chain) : std::nullopt;
-  }
-
-  static bool lies_near_one_circle(const MeasuredSeries& measured) {
-    const auto circle = circle_of_squares(measured.points);
-    if (!circle) return false;
-    for (std::size_t i = 0; i < measured.points.size(); ++i) {
-      const double away = norm(measured.points[i] - circle->centre) - circle->radius;
-      if (!(std::abs(away) <= measured.reach[i])) return false;
-    }
-    return true;
   }
 
   void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {

@@ -46,4 +46,16 @@ struct LeastSquaresCircle {
   return LeastSquaresCircle{middle + off, std::sqrt(square / n + dot(off, off))};
 }
 
+/// Whether each point is within its reach of that circle.
+[[nodiscard]] inline bool are_near_circle_of_squares(const std::vector<Vec2>& points,
+                                                     const std::vector<double>& reach) {
+  const auto circle = circle_of_squares(points);
+  if (!circle) return false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double away = norm(points[i] - circle->centre) - circle->radius;
+    if (!(std::abs(away) <= reach[i])) return false;
+  }
+  return true;
+}
+
 }  // namespace obvid

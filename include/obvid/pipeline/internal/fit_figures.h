@@ -15,8 +15,8 @@ using FigureRows = std::vector<std::pair<std::string, std::string>>;  ///< label
 [[nodiscard]] FigureRows fit_figures(const Contour& contour, const FitReport& report,
                                      const Certificate& certificate);
 
-/// A length with its unit, four digits; NaN as "unknown".
-[[nodiscard]] std::string known_length(double value, const std::string& unit);
+/// A length with its unit; NaN as "unknown".
+[[nodiscard]] std::string known_length(double value, const std::string& unit, int digits = 4);
 
 /// "3-4"
 [[nodiscard]] std::string points_of_segment(const SegmentReport& segment);
