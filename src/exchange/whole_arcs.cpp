@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/exchange/internal/whole_arcs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -10,19 +11,36 @@
 namespace obvid::exchange {
 namespace {
 
-/// Whether one arc from the start of the first is both, but for what rounding leaves of coordinates
-/// and directions: far from the origin that is more than of the arcs themselves. Curvatures do not
-/// know how far that is.
-bool is_one_arc(const ArcPiece& first, const ArcPiece& second) {
+[[nodiscard]] Vec2 chord(const ArcPiece& arc) {
+  const double half = 0.5 * arc.kappa * arc.length;
+  const double share = half == 0.0 ? 1.0 : std::sin(half) / half;
+  return share * arc.length * unit_at(arc.theta0 + half);
+}
+
+/// Both as one, that goes on as the first does.
+[[nodiscard]] ArcPiece together(const ArcPiece& first, const ArcPiece& second) {
+  ArcPiece both = first;
+  both.end = second.end;
+  both.length += second.length;
+  return both;
+}
+
+/// Whether one arc from the start of the first is both, and ends where the second does, but for
+/// what rounding leaves of coordinates and directions: far from the origin that is more than of the
+/// arcs themselves. Curvatures do not know how far that is.
+[[nodiscard]] bool is_one_arc(const ArcPiece& first, const ArcPiece& second) {
   constexpr double kSameCircle = 1e-10;  // of the length: what offsetting makes of rounding
-  constexpr double kRoundings = 64.0 * numeric::kUnitRoundoff;  // of coordinates
+  constexpr double kRoundings = 8.0 * numeric::kUnitRoundoff;  // of coordinates
   const double length = second.length;
-  const double turn = std::abs(first.kappa) * (first.length + length);
+  const double room = kSameCircle * length + kRoundings * (norm(second.start) + norm(second.end));
+  const ArcPiece both = together(first, second);
   const double step = first.theta0 + first.kappa * first.length - second.theta0;
   const double off = norm(first.end - second.start) + std::abs(principal_angle(step)) * length;
-  const double room = kSameCircle * length + kRoundings * (norm(second.start) + norm(second.end));
+  const double missed = norm(chord(both) - (both.end - both.start));
   const bool bent_alike = 0.5 * std::abs(first.kappa - second.kappa) * length <= kSameCircle;
-  return bent_alike && off <= room && turn <= kFullTurn + std::abs(first.kappa) * room;
+  const double turn = std::abs(both.kappa) * both.length;
+  return bent_alike && std::max(off, missed) <= room &&
+         turn <= kFullTurn + std::abs(first.kappa) * room;
 }
 
 }  // namespace
@@ -36,8 +54,7 @@ std::vector<Piece> whole_arcs(const std::vector<Piece>& pieces) {
       out.push_back(piece);
       continue;
     }
-    before->end = behind->end;
-    before->length += behind->length;
+    *before = together(*before, *behind);
   }
   return out;
 }
