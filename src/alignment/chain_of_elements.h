@@ -47,6 +47,12 @@ struct Foot {
   double along = 0.0;  ///< of the point, beyond the foot: rounding but for the first and last point
 };
 
+/// A chain with the feet of the points that it was made for.
+struct FootedChain {
+  Chain chain;
+  std::vector<Foot> feet;
+};
+
 /// Feet of points, in order, searched from those given (the stations before the chain changed).
 void find_feet(const Chain& chain, const std::vector<Vec2>& points, std::vector<Foot>& feet);
 

@@ -35,7 +35,7 @@ class Mender {
         begins_(stretch.first == 0),
         ends_(stretch.last + 1 == row.points.size()) {}
 
-  std::optional<MendedChain> run() {
+  std::optional<FootedChain> run() {
     if (!begins_) before_ = cut_between(stretch_.first - 1);
     if (!ends_) behind_ = cut_between(stretch_.last);
     const bool linear = (begins_ || chain_.law[before_.element] == Transition::kClothoid) &&
@@ -177,12 +177,12 @@ class Mender {
   std::vector<Vec2> path_;
   std::vector<double> allowed_;
   std::size_t skipped_ = 0;  ///< places of the path before the first point
-  MendedChain out_;
+  FootedChain out_;
 };
 
 }  // namespace
 
-std::optional<MendedChain> with_rounded_chords(const Chain& chain, const std::vector<Foot>& feet,
+std::optional<FootedChain> with_rounded_chords(const Chain& chain, const std::vector<Foot>& feet,
                                                const PointRow& row, const PointStretch& stretch) {
   return Mender(chain, feet, row, stretch).run();
 }

@@ -15,17 +15,12 @@ struct PointStretch {
   std::size_t first = 0, last = 0;
 };
 
-struct MendedChain {
-  Chain chain;
-  std::vector<Foot> feet;
-};
-
 /// The chain on a map with the chords of a stretch, their corners rounded, in place of
 /// what passes these points: from the middle between the point before them and the first one, with
 /// the heading there, to the middle behind the last one. What lies beside stays as it is, and joins
 /// it. Where the row begins or ends with the stretch, the chords do. Nothing where no chords lead
 /// on, or where a transition of another kind than a clothoid would be cut.
-[[nodiscard]] std::optional<MendedChain> with_rounded_chords(const Chain& chain,
+[[nodiscard]] std::optional<FootedChain> with_rounded_chords(const Chain& chain,
                                                              const std::vector<Foot>& feet,
                                                              const PointRow& row,
                                                              const PointStretch& stretch);
