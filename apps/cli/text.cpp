@@ -28,7 +28,8 @@ std::string radius_text(double kappa) {
 
 std::string radius_over(double kappa, double length, double within) {
   const double sagitta = std::abs(kappa) * length * length / 8.0;
-  return radius_text(sagitta <= within ? 0.0 : kappa);
+  const bool straight = length > 0.0 && sagitta <= within;  // from a point around to it no line is
+  return radius_text(straight ? 0.0 : kappa);
 }
 
 const char* direction_text(int direction) {

@@ -168,7 +168,8 @@ class TextCheck {
   void radius(const std::string& printed, Real order, std::size_t point, double chord,
               bool leaving) {
     if (printed == "-") return;
-    const double flat = 8.0 * straight_within() / std::max(chord * chord, 1e-300);
+    // no line leads from a point around to itself
+    const double flat = chord > 0.0 ? 8.0 * straight_within() / (chord * chord) : 0.0;
     const FileElement* e =
         order == std::floor(order) ? file_.joint(static_cast<std::size_t>(order)) : nullptr;
     if (e == nullptr || !(e->source || e->parted())) {

@@ -48,14 +48,19 @@ double radius_through(Vec2 a, Vec2 b, Vec2 c) {
   return norm(b - a) * norm(c - b) * norm(a - c) / (2.0 * area);
 }
 
+bool ends_where_it_begins(const std::vector<Vec2>& local) {
+  constexpr double kListEndsAgain = 1e-6;  // chords
+  return norm(local.front() - local.back()) <= kListEndsAgain;
+}
+
 /// Of a round edge: the list begins and ends at one point, and two points on each side lie on one
 /// circle with it. 0 where they do not.
 double edge_radius(const std::vector<Vec2>& local) {
-  constexpr double kListEndsAgain = 1e-6, kLargest = 0.05;  // chords
-  constexpr double kSameCircle = 0.01;                      // of its radius: printed digits
+  constexpr double kLargest = 0.05;     // chords
+  constexpr double kSameCircle = 0.01;  // of its radius: printed digits
   const std::size_t n = local.size();
   const Vec2 end = local.front();
-  if (norm(end - local.back()) > kListEndsAgain || end.x < kMostOfChord) return 0.0;
+  if (!ends_where_it_begins(local) || end.x < kMostOfChord) return 0.0;
   const double near = radius_through(local[1], end, local[n - 2]);
   const double far = radius_through(local[2], end, local[n - 3]);
   const bool is_circle = near < kLargest && std::abs(far - near) <= kSameCircle * near;
@@ -106,7 +111,10 @@ std::optional<AirfoilPointFigures> airfoil_point_figures(std::span<const Vec2> p
   }
   out.nose_radius = radius_through(one[1], one[0], other[1]);
   out.nose_gap = std::max(norm(one[1] - one[0]), norm(other[1] - other[0]));
-  out.trailing_thickness = std::abs(one.back().y - other.back().y);
+  // sides end where they bend back; a list that ends apart has its edge between its ends
+  const bool apart = open && !ends_where_it_begins(local);
+  const double above = apart ? local.front().y : one.back().y;
+  out.trailing_thickness = std::abs(above - (apart ? local.back().y : other.back().y));
   if (const double radius = edge_radius(local); radius > 0.0) {
     out.trailing_round = true;
     out.trailing_thickness = 2.0 * radius;

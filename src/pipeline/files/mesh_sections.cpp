@@ -98,11 +98,58 @@ std::string coordinates_text(const std::vector<PlaneRow>& planes) {
   return text;
 }
 
+double along(char axis, Vec3 p) { return axis == 'x' ? p.x : axis == 'y' ? p.y : p.z; }
+
+/// Points that a plane across the axis holds, in its coordinates: those of sections there.
+std::optional<PointSeries> series_across(const std::vector<Vec3>& points, char axis) {
+  const double at = along(axis, points.front());
+  PointSeries out;
+  out.name = plane_name(axis, at);
+  for (const Vec3 p : points) {
+    if (along(axis, p) != at) return std::nullopt;
+    out.points.push_back(axis == 'x'   ? Vec2{p.y, p.z}
+                         : axis == 'y' ? Vec2{p.z, p.x}
+                                       : Vec2{p.x, p.y});
+  }
+  return out;
+}
+
+/// What scanners write: points without triangles. Those of a slice are a series.
+Result<Drawing> series_of_cloud(const std::vector<Vec3>& points, const std::string& path,
+                                const std::vector<PlaneRow>& planes) {
+  if (!planes.empty()) {
+    return error(ErrorCode::kBadOption, "planes cut triangles, and " + path + " has points alone")
+        .where("--cut")
+        .hint("leave it out where they are one slice, or give the mesh of the scan");
+  }
+  Drawing out;
+  out.name = std::filesystem::path(path).filename().string();
+  for (const char axis : {'z', 'x', 'y'}) {
+    auto series = series_across(points, axis);
+    if (!series) continue;
+    out.series.push_back(std::move(*series));
+    if (std::string told = coordinates_text({PlaneRow{axis}}); !told.empty()) {
+      out.warnings.push_back(std::move(told));
+    }
+    return out;
+  }
+  return error(ErrorCode::kNothingThere,
+               "points without triangles, and no plane x, y or z holds them all")
+      .where(path)
+      .hint(
+          "give the mesh with --cut, or x,y,z as .csv: in order a curve in space, else `obvid "
+          "surface scatter`");
+}
+
 }  // namespace
 
 Result<Drawing> sections_of_mesh(std::string_view text, const std::string& path,
                                  const std::vector<PlaneRow>& planes, const RunContext& run) {
   const auto mesh = parse_mesh(text, path);
+  if (!mesh && mesh.error().code == ErrorCode::kTooFewPoints) {
+    const auto points = parse_mesh_points(text, path);
+    if (points && !points->empty()) return series_of_cloud(*points, path, planes);
+  }
   OBVID_TRY(mesh);
   if (planes.empty()) return fail(uncut(*mesh, path));
   Drawing out;

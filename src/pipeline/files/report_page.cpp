@@ -103,10 +103,11 @@ std::string lines_and_arcs_table(const Contour& contour) {
 
 /// Of an airfoil: the contour beside straight lines between the points that it was formed through.
 std::string airfoil_table(const Contour& contour) {
-  // chords; what is thicker is a loop that runs there and back, no airfoil
-  constexpr double kThickest = 0.4;
+  // what is thicker, in chords, or ends nearly as thick, is a loop that runs there and back
+  constexpr double kThickest = 0.7, kThickestEnd = 0.8;
   const auto f = airfoil_figures(contour);
   if (!f || f->thickness > kThickest) return {};
+  if (f->trailing_thickness > kThickestEnd * f->thickness) return {};
   const auto input = airfoil_point_figures(airfoil_points_around(contour, *f), *f);
   DataTable out{{"% of the chord", "contour", "points", "difference"}};
   const auto add = [&](const char* name, double made, std::optional<double> given) {
