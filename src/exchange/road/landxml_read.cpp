@@ -110,6 +110,14 @@ class LandXmlReader {
     }
     finish();
     if (local_name(owner) != "Alignment") return;
+    for (const pugi::xml_node equation : owner.children()) {
+      if (local_name(equation) != "StaEquation") continue;
+      warnings_.add(fmt::format("a station equation (behind {} comes {}) is not used: stations go "
+                                "on, and it is not written",
+                                shortened(equation.attribute("staBack").value()),
+                                shortened(equation.attribute("staAhead").value())),
+                    equation);
+    }
     if (child_of(owner, "Cant")) warnings_.add("cant is not used", child_of(owner, "Cant"));
     auto profile = exchange::landxml_profile(owner, warnings_);
     if (!profile || first_curve == drawing_.curves.size()) return;

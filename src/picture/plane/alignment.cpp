@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "obvid/picture/internal/alignment_svg.h"
@@ -28,8 +29,9 @@ constexpr double kTitleLift = 10.0;
 constexpr double kStationApart = 13.0;
 /// Width of a character of small texts, px.
 constexpr double kCharacter = 7.0;
-/// Of the fastest bend: speeds beyond are not shown.
-constexpr double kFastest = 1.3;
+/// Of the fastest bend, and of that which half of the length of bends allows: speeds beyond are not
+/// shown.
+constexpr double kFastest = 1.3, kBeyondHalf = 3.0;
 /// Places of a vertical curve that are drawn.
 constexpr int kCurvePlaces = 32;
 /// Heights of more points than this would hide the profile.
@@ -147,20 +149,30 @@ void curvature_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentD
   draw_labels(canvas, frame, diagram, places);
 }
 
-/// Fastest speed at the sharpest places of elements, km/h; 0: all are straight.
-double fastest_bend(const AlignmentDiagram& diagram) {
-  double fastest = 0.0;
+/// Speed up to which bends are told apart, km/h: that at the sharpest place of the fastest one, but
+/// not where arcs that are nearly straight would press the others together. 0: all are straight.
+double speeds_up_to(const AlignmentDiagram& diagram) {
+  std::vector<std::pair<double, double>> bends;  // speed, length
+  double length = 0.0;
   for (const auto& part : diagram.parts) {
     double kappa = 0.0;
     for (const double one : part.curvatures) kappa = std::max(kappa, std::abs(one));
-    if (kappa > 0.0) fastest = std::max(fastest, *diagram.speed_scale / std::sqrt(kappa));
+    if (!(kappa > 0.0)) continue;
+    bends.emplace_back(*diagram.speed_scale / std::sqrt(kappa), part.length);
+    length += part.length;
   }
-  return fastest;
+  if (bends.empty()) return 0.0;
+  std::sort(bends.begin(), bends.end());
+  double below = 0.0;
+  const auto half = std::find_if(bends.begin(), bends.end(), [&](const auto& bend) {
+    return (below += bend.second) >= 0.5 * length;
+  });
+  return std::min(kFastest * bends.back().first, kBeyondHalf * half->first);
 }
 
 void speed_panel(PictureCanvas& canvas, PictureFrame frame, const AlignmentDiagram& diagram,
-                 double fastest) {
-  frame.y = round_axis(0.0, kFastest * fastest, 4);
+                 double most_shown) {
+  frame.y = round_axis(0.0, most_shown, 4);
   canvas.label({kPictureMargin, frame.top - 11.0}, "start", "axis-title",
                "Speed by the acceleration to the side, " + power_prefix(frame.y.exponent) +
                    "km/h (straight: not limited)");
@@ -269,10 +281,10 @@ std::string alignment_svg(const StoredContour& stored, const PictureTitles& titl
   frame.top = below + kDiagramTitleRoom + kStationRoom;
   frame.bottom = frame.top + kDiagramHeight;
   curvature_panel(body, frame, diagram, track.box.diagonal(), units);
-  if (const double fastest = diagram.speed_scale ? fastest_bend(diagram) : 0.0; fastest > 0.0) {
+  if (const double most = diagram.speed_scale ? speeds_up_to(diagram) : 0.0; most > 0.0) {
     frame.top = frame.bottom + kDiagramTitleRoom + kDiagramsApart;
     frame.bottom = frame.top + kDiagramHeight;
-    speed_panel(body, frame, diagram, fastest);
+    speed_panel(body, frame, diagram, most);
   }
   if (diagram.profile) {
     frame.top = frame.bottom + kDiagramTitleRoom + kStationRoom;

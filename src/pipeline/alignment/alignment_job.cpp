@@ -22,7 +22,10 @@
 #include "obvid/picture/internal/alignment_svg.h"
 #include "obvid/pipeline/audit.h"
 #include "obvid/pipeline/element_table.h"
+#include "obvid/pipeline/internal/strays_text.h"
 #include "obvid/series/internal/order.h"
+#include "obvid/series/internal/outliers.h"
+#include "obvid/series/internal/scatter.h"
 #include "obvid/series/internal/sections.h"
 
 namespace obvid {
@@ -174,6 +177,27 @@ void add_doubts(const std::vector<Vec2>& points, const std::vector<double>& tole
                     "where they are far apart",
                     significant(kPercent * longer / chords, 2)));
   }
+}
+
+/// Measured points of which some are no points of the curve, or whose tolerance is less than what
+/// they scatter by: elements follow what is not meant.
+void tell_scatter(const PointSeries& series, const std::vector<double>& tolerance,
+                  const AlignmentJob& job, AlignmentReport& report) {
+  if (!series.kept.empty()) return;
+  std::vector<std::size_t> numbers;
+  if (const auto strays = outliers_of(series.points)) {
+    for (const Outlier& one : strays->points) {
+      if (one.off > tolerance[one.index]) numbers.push_back(one.index + 1);
+    }
+  }
+  if (!numbers.empty()) report.warnings.push_back(pipeline_detail::strays_text(numbers));
+  if (job.noise_from_scatter) return;
+  const auto seen = scatter_of(series.points);
+  const double most = *std::max_element(tolerance.begin(), tolerance.end());
+  if (!seen || seen->bound <= most) return;
+  report.remarks.push_back(fmt::format(
+      "the points scatter by {} {}, which may reach {}: more than the tolerance (--noise auto)",
+      significant(seen->deviation, 3), series.units.text(), significant_above(seen->bound, 3)));
 }
 
 /// Where elements are not those of a search within all of the tolerance.
@@ -427,6 +451,7 @@ Result<AlignmentReport> alignment_report(const PointSeries& given, const Alignme
   out.stored = {std::move(audited->contour), std::nullopt, std::move(audited->certificate)};
   out.alignment = std::move(*alignment);
   add_doubts(series.points, *tolerance, out);
+  tell_scatter(series, *tolerance, job, out);
   tell_fewer(out.alignment, out.warnings);
   out.points = series.points;
   out.limit = *limit;

@@ -21,6 +21,7 @@
 #include "obvid/fairing/internal/fairing.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/geom/internal/circle.h"
+#include "obvid/pipeline/internal/strays_text.h"
 #include "obvid/series/analysis.h"
 #include "obvid/series/internal/outliers.h"
 #include "obvid/series/internal/scatter.h"
@@ -761,21 +762,11 @@ class SectionChooser {
 
   /// Single points that break rows of a line or an arc, and what to do about them; empty: none.
   [[nodiscard]] std::string strays_text() const {
-    constexpr std::size_t kMostNamed = 5;
     const auto strays = outliers_of(points_);
     if (!strays || strays->points.empty()) return {};
-    const auto& all = strays->points;
-    std::string named;
-    for (std::size_t k = 0; k < std::min(all.size(), kMostNamed); ++k) {
-      named += fmt::format("{}{}", k > 0 ? ", " : "", told(index_[all[k].index]) + 1);
-    }
-    const bool one = all.size() == 1;
-    return fmt::format("; {} {}{} off the curve of {} neighbours: --drop-outliers leaves {} out",
-                       one ? "point" : "points", named,
-                       one                        ? " lies"
-                       : all.size() <= kMostNamed ? " lie"
-                                                  : " and more lie",
-                       one ? "its" : "their", one ? "it" : "them");
+    std::vector<std::size_t> numbers;
+    for (const Outlier& one : strays->points) numbers.push_back(told(index_[one.index]) + 1);
+    return "; " + pipeline_detail::strays_text(numbers);
   }
 
   /// Names what the points mean and the contour does not have; empty: nothing.
