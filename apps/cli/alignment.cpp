@@ -29,9 +29,17 @@ namespace {
 
 constexpr int kOffsetDigits = 3;
 
-/// Of offsets: never less than they are.
-std::string at_most(double offset) {
-  return offset > 0.0 ? significant_above(offset, kOffsetDigits) : "0";
+/// The largest offset, never less than it is, beside its tolerance: with the digits that it takes
+/// to see on which side of that it lies.
+std::string offset_of_tolerance(double offset, double tolerance, const std::string& unit) {
+  constexpr int kMostDigits = 9;
+  const std::string limit = tolerance_text(tolerance);
+  std::string text = "0";
+  for (int digits = kOffsetDigits; offset > 0.0 && digits <= kMostDigits; ++digits) {
+    text = significant_above(offset, digits);
+    if (std::stod(text) <= std::stod(limit)) break;
+  }
+  return fmt::format("at most {} {} off (tolerance {})", text, unit, limit);
 }
 
 void add_profile_facts(const ProfileReport& report, const Units& units, Facts& facts) {
@@ -45,11 +53,10 @@ void add_profile_facts(const ProfileReport& report, const Units& units, Facts& f
   if (report.of_file) return;
   double largest = 0.0;
   for (const double offset : profile.offsets) largest = std::max(largest, std::abs(offset));
-  facts.add("heights",
-            fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
-                        counted(profile.offsets.size(), "height", "heights"), at_most(largest),
-                        units.text(), significant_above(report.tolerance, kOffsetDigits),
-                        significant(profile.rms, kOffsetDigits)));
+  facts.add("heights", fmt::format("{}, {}, root mean square {}",
+                                   counted(profile.offsets.size(), "height", "heights"),
+                                   offset_of_tolerance(largest, report.tolerance, units.text()),
+                                   significant(profile.rms, kOffsetDigits)));
 }
 
 Facts alignment_facts(const AlignmentReport& report) {
@@ -66,9 +73,9 @@ Facts alignment_facts(const AlignmentReport& report) {
   facts.add("curvature", fmt::format("steps at {} of {}", curvature_steps(alignment.elements),
                                      counted(joints, "joint", "joints")));
   facts.add("points",
-            fmt::format("{}, at most {} {} off (tolerance {}), root mean square {}",
-                        counted(alignment.deviations.size(), "point", "points"), at_most(largest),
-                        report.units.text(), significant_above(report.tolerance, kOffsetDigits),
+            fmt::format("{}, {}, root mean square {}",
+                        counted(alignment.deviations.size(), "point", "points"),
+                        offset_of_tolerance(largest, report.tolerance, report.units.text()),
                         significant(alignment.rms, kOffsetDigits)));
   if (report.profile) add_profile_facts(*report.profile, report.units, facts);
   for (const std::string& remark : report.remarks) facts.add("note", remark);
@@ -166,10 +173,10 @@ Result<std::vector<Output>> alignment_outputs(const AlignmentCommand& command,
 /// Reads, forms and writes; what there is to warn of is in `warnings` whatever comes of it.
 Result<AlignmentDone> aligned(const AlignmentCommand& command, const Progress& progress,
                               std::vector<std::string>& warnings) {
-  Result<RoadSeries> read = read_road(command.input, with_heights(command.import));
+  Result<RoadSeries> read =
+      read_road(command.input, in_units(with_heights(command.import), command.units));
   OBVID_TRY(read);
   PointSeries& series = read->points;
-  if (command.units) take_units(series, *command.units);
   AlignmentJob job = command.job;
   job.road = std::move(read->road);
   if (!command.heights.empty()) {

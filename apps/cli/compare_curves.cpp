@@ -76,9 +76,10 @@ std::string curves_table(const CurveComparison& compared) {
   return table.text();
 }
 
-/// How much of the first curve was measured; 100.0 where nothing is left.
+/// How much of the first curve was measured; 100.0 where nothing is left, and 0.0 where none was.
 std::string measured_percent(const CurveDeviation& one) {
   constexpr double kTenths = 1000.0;
+  if (one.measured > 0.0 && one.measured * kTenths < 1.0) return "<0.1";
   return percent(std::floor(one.measured * kTenths) / kTenths, 1);
 }
 

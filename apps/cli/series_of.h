@@ -9,14 +9,11 @@ namespace obvid {
 /// The points that a command is about, in the unit that the user states. Errors: those of reading.
 template <class Options>
 [[nodiscard]] Result<PointSeries> series_of(const Options& options) {
-  Result<PointSeries> series = [&] {
-    if constexpr (requires { options.text.has_value(); }) {
-      if (options.text) return parse_series(*options.text, options.name(), options.import);
-    }
-    return read_series(options.input, options.import);
-  }();
-  if (series && options.units) take_units(*series, *options.units);
-  return series;
+  const ImportOptions import = in_units(options.import, options.units);
+  if constexpr (requires { options.text.has_value(); }) {
+    if (options.text) return parse_series(*options.text, options.name(), import);
+  }
+  return read_series(options.input, import);
 }
 
 }  // namespace obvid

@@ -42,18 +42,16 @@ Result<PointSeries> series_of(const obvid_input& input, const Request& request, 
   if (input.space) {
     return fail({ErrorCode::kBadOption, "points in space are formed by obvid_fit_space", "", ""});
   }
-  Result<PointSeries> series = [&]() -> Result<PointSeries> {
-    if (input.points) {
-      PointSeries given = *input.points;
-      place(request.import.placement, given);
-      return given;
-    }
-    if (!drawings) return parse_point_list(input.text, input.name, request.import);
-    return input.by_path ? read_series(input.name, request.import, run)
-                         : parse_series(input.text, input.name, request.import, run);
-  }();
-  if (series && request.units) take_units(*series, *request.units);
-  return series;
+  const ImportOptions import = in_units(request.import, request.units);
+  if (input.points) {
+    PointSeries given = *input.points;
+    place(import.placement, given);
+    if (import.units) take_units(given, *import.units);
+    return given;
+  }
+  if (!drawings) return parse_point_list(input.text, input.name, import);
+  return input.by_path ? read_series(input.name, import, run)
+                       : parse_series(input.text, input.name, import, run);
 }
 
 /// The same with what a drawing says of an alignment.
@@ -64,10 +62,9 @@ Result<RoadSeries> road_of(const obvid_input& input, const Request& request,
     OBVID_TRY(series);
     return RoadSeries{std::move(*series), {}};
   }
-  auto out = input.by_path ? read_road(input.name, request.import, run)
-                           : parse_road(input.text, input.name, request.import, run);
-  if (out && request.units) take_units(out->points, *request.units);
-  return out;
+  const ImportOptions import = in_units(request.import, request.units);
+  return input.by_path ? read_road(input.name, import, run)
+                       : parse_road(input.text, input.name, import, run);
 }
 
 /// Stations and heights: of points x and y.

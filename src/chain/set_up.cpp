@@ -109,8 +109,9 @@ Error explain(const std::vector<Vec2>& points, const Analysis& a,
                "the rounding of the coordinates, not the curve, decides how the curvature changes")
         .where(where)
         .hint(
-            "give coordinates relative to a nearer origin, or leave out points that lie "
-            "closer together than their digits can tell")
+            "say how far the curve may pass the points (--noise), give coordinates relative to a "
+            "nearer origin, or leave out points that lie closer together than their digits can "
+            "tell")
         .points(index, last)
         .value(why.move);
   }

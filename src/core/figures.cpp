@@ -31,6 +31,12 @@ std::string significant_above(double bound, int digits) {
   return significant(std::stod(text) + std::pow(10.0, exponent - decimals), digits);
 }
 
+std::string tolerance_text(double tolerance) {
+  constexpr int kTypedDigits = 6;
+  std::string text = fmt::format("{:.{}g}", tolerance, kTypedDigits);
+  return std::stod(text) >= tolerance ? text : significant_above(tolerance, kTypedDigits);
+}
+
 std::string counted(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }

@@ -89,10 +89,18 @@ struct ImportOptions {
       tolerance;            ///< largest distance of a chord from its curve [1e-4 of the size]
   PointListOptions list{};  ///< of lists of points
   Placement placement{};    ///< of whatever is read
+  std::optional<Units> units{};  ///< that the user states: of all that is told, too
   bool unordered = false;   ///< points are put in the order of their curve, which a warning tells
   bool drop_outliers = false;  ///< then points off the curve of their neighbours are left out,
                                ///< which a warning names
 };
+
+/// The same options with the unit that the user states, if any.
+[[nodiscard]] inline ImportOptions in_units(ImportOptions options,
+                                            const std::optional<Units>& units) {
+  if (units) options.units = units;
+  return options;
+}
 
 /// Points to fit: of a text file as they are, of a drawing its longest series or curve, sampled.
 /// Warnings say what was chosen. Errors: those of the formats; E203 when there is no such curve.

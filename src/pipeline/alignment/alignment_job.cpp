@@ -473,7 +473,7 @@ std::string kinds_text(const Alignment& alignment) {
 
 std::string alignment_verdict(const AlignmentReport& report) {
   return fmt::format("{}; all points within {} {}", kinds_text(report.alignment),
-                     significant_above(report.tolerance, 3), report.units.text());
+                     tolerance_text(report.tolerance), report.units.text());
 }
 
 std::string alignment_picture(const AlignmentReport& report) {

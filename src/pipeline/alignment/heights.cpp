@@ -87,7 +87,7 @@ double tolerance_as_points(const std::vector<Vec2>& heights, double noise, doubl
     return rounding;
   }
   std::string said =
-      fmt::format("heights within {} {} as --noise", significant_above(noise, 3), units.text());
+      fmt::format("heights within {} {} as --noise", tolerance_text(noise), units.text());
   if (const auto seen = scatter_of(heights); seen && seen->bound > noise) {
     said += fmt::format("; their own scatter of {} may reach {} (--profile-noise auto)",
                         significant(seen->deviation, 3), significant_above(seen->bound, 3));
@@ -152,26 +152,32 @@ Result<bool> repeats_first(const std::vector<Vec2>& heights, bool of_points, dou
       .value(last.y - first.y);
 }
 
-/// Heights of one lap that do not come back to where they began: across the seam they rise far more
-/// steeply than anywhere else. Ascending; `tolerance` of each.
-Result<void> close_around(const std::vector<Vec2>& heights, double lap, double tolerance,
-                          bool of_points) {
+/// Heights of one lap that do not come back to where they began: behind the one that was taken last
+/// they rise far more steeply than anywhere else. Ascending; `last` is the number of that one,
+/// `tolerance` of each.
+Result<void> close_around(const std::vector<Vec2>& heights, std::size_t last, double lap,
+                          double tolerance, bool of_points) {
   constexpr double kSteeper = 3.0, kMostOff = 4.0;  // of the steepest elsewhere; of a tolerance
-  const auto steepness = [&](Vec2 a, Vec2 b) {
-    return std::max(0.0, std::abs(b.y - a.y) - 2.0 * tolerance) / (b.x - a.x);
+  const std::size_t n = heights.size();
+  const auto step_behind = [&](std::size_t i) {
+    const Vec2 step = heights[(i + 1) % n] - heights[i];
+    return i + 1 < n ? step : step + Vec2{lap, 0.0};
+  };
+  const auto steepness = [&](Vec2 step) {
+    return std::max(0.0, std::abs(step.y) - 2.0 * tolerance) / step.x;
   };
   double steepest = 0.0;
-  for (std::size_t i = 1; i < heights.size(); ++i) {
-    steepest = std::max(steepest, steepness(heights[i - 1], heights[i]));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i != last) steepest = std::max(steepest, steepness(step_behind(i)));
   }
-  const Vec2 last = heights.back(), first = heights.front() + Vec2{lap, 0.0};
-  const double off = std::abs(first.y - last.y);
-  if (!(steepness(last, first) > kSteeper * steepest && off > kMostOff * tolerance)) return {};
+  const Vec2 seam = step_behind(last);
+  const double off = std::abs(seam.y);
+  if (!(steepness(seam) > kSteeper * steepest && off > kMostOff * tolerance)) return {};
   return error(ErrorCode::kToleranceNotReached, "the heights of the loop do not close")
       .where(of_points ? "z" : "--profile")
       .hint(fmt::format("they differ by {} over {} at the seam, more steeply than anywhere else: "
                         "adjust them, or leave the loop open (--open)",
-                        significant(off, 4), significant(first.x - last.x, 4)))
+                        significant(off, 4), significant(seam.x, 4)))
       .value(off);
 }
 
@@ -231,8 +237,8 @@ void tell_humps(const std::vector<UnborneGrade>& humps, double tolerance, bool h
       significant(100.0 * worst.grade, kGradeDigits), significant(worst.station, 7), units.text(),
       significant(100.0 * worst.borne.low, kGradeDigits),
       significant(100.0 * worst.borne.high, kGradeDigits),
-      counted(humps.size(), "such joint", "such joints"), significant_above(tolerance, 3),
-      units.text(), has_least_length ? " with elements as long as that" : "",
+      counted(humps.size(), "such joint", "such joints"), tolerance_text(tolerance), units.text(),
+      has_least_length ? " with elements as long as that" : "",
       has_least_length ? ", or shorter elements (--min-vertical-length)" : ""));
 }
 
@@ -337,7 +343,9 @@ Result<std::optional<ProfileReport>> profile_of_heights(const PointSeries& serie
                                       : job.first_station.value_or(job.road.station.value_or(0.0));
     OBVID_TRY(cover(ascending, from, alignment.length, alignment.closed, series.units, remarks));
     if (alignment.closed) {
-      OBVID_TRY(close_around(ascending, alignment.length, *tolerance, out.of_points));
+      const auto last = std::find(order.begin(), order.end(), order.size() - 1) - order.begin();
+      OBVID_TRY(close_around(ascending, static_cast<std::size_t>(last), alignment.length,
+                             *tolerance, out.of_points));
     }
   }
   const std::vector<double> of_each(ascending.size(), *tolerance);

@@ -483,8 +483,9 @@ Result<Exported> contour_as_opendrive(const ContourExport& e) {
   auto out = with_units(e, FileFormat::kOpenDrive,
                         [&] { return one_text(opendrive_text(e.contour, road)); });
   if (out && road.first_station != 0.0) {
-    out->remarks.push_back(fmt::format(
-        "stations in OpenDRIVE begin at 0: {:.10g} has to be added to them", road.first_station));
+    const double metres = road.first_station * metres_in(e.contour.units.name).value_or(1.0);
+    out->remarks.push_back(
+        fmt::format("stations in OpenDRIVE begin at 0: {:.10g} m has to be added to them", metres));
   }
   return out;
 }

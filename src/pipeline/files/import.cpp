@@ -281,7 +281,7 @@ std::string order_text(const PointSeries& series, const CurveOrder& found) {
       "--unordered: {} points were put in the order of their shortest row; neighbours are at most "
       "{} {} apart, the ends {}",
       found.order.size(), significant(found.largest_step, 4), unit, significant(found.gap, 4));
-  if (found.gap <= kMayClose * found.largest_step) text += " (--closed closes them)";
+  if (found.gap <= kMayClose * found.largest_step) text += ", which --closed makes neighbours";
   if (found.is_outline) {
     text +=
         "; it is the shortest closed way that was found, begun behind its longest step: look at it "
@@ -532,6 +532,7 @@ Result<PointSeries> without_outliers(Result<InOrder> ordered, const ImportOption
 
 Result<PointSeries> placed(Result<PointSeries> series, const ImportOptions& options) {
   if (series) place(options.placement, *series);
+  if (series && options.units) take_units(*series, *options.units);
   return without_outliers(in_order(std::move(series), options), options);
 }
 
@@ -774,6 +775,7 @@ Result<PointSeries> parse_point_list(const std::string& text, const std::string&
                                      const ImportOptions& options) {
   Result<PointSeries> list = parse_points(text, name, options.list);
   if (list) place(options.placement, *list);
+  if (list && options.units) take_units(*list, *options.units);
   return list;
 }
 

@@ -119,7 +119,6 @@ Result<CurveInput> curve_from(const CurveFile& source, const ReadCurveOptions& h
   }
   auto series = source.series();
   OBVID_TRY(series);
-  if (how.units) take_units(*series, *how.units);
   auto made = formed_curve(*series, how.fit, run);
   if (!made) return fail(at_input(made.error(), source.name));
   return made;
@@ -165,18 +164,20 @@ Result<CurveInput> drawn_curve(Drawing drawing, const ReadCurveOptions& how,
 
 Result<CurveInput> read_curve(const std::string& path, const ReadCurveOptions& how,
                               const RunContext& run) {
-  const CurveFile source{
-      path, is_drawing(path), [&] { return read_drawing(path, how.import.planes, run); },
-      [&] { return read_series(path, how.import, run); }, [&] { return read_file(path); }};
+  const CurveFile source{path, is_drawing(path),
+                         [&] { return read_drawing(path, how.import.planes, run); },
+                         [&] { return read_series(path, in_units(how.import, how.units), run); },
+                         [&] { return read_file(path); }};
   return curve_from(source, how, run);
 }
 
 Result<CurveInput> parse_curve(const std::string& text, const std::string& name,
                                const ReadCurveOptions& how, const RunContext& run) {
-  const CurveFile source{name, is_drawing_text(text, name),
-                         [&] { return parse_drawing(text, name, how.import.planes, run); },
-                         [&] { return parse_series(text, name, how.import, run); },
-                         [&] { return Result<std::string>(text); }};
+  const CurveFile source{
+      name, is_drawing_text(text, name),
+      [&] { return parse_drawing(text, name, how.import.planes, run); },
+      [&] { return parse_series(text, name, in_units(how.import, how.units), run); },
+      [&] { return Result<std::string>(text); }};
   return curve_from(source, how, run);
 }
 

@@ -14,6 +14,9 @@ namespace obvid {
 /// The same of a bound above 0: never below it.
 [[nodiscard]] std::string significant_above(double bound, int digits);
 
+/// A tolerance, as it was typed where that has up to six digits; else six, never below it.
+[[nodiscard]] std::string tolerance_text(double tolerance);
+
 /// Digits of a bound that is told beside the figures that it holds for.
 inline constexpr int kDigitsOfBounds = 3;
 
