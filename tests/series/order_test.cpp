@@ -151,5 +151,68 @@ TEST(CurveOrder, OfARowFromSideToSideIsNeverGiven) {
   }
 }
 
+/// Points at random places of an ellipse, off it by normal errors; angles ascend.
+Row scattered_ellipse(int count, double scatter, std::mt19937& random) {
+  std::uniform_real_distribution<double> place(0.0, 2.0 * std::numbers::pi);
+  std::normal_distribution<double> error(0.0, scatter);
+  std::vector<double> angles;
+  for (int k = 0; k < count; ++k) angles.push_back(place(random));
+  std::sort(angles.begin(), angles.end());
+  Row out;
+  for (const double angle : angles) {
+    const Vec2 e = unit_at(angle);
+    out.push_back({30.0 * e.x + error(random), 10.0 * e.y + error(random)});
+  }
+  return out;
+}
+
+TEST(CurveOrder, OfPointsNearerThanTheyScatterIsThatOfTheirRow) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    std::mt19937 random(seed);
+    constexpr int kCount = 600;
+    constexpr double kScatter = 0.02;
+    const Row row = scattered_ellipse(kCount, kScatter, random);
+    const auto mixed = shuffled_indices(row.size(), seed);
+    Row list;
+    for (const std::size_t i : mixed) list.push_back(row[i]);
+    const auto found = order_beside_row(list);
+    ASSERT_TRUE(found) << seed;
+    ASSERT_EQ(found->order.size(), row.size());
+    // along the ellipse a point comes no farther from its place than errors may shift it
+    std::vector<std::size_t> place;
+    for (const std::size_t i : found->order) place.push_back(mixed[i]);
+    const std::size_t n = place.size();
+    std::size_t ahead = 0, back = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t step = (place[(k + 1) % n] + n - place[k]) % n;
+      const double way = norm(row[place[(k + 1) % n]] - row[place[k]]);
+      (step < n / 2 ? ahead : back) += 1;
+      const bool right = std::min(step, n - step) <= 1 || way <= 12.0 * kScatter;
+      EXPECT_TRUE(right) << seed << " " << step << " " << way;
+    }
+    EXPECT_LE(std::min(ahead, back), n / 5);
+  }
+}
+
+TEST(CurveOrder, OfBothSidesOfAThinPlateIsNeverThatOfOneRow) {
+  for (const int count : {12, 60, 300, 1200}) {
+    Row strip;
+    for (int k = 0; k < count; ++k) {
+      strip.push_back({1.0 * k, 0.0});
+      strip.push_back({1.0 * k + 0.5, 0.7});
+    }
+    const auto mixed = shuffled_indices(strip.size(), 5);
+    Row list;
+    for (const std::size_t i : mixed) list.push_back(strip[i]);
+    const auto found = order_beside_row(list);
+    if (!found) continue;
+    std::size_t across = 0;
+    for (std::size_t k = 1; k < found->order.size(); ++k) {
+      across += (mixed[found->order[k]] + mixed[found->order[k - 1]]) % 2;
+    }
+    EXPECT_LE(across, 2U) << count;
+  }
+}
+
 }  // namespace
 }  // namespace obvid

@@ -282,6 +282,13 @@ std::string order_text(const PointSeries& series, const CurveOrder& found) {
       "{} {} apart, the ends {}",
       found.order.size(), significant(found.largest_step, 4), unit, significant(found.gap, 4));
   if (found.gap <= kMayClose * found.largest_step) text += ", which --closed makes neighbours";
+  if (found.thinned > 0) {
+    text += fmt::format(
+        "; it is the row of {} of them that are {} {} or more apart: the others stand beside it, "
+        "and "
+        "neighbours nearer than they scatter may follow each other the wrong way round",
+        found.thinned, significant(found.apart, 3), unit);
+  }
   if (found.is_outline) {
     text +=
         "; it is the shortest closed way that was found, begun behind its longest step: look at it "
@@ -313,7 +320,7 @@ std::string strays_text(const PointSeries& series, const std::vector<Outlier>& s
 /// An order, of all points or without those that stray.
 Result<CurveOrder> order_of(const PointSeries& series, const std::vector<std::size_t>& numbers,
                             const ImportOptions& options, InOrder& out) {
-  auto whole = order_along_curve(series.points);
+  auto whole = order_beside_row(series.points);
   if (!whole && whole.error().code != ErrorCode::kOutOfOrder) return whole;
   const bool is_row = whole && !whole->is_outline;
   std::optional<OrderBesideStrays> found;
