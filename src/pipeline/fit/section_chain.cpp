@@ -866,19 +866,34 @@ class SectionChooser {
   std::optional<SeriesChain> follow_runs(MeasuredSeries& measured, FairedSeries& faired) {
     const double most =
         watch_.spent() + kPrimitiveWork + kPrimitiveSteps * static_cast<double>(points_.size());
+    std::optional<std::pair<SeriesChain, FairedSeries>> unproved;  // the first one
     for (int k = 0; k < kMostTrims && (k == 0 || watch_.spent() < most); ++k) {
       const ProgressShare share =
           ProgressShare::next_of_many(watch_, measured.primitives ? k + 1 : 0);
       faired = fair(measured, watch_);
-      if (!faired.feasible) return std::nullopt;
+      if (!faired.feasible) break;
       auto chain = follow(faired, measured);
-      if (chain) return std::move(*chain);
-      const auto end = nearest_primitive_end(faired, static_cast<std::size_t>(chain.error().index));
-      if (!end) return std::nullopt;
+      const auto end =
+          chain ? unproved_end(faired, *chain)
+                : nearest_primitive_end(faired, static_cast<std::size_t>(chain.error().index));
+      if (chain && !end) return std::move(*chain);
+      if (!end) break;
+      if (chain && !unproved) unproved = {std::move(*chain), faired};
       measured.loose = faired.loose;
       measured.loose.push_back(*end);  // the transition beside the primitive needs more room
     }
-    return std::nullopt;
+    if (!unproved) return std::nullopt;
+    faired = std::move(unproved->second);
+    return std::move(unproved->first);
+  }
+
+  /// The end of a line or arc beside which the spirals of a chain are not proved: they exist, but
+  /// so narrowly that doubles do not hold them.
+  [[nodiscard]] std::optional<std::size_t> unproved_end(const FairedSeries& faired,
+                                                        const SeriesChain& chain) const {
+    if (faired.primitives == 0) return std::nullopt;
+    const auto end = primitive_end_unproved(points_, chain);
+    return end && goes_on_ ? *end + overlap() : end;
   }
 
   /// Whether the curvature changes its sign although all points turn one way.
