@@ -11,6 +11,7 @@
 
 #include "fit/assemble.h"
 #include "fit/corners_between.h"
+#include "fit/edge_chain.h"
 #include "fit/excursion.h"
 #include "fit/form.h"
 #include "fit/given.h"
@@ -21,6 +22,7 @@
 #include "fit/prepare.h"
 #include "fit/section_chain.h"
 #include "fit/slope_step.h"
+#include "fit/taken_back.h"
 #include "fit/waviness.h"
 #include "fit/whole_sections.h"
 #include "obvid/certify/certify.h"
@@ -817,11 +819,20 @@ bool looks_between(const FitJob& job) {
          info_of(job.carrier).needs != CarrierNeeds::kPoints;
 }
 
-Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, FoundChains& chains,
-                              Watch& watch, const KeptParts& kept = {}, Reach reach = {}) {
+/// What a contour is formed with beyond its job.
+struct FormedWith {
+  KeptParts kept{};
+  Reach reach{};
+  TakenBack taken_back{};
+};
+
+Result<Fit> formed_once(const PointSeries& series, const FitJob& job, const FormedWith& with,
+                        FoundChains& chains, Watch& watch) {
+  const auto& [kept, reach, taken_back] = with;
   watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   OBVID_TRY(prepared);
+  prepared->taken_back = taken_back;
   if (watch.cancelled()) return fail(cancelled_error());
   if (reach.part == 0.0) {
     prepared->reach.assign(prepared->points.size(), 0.0);
@@ -867,7 +878,7 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   if (watch.cancelled()) return fail(cancelled_error());
   out.report.chain = formed->chain;
   out.warnings = series.warnings;
-  for (const auto* more : {&prepared->warnings, &formed->warnings}) {
+  for (const auto* more : {&prepared->warnings, &prepared->taken_back.told, &formed->warnings}) {
     out.warnings.insert(out.warnings.end(), more->begin(), more->end());
   }
   if (auto warning = warn_of_excursion(out.contour, has_given_data(*prepared), watch)) {
@@ -879,6 +890,110 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   }
   watch.tell("done", 1.0);
   return out;
+}
+
+/// Whether another choice of lines and arcs may end otherwise.
+bool depends_on_primitives(const Result<Fit>& made, Carrier carrier) {
+  if (made) return !keeps_promise(carrier, made->certificate);
+  const ErrorCode code = made.error().code;
+  return made.error().index >= 0 &&
+         (code == ErrorCode::kRoundingDecides || code == ErrorCode::kNoRoomForTransition ||
+          code == ErrorCode::kNotProved);
+}
+
+/// Forms a contour with lines and arcs, and takes back what it shows not to hold.
+class WithPrimitives {
+ public:
+  WithPrimitives(const PointSeries& series, const FitJob& job, FormedWith with, FoundChains& chains,
+                 Watch& watch)
+      : series_(series), job_(job), with_(std::move(with)), chains_(chains), watch_(watch) {}
+
+  Result<Fit> run() {
+    const double before = watch_.spent();
+    auto made = without_blunt_corners(formed());
+    // the plain contour is looked for first where one of G3 is not proved
+    if (is_made_g3(job_) || !depends_on_primitives(made, job_.carrier)) return made;
+    const Result<Fit> first = made;
+    const double most = watch_.spent() + kSpareWork + kTakenBackWork * (watch_.spent() - before);
+    for (int k = 0; k < kMostTakenBack && goes_on(most); ++k) {
+      if (!take_back_beside(made)) break;
+      made = without_blunt_corners(formed());
+      if (!depends_on_primitives(made, job_.carrier)) return made;
+    }
+    if (watch_.was_cancelled()) return fail(cancelled_error());
+    return without_any(first);
+  }
+
+ private:
+  /// Lines and arcs, and rounds of corners, that are taken back before all are.
+  static constexpr int kMostTakenBack = 8;
+  /// Of the work of the first contour, what the others may take before one without any is formed.
+  static constexpr double kTakenBackWork = 4.0;
+
+  [[nodiscard]] bool goes_on(double most) const {
+    return watch_.may_go_on() && watch_.spent() < most;
+  }
+
+  Result<Fit> formed() { return formed_once(series_, job_, with_, chains_, watch_); }
+
+  Result<Fit> without_blunt_corners(Result<Fit> made) {
+    const double angle = job_.corner_angle.value_or(kDefaultCornerAngle);
+    for (int k = 0; k < kMostTakenBack && made && watch_.may_go_on(); ++k) {
+      if (!take_back_corners(made->contour, angle, with_.taken_back)) break;
+      made = formed();
+    }
+    return made;
+  }
+
+  /// False where nothing is left to take back.
+  bool take_back_beside(const Result<Fit>& made) {
+    std::size_t point = 0;
+    if (made) {
+      const auto joint = unproved_joint(made->certificate);
+      if (!joint) return false;
+      point = point_nearest_to(*joint, made->contour);
+    } else {
+      point = static_cast<std::size_t>(made.error().index);
+    }
+    if (made && !follows_spirals(job_.carrier)) {
+      return take_back_nearest(lines_and_arcs(made->contour), point, made->contour.points.size(),
+                               made->contour.closed, with_.taken_back);
+    }
+    FitJob spirals = job_;  // other carriers do not tell what is a line
+    spirals.carrier = Carrier::kSpiral;
+    spirals.continuity = Continuity::kG2;
+    const auto followed = formed_once(series_, spirals, with_, chains_, watch_);
+    return followed && take_back_nearest(lines_and_arcs(followed->contour), point,
+                                         followed->contour.points.size(), followed->contour.closed,
+                                         with_.taken_back);
+  }
+
+  Result<Fit> without_any(const Result<Fit>& first) {
+    FitJob plain = job_;
+    plain.primitives = false;
+    FormedWith with{with_.kept, with_.reach, {}};
+    auto made = formed_once(series_, plain, with, chains_, watch_);
+    if (depends_on_primitives(made, job_.carrier) || !made) return first;
+    made->warnings.emplace_back(
+        "no line and no arc is kept: beside those that were found no transition was proved");
+    return made;
+  }
+
+  const PointSeries& series_;
+  const FitJob& job_;
+  FormedWith with_;
+  FoundChains& chains_;
+  Watch& watch_;
+};
+
+Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, FoundChains& chains,
+                              Watch& watch, const KeptParts& kept = {}, Reach reach = {}) {
+  FormedWith with{kept, reach, {}};
+  // exact points lie on none, and drawings keep theirs
+  if (!job.primitives || reach.part == 0.0 || !series.kept.empty()) {
+    return formed_once(series, job, with, chains, watch);
+  }
+  return WithPrimitives(series, job, std::move(with), chains, watch).run();
 }
 
 /// Parts between two points with a piece that is not proved to be monotone, or not to turn far.

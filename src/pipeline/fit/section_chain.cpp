@@ -631,6 +631,7 @@ class SectionChooser {
       }
     }
     for (const std::size_t i : whole) measured.reach.push_back(series_.reach[i]);
+    measured.loose = loose_among(whole);
     give_nodes(measured, whole, series_.convex);
     if (auto circle = whole_circle(measured)) return std::move(*circle);
     FairedSeries faired;
@@ -662,6 +663,15 @@ class SectionChooser {
     return through_moved(faired);
   }
 
+  /// Places of points that lie on no line and no arc.
+  [[nodiscard]] std::vector<std::size_t> loose_among(const std::vector<std::size_t>& whole) const {
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+      if (series_.is_loose(whole[k])) out.push_back(k);
+    }
+    return out;
+  }
+
   /// `follow_runs`, with bends one way only where that takes no more runs.
   std::optional<SeriesChain> runs_of_least_bends(MeasuredSeries measured,
                                                  const std::vector<std::size_t>& whole,
@@ -691,7 +701,7 @@ class SectionChooser {
   std::vector<MeantPiece> keep_meant(MeasuredSeries measured, const std::vector<std::size_t>& whole,
                                      std::optional<SeriesChain>& chain, FairedSeries& faired) {
     if (goes_on_ || series_.part < 1.0) return {};
-    measured.loose.clear();
+    measured.loose = loose_among(whole);
     measured.meant = aligned_lines(measured, middle_deviation(series_.points), watch_);
     const std::size_t had = chain ? points_kept(faired, measured.meant) : 0;
     if (measured.meant.empty()) return {};
@@ -750,6 +760,7 @@ class SectionChooser {
       out_.given_up = static_cast<std::size_t>(faired.given_up);
       out_.strays = strays_text();
     } else if (faired.primitives == 0) {
+      if (!series_.taken_back.loose.empty()) return;  // that is told
       out_.is_bare = series_.split.sections.size() > 1;
       if (!out_.is_bare) out_.warnings.push_back(no_primitives_text() + strays_text());
     } else if (!is_all_primitives(faired)) {
@@ -784,7 +795,7 @@ class SectionChooser {
     std::string missing;
     const std::size_t n = points_.size();
     for (const MeantPiece& m : meant) {
-      if (2 * points_kept(faired, {m}) > m.last - m.first) continue;
+      if (2 * points_kept(faired, {m}) > m.last - m.first || is_taken_back(m)) continue;
       missing += fmt::format("{}{} (points {}-{})", missing.empty() ? "" : ", ",
                              m.middle.kappa == 0.0 ? std::string("a line")
                                                    : fmt::format("an arc of radius {:.4g}",
@@ -801,6 +812,15 @@ class SectionChooser {
                           : "none that has all points within their tolerances was found")
             : "no transitions beside them were found that stay within the tolerance; `obvid "
               "alignment` has them, with steps of the curvature");
+  }
+
+  /// Whether most of its points lie on no line and no arc: that is told elsewhere.
+  [[nodiscard]] bool is_taken_back(const MeantPiece& meant) const {
+    std::size_t loose = 0;
+    for (std::size_t i = meant.first; i <= meant.last; ++i) {
+      loose += series_.is_loose(index_[i % index_.size()]) ? 1 : 0;
+    }
+    return 2 * loose > meant.last - meant.first;
   }
 
   /// Points of lines and arcs that are meant which lie on one of the contour.
@@ -1059,11 +1079,13 @@ Result<SectionChain> FoundChains::chain(const Prepared& series, const Section& s
               series.split.smooth_loop,
               series.thin,
               series.convex,
+              series.primitives,
               series.prefer,
               series.placed.empty() ? series.points : series.placed,
               series.reach,
               series.fixed,
-              series.whole_of(section)};
+              series.whole_of(section),
+              series.taken_back.loose};
   for (Found& one : found_) {
     if (!(one.asked == asked)) continue;
     spared_ += std::exchange(one.counts, false) ? one.seconds : 0.0;

@@ -46,12 +46,13 @@ class FoundChains {
  private:
   struct Asked {
     std::size_t first, last;
-    bool loop, thin, convex;
+    bool loop, thin, convex, primitives;
     Prefer prefer;
     std::vector<Vec2> points;
     std::vector<double> reach;
     std::vector<FixedData> fixed;
     std::optional<WholePiece> whole;
+    std::vector<std::size_t> loose;
 
     bool operator==(const Asked&) const = default;
   };
