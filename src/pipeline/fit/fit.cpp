@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -33,6 +34,7 @@
 #include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/region/internal/refine.h"
 #include "obvid/series/internal/order.h"
+#include "obvid/series/internal/scatter.h"
 #include "verify/against_spirals.h"
 #include "verify/report.h"
 
@@ -121,6 +123,7 @@ struct Formed {
   std::optional<Contour> spirals;  ///< that another carrier stands for
   ChainReport chain;
   std::vector<std::string> warnings;
+  bool lacks_primitives = false;  ///< points may mean lines and arcs that it does not have
 
   void add(Carried section, Assembly& assembly) {
     warnings.insert(warnings.end(), section.warnings.begin(), section.warnings.end());
@@ -283,6 +286,7 @@ class SectionForming {
     OBVID_TRY(chain);
     if (chain->is_bare) bare_.push_back(k);
     given_up_ += chain->given_up;
+    out_.lacks_primitives = out_.lacks_primitives || chain->lacks_some;
     if (strays_.empty()) strays_ = chain->strays;
     auto spirals = spirals_of(*chain);
     if (!spirals && (carrier.needs == CarrierNeeds::kSpirals || !follows_spirals(job_.carrier))) {
@@ -819,6 +823,26 @@ bool looks_between(const FitJob& job) {
          info_of(job.carrier).needs != CarrierNeeds::kPoints;
 }
 
+/// Where errors like those of the points put some of them farther off any line or arc than their
+/// tolerances, these break up, whatever the search does: no contour may leave a single point.
+std::optional<std::string> warn_of_scatter(const Prepared& series, const Units& units) {
+  const std::size_t n = series.measured();
+  const auto seen =
+      scatter_of({series.points.begin(), series.points.begin() + static_cast<std::ptrdiff_t>(n)});
+  if (!seen || series.exact() || series.part < 1.0) return std::nullopt;
+  double beyond = 0.0, most = 0.0;  // of normal errors, as many as are to be expected
+  for (std::size_t i = 0; i < n; ++i) {
+    beyond += std::erfc(series.tolerance[i] / (std::numbers::sqrt2 * seen->deviation));
+    most = std::max(most, series.tolerance[i]);
+  }
+  if (!(beyond >= 1.0) || most >= seen->bound) return std::nullopt;
+  return fmt::format(
+      "the points scatter by {0} {1} across the curve: errors like that put about {2:.0f} of {3} "
+      "points farther off their line or arc than the tolerance, which breaks it up; --noise auto "
+      "lets them move {4} {1}",
+      significant(seen->deviation, 3), units.text(), beyond, n, significant(seen->bound, 3));
+}
+
 /// What a contour is formed with beyond its job.
 struct FormedWith {
   KeptParts kept{};
@@ -880,6 +904,11 @@ Result<Fit> formed_once(const PointSeries& series, const FitJob& job, const Form
   out.warnings = series.warnings;
   for (const auto* more : {&prepared->warnings, &prepared->taken_back.told, &formed->warnings}) {
     out.warnings.insert(out.warnings.end(), more->begin(), more->end());
+  }
+  if (formed->lacks_primitives) {
+    if (auto warning = warn_of_scatter(*prepared, series.units)) {
+      out.warnings.push_back(std::move(*warning));
+    }
   }
   if (auto warning = warn_of_excursion(out.contour, has_given_data(*prepared), watch)) {
     out.warnings.push_back(std::move(*warning));

@@ -645,6 +645,7 @@ class SectionChooser {
       return std::move(*chain);
     }
     if (measured.primitives) {
+      out_.lacks_some = true;
       out_.warnings.push_back(
           "no contour was found that keeps the lines and arcs among the points: it is formed "
           "without them" +
@@ -754,6 +755,7 @@ class SectionChooser {
 
   void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {
     const std::string missing = missing_text(faired, meant);
+    out_.lacks_some = !missing.empty() || !is_all_primitives(faired);
     if (!missing.empty()) {
       out_.warnings.push_back(missing + strays_text());
     } else if (meant.empty() && faired.given_up > 0) {

@@ -19,6 +19,7 @@ struct SectionChain {
   bool at_the_edge = false;  ///< of `edge_chain`: what is given leaves no fairer one that was found
   std::size_t given_up = 0;  ///< lines and arcs that the points mean and that are not kept
   std::string strays{};      ///< what is said of points that break them
+  bool lacks_some = false;   ///< lines and arcs that were asked for, where points may mean them
   bool is_bare = false;      ///< one of several sections, without a line or arc that were asked for
 };
 
