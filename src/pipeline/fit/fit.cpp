@@ -186,6 +186,8 @@ bool makes_slopes_continuous(const FitJob& job) {
 
 /// Sections that are named in a warning.
 constexpr std::size_t kMostBareNamed = 4;
+/// Lines and arcs that are named where the contour does not have them; of more the longest ones.
+constexpr std::size_t kMostMissingNamed = 4;
 
 /// Forms the sections one after the other, and beside them the spirals of the same elements.
 class SectionForming {
@@ -221,6 +223,7 @@ class SectionForming {
     if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
     tell_bare_sections();
     out_.contour = finished(assembly_, job_.carrier);
+    tell_missing();
     tell_given_up();
     if (steps_everywhere(out_.contour)) {
       claim_slopes(out_.contour, false);
@@ -258,6 +261,35 @@ class SectionForming {
     out_.warnings.push_back(no_primitives_text(where));
   }
 
+  /// What the points mean and the contour does not have, of all sections: a sentence for each
+  /// reason.
+  void tell_missing() {
+    std::stable_sort(missing_.begin(), missing_.end(),
+                     [](const auto& a, const auto& b) { return a.because < b.because; });
+    for (auto begin = missing_.begin(); begin != missing_.end();) {
+      const auto end = std::find_if(begin, missing_.end(),
+                                    [&](const auto& m) { return m.because != begin->because; });
+      out_.warnings.push_back(
+          fmt::format("the contour does not keep {}, which the points mean: {}{}",
+                      names_of({begin, end}), begin->because, std::exchange(strays_, {})));
+      begin = end;
+    }
+  }
+
+  /// All of few, of many the number and the longest ones.
+  static std::string names_of(std::vector<MissingPiece> all) {
+    const std::size_t count = all.size();
+    if (count > kMostMissingNamed) {
+      std::stable_sort(all.begin(), all.end(),
+                       [](const auto& a, const auto& b) { return a.points > b.points; });
+      all.resize(kMostMissingNamed);
+    }
+    std::string out;
+    for (const MissingPiece& one : all) out += (out.empty() ? "" : ", ") + one.name;
+    if (count == all.size()) return out;
+    return fmt::format("{} lines and arcs, of which the longest are {}", count, out);
+  }
+
   /// Lines and arcs that are not kept, of all sections, beside those that the table has.
   void tell_given_up() {
     if (given_up_ == 0) return;
@@ -286,6 +318,7 @@ class SectionForming {
     OBVID_TRY(chain);
     if (chain->is_bare) bare_.push_back(k);
     given_up_ += chain->given_up;
+    missing_.insert(missing_.end(), chain->missing.begin(), chain->missing.end());
     out_.lacks_primitives = out_.lacks_primitives || chain->lacks_some;
     if (strays_.empty()) strays_ = chain->strays;
     auto spirals = spirals_of(*chain);
@@ -485,11 +518,12 @@ class SectionForming {
   Assembly assembly_, spirals_;
   Waviness waviness_g2_{watch_};
   KeptParts kept_;
-  std::vector<std::size_t> place_;  ///< of each point in the order of the series
-  std::size_t given_up_ = 0;        ///< lines and arcs of all sections
-  std::string strays_;              ///< that break them, of the first section that has such
-  std::vector<std::size_t> bare_;   ///< sections without a line or arc that were asked for
-  bool have_spirals_;               // as long as they are asked for, and all sections have them
+  std::vector<std::size_t> place_;     ///< of each point in the order of the series
+  std::size_t given_up_ = 0;           ///< lines and arcs of all sections
+  std::vector<MissingPiece> missing_;  ///< likewise
+  std::string strays_;                 ///< that break them, of the first section that has such
+  std::vector<std::size_t> bare_;      ///< sections without a line or arc that were asked for
+  bool have_spirals_;                  // as long as they are asked for, and all sections have them
 };
 
 Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,

@@ -754,10 +754,10 @@ class SectionChooser {
   }
 
   void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {
-    const std::string missing = missing_text(faired, meant);
-    out_.lacks_some = !missing.empty() || !is_all_primitives(faired);
-    if (!missing.empty()) {
-      out_.warnings.push_back(missing + strays_text());
+    out_.missing = missing_pieces(faired, meant);
+    out_.lacks_some = !out_.missing.empty() || !is_all_primitives(faired);
+    if (!out_.missing.empty()) {
+      out_.strays = strays_text();
     } else if (meant.empty() && faired.given_up > 0) {
       out_.given_up = static_cast<std::size_t>(faired.given_up);
       out_.strays = strays_text();
@@ -791,29 +791,40 @@ class SectionChooser {
                        one ? "its" : "their", one ? "it" : "them");
   }
 
-  /// Names what the points mean and the contour does not have; empty: nothing.
-  [[nodiscard]] std::string missing_text(const FairedSeries& faired,
-                                         const std::vector<MeantPiece>& meant) const {
-    std::string missing;
+  /// What the points mean and the contour does not have.
+  [[nodiscard]] std::vector<MissingPiece> missing_pieces(
+      const FairedSeries& faired, const std::vector<MeantPiece>& meant) const {
+    std::vector<MissingPiece> missing;
     const std::size_t n = points_.size();
+    const bool all =
+        !loop_ && meant.size() == 1 && meant.front().first <= 1 && meant.front().last + 2 >= n;
     for (const MeantPiece& m : meant) {
       if (2 * points_kept(faired, {m}) > m.last - m.first || is_taken_back(m)) continue;
-      missing += fmt::format("{}{} (points {}-{})", missing.empty() ? "" : ", ",
-                             m.middle.kappa == 0.0 ? std::string("a line")
-                                                   : fmt::format("an arc of radius {:.4g}",
-                                                                 std::abs(1.0 / m.middle.kappa)),
-                             told(index_[m.first % n]) + 1, told(index_[m.last % n]) + 1);
+      missing.push_back(
+          {fmt::format("{} (points {}-{})", shape_name(m), told(index_[m.first % n]) + 1,
+                       told(index_[m.last % n]) + 1),
+           m.last - m.first + 1,
+           !all ? "no transitions beside them were found that stay within the tolerance; `obvid "
+                  "alignment` has them, with steps of the curvature"
+           : has_data() ? "none that has all points within their tolerances and what is given was "
+                          "found"
+                        : "none that has all points within their tolerances was found"});
     }
-    if (missing.empty()) return {};
-    const MeantPiece& first = meant.front();
-    const bool all = !loop_ && meant.size() == 1 && first.first <= 1 && first.last + 2 >= n;
-    return fmt::format(
-        "the contour does not keep {}, which the points mean: {}", missing,
-        all ? (has_data() ? "none that has all points within their tolerances and what is given "
-                            "was found"
-                          : "none that has all points within their tolerances was found")
-            : "no transitions beside them were found that stay within the tolerance; `obvid "
-              "alignment` has them, with steps of the curvature");
+    return missing;
+  }
+
+  /// An arc that bends by less than its points may be off may as well be a line.
+  [[nodiscard]] std::string shape_name(const MeantPiece& m) const {
+    const double kappa = std::abs(m.middle.kappa);
+    if (kappa == 0.0) return "a line";
+    const std::size_t n = points_.size();
+    const Vec2 chord = points_[m.last % n] - points_[m.first % n];
+    double reach = 0.0;
+    for (std::size_t i = m.first; i <= m.last; ++i) {
+      reach = std::max(reach, series_.reach[index_[i % n]]);
+    }
+    if (kappa * dot(chord, chord) / 8.0 < reach) return "a nearly straight stretch";
+    return fmt::format("an arc of radius {:.4g}", 1.0 / kappa);
   }
 
   /// Whether most of its points lie on no line and no arc: that is told elsewhere.
