@@ -11,7 +11,7 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-bool holds(const std::vector<std::size_t>& all, std::size_t one) {
+bool has_index(const std::vector<std::size_t>& all, std::size_t one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
@@ -30,7 +30,7 @@ std::size_t points_away(const LineOrArc& one, std::size_t point, std::size_t poi
 bool take_back_corners(const Contour& contour, double angle, TakenBack& out) {
   bool any = false;
   for (const Joint& joint : contour.joints) {
-    if (!joint.after || !joint.leaving || holds(out.unbroken, *joint.after)) continue;
+    if (!joint.after || !joint.leaving || has_index(out.unbroken, *joint.after)) continue;
     if (std::abs(turn_between(joint.element.theta, joint.leaving->theta)) >= angle) continue;
     out.unbroken.push_back(*joint.after);
     any = true;
@@ -44,13 +44,13 @@ bool take_back_nearest(const std::vector<LineOrArc>& all, std::size_t point, std
   std::size_t least = points;
   for (const LineOrArc& one : all) {
     const std::size_t away = points_away(one, point, points, closed);
-    if (holds(out.loose, one.from) || away >= least) continue;
+    if (has_index(out.loose, one.from) || away >= least) continue;
     nearest = &one;
     least = away;
   }
   if (nearest == nullptr) return false;
   for (std::size_t i = nearest->from;; i = (i + 1) % points) {
-    if (!holds(out.loose, i)) out.loose.push_back(i);
+    if (!has_index(out.loose, i)) out.loose.push_back(i);
     if (i == nearest->to) break;
   }
   out.told.push_back(fmt::format(
