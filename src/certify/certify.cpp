@@ -163,6 +163,7 @@ class Certifier {
     certificate_.slope_steps = joints_.slope_steps;
     certificate_.loose_slopes = joints_.loose_slopes;
     certificate_.gaps_within_bounds = joints_.within_bounds;
+    certificate_.loose_joint = joints_.loose_joint;
     if (contour_.joints.size() != expected) {
       certificate_.gaps_within_bounds = joints_.within_bounds = joints_.meeting = false;
       fail(fmt::format("{} pieces need {} joints, not {}", n, expected, contour_.joints.size()));

@@ -142,6 +142,7 @@ class JointWalk {
     const bool within = gap <= bound && gap < kBroken;
     if (within || !survey_.within_bounds) return within;
     survey_.within_bounds = false;
+    survey_.loose_joint = joint;
     survey_.reason =
         fmt::format("{} at joint {} is {:.3g}, its bound {:.3g}", what, joint + 1, gap, bound);
     return false;

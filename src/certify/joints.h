@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ namespace obvid {
 struct JointSurvey {
   JointGaps gaps;
   bool within_bounds = true;
-  bool meeting = true;            ///< every gap of position is within its bound
-  std::string reason;             ///< first gap beyond its bound
+  bool meeting = true;                       ///< every gap of position is within its bound
+  std::string reason;                        ///< first gap beyond its bound
+  std::optional<std::size_t> loose_joint{};  ///< where it is
   std::vector<std::int8_t> jump;  ///< sign of the curvature's jump at the start of each piece
   int joints = 0;                 ///< places at which two pieces meet
   int inflections = 0;

@@ -154,6 +154,39 @@ TEST(CornersBetween, WithoutLinesAndArcsNothingIsLookedFor) {
   for (const Joint& joint : made->contour.joints) EXPECT_FALSE(joint.after);
 }
 
+/// A ring that bends as it likes, within so much that lines and arcs of a few points break it.
+TEST(CornersBetween, NoneTurnsByLessThanACornerDoes) {
+  PointSeries series;
+  series.points = {
+      {4.18246, 0},          {4.03055, 0.919947},
+      {4.02949, 1.9405},     {3.94597, 3.14681},
+      {3.4411, 4.315},       {2.42243, 5.03023},
+      {1.15166, 5.04573},    {-1.13358e-19, 4.51937},
+      {-0.884726, 3.87624},  {-1.65185, 3.4301},
+      {-2.50435, 3.14036},   {-3.42074, 2.72795},
+      {-4.1464, 1.9968},     {-4.44945, 1.01556},
+      {-4.348, -2.1812e-19}, {-4.06274, -0.927294},
+      {-3.76457, -1.81292},  {-3.40857, -2.71825},
+      {-2.83007, -3.54879},  {-1.97162, -4.09412},
+      {-0.968396, -4.24282}, {7.55922e-19, -4.11568},
+      {0.900122, -3.94369},  {1.83698, -3.81452},
+      {2.85038, -3.57427},   {3.76674, -3.00387},
+      {4.311, -2.07607},     {4.382, -1.00016},
+  };
+  FitJob job = scan_job(1.0);
+  job.noise = 0.06389;
+  const auto made = fit(series, job);
+  ASSERT_TRUE(made) << to_line(made.error());
+  EXPECT_TRUE(made->certificate.proved) << made->certificate.reason;
+  for (const Joint& joint : made->contour.joints) {
+    if (!joint.after) continue;
+    ASSERT_TRUE(joint.leaving);
+    const double turn =
+        std::remainder(joint.leaving->theta - joint.element.theta, 2.0 * std::numbers::pi);
+    EXPECT_GE(std::abs(turn), std::numbers::pi / 9.0) << *joint.after;
+  }
+}
+
 /// Offsets across a curve that look as errors do and are none's: the same at every run.
 double error_at(std::size_t i, double size) {
   const double a = std::sin(12.9898 * static_cast<double>(i + 1)) * 43758.5453;
@@ -188,7 +221,7 @@ PointSeries rounded_polygon(int sides, double size) {
 }
 
 TEST(TangentRows, SidesAndRoundingsOfPolygonsAreLinesAndArcs) {
-  for (const int sides : {3, 5, 6}) {
+  for (const int sides : {3, 4, 5, 6}) {
     const PointSeries series = rounded_polygon(sides, 0.02);
     FitJob job = scan_job(1.0);
     job.noise = 0.03;
@@ -196,6 +229,24 @@ TEST(TangentRows, SidesAndRoundingsOfPolygonsAreLinesAndArcs) {
     ASSERT_TRUE(made) << to_line(made.error());
     EXPECT_TRUE(made->certificate.proved) << made->certificate.reason;
     EXPECT_EQ(lines_and_arcs(made->contour).size(), static_cast<std::size_t>(2 * sides));
+  }
+}
+
+/// Of the square of these the transition from an arc to the next line exists so narrowly that
+/// doubles do not hold it, whatever follows the spirals.
+TEST(TangentRows, ATransitionThatDoublesDoNotHoldGetsMoreRoomInEveryCarrier) {
+  const PointSeries series = rounded_polygon(4, 0.02);
+  for (const Closing closing : {Closing::kClosed, Closing::kOpen}) {
+    for (const Carrier carrier : {Carrier::kSpiral, Carrier::kArcs, Carrier::kClothoids,
+                                  Carrier::kBspline, Carrier::kCubic}) {
+      FitJob job = scan_job(1.0, closing);
+      job.noise = 0.03;
+      job.carrier = carrier;
+      const auto made = fit(series, job);
+      ASSERT_TRUE(made) << to_string(carrier) << to_line(made.error());
+      EXPECT_TRUE(keeps_promise(carrier, made->certificate))
+          << to_string(carrier) << made->certificate.reason;
+    }
   }
 }
 

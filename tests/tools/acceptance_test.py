@@ -374,6 +374,17 @@ class Cutting(unittest.TestCase):
             with self.assertRaises(AssertionError):
                 Controller("G0 Z5\nG0 X0 Y0\n" + line)
 
+    def test_programs_of_parts_of_drawings_are_whole_and_say_what_is_missing(self):
+        told = {"left_out": 1, "warnings": ["path data have an error"]}
+        text = "G21 G90\nG0 X0 Y0\nM3 S1\nG1 X10 Y0 F100\nM5\nM2"
+        self.assertEqual(cutting.fault_of_partial("E504", told, text), "")
+        self.assertIn("E502", cutting.fault_of_partial("E502", told, text))
+        for said in ({}, {**told, "left_out": 0}, {**told, "warnings": []}):
+            self.assertIn("missing", cutting.fault_of_partial("E504", said, text))
+        self.assertEqual(cutting.fault_of_partial("E504", told, text.removesuffix("\nM2")), "does not end")
+        self.assertIn("tool on", cutting.fault_of_partial("E504", told, text.replace("M5\n", "")))
+        self.assertIn("no controller", cutting.fault_of_partial("E504", told, text.replace(" F100", "")))
+
     def test_ways_and_outlines_cover_each_other(self):
         square = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)]
         program = Controller("G21 G90\nG0 X0 Y0\nM3 S1\nG1 X10 Y0 F100\nX10 Y10\nX0 Y10\nX0 Y0", burns=True)

@@ -23,6 +23,7 @@ TOLERANCE, INCHES = 0.01, 0.0005  # mm, in: farthest that a program may be from 
 COMPENSATION = 1e-6  # units: of lines and arcs
 DEPTH = 6.0
 PARTS_OF_SIZE = 100  # of a public drawing's diagonal: diameter of its cutter
+PARTIAL = 5  # exit code beside a program that lacks what could not be read of the drawing
 SECONDS_AT_MOST = 120  # of processor time, whatever else the machine does
 PATIENCE = 20  # of the clock, times that
 RANDOM_PLATES = 6
@@ -216,6 +217,23 @@ def started(command):
     return done, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+def fault_of_partial(error, said, text):
+    """What is wrong with the program of a drawing of which not all could be read; empty: nothing. It says E504 and
+    what is missing (docs/cli.md), and its file is whole: a controller takes it, and it ends with tool or beam off."""
+    if error != "E504":
+        return f"written with {error or 'no code'}"
+    if not said.get("left_out") or not said.get("warnings"):
+        return "does not say what is missing"
+    try:
+        codes = Controller(text, burns=True, splines=True).codes
+    except AssertionError as fault:
+        return f"no controller takes it: {fault}"
+    switched = [value for letter, value in codes if letter == "M" and value in (3, 4, 5)]
+    if not codes or codes[-1] not in (("M", 2), ("M", 30)):
+        return "does not end"
+    return "ends with its tool on" if switched and switched[-1] != 5 else ""
+
+
 def call(case, program, arguments, output):
     output.unlink(missing_ok=True)
     done, seconds = started([program, "cut", str(case.path), *arguments, "-o", str(output), "--json"])
@@ -224,7 +242,10 @@ def call(case, program, arguments, output):
     if done.returncode != 0:
         line = next((s for s in done.stderr.splitlines() if s.startswith("obvid: error")), "")
         outcome["error"], _, outcome["text"] = line.removeprefix("obvid: error ").partition(": ")
-        if output.exists():
+        if output.exists() and done.returncode == PARTIAL:
+            said = json.loads(done.stdout) if done.stdout.startswith("{") else {}
+            outcome["partial"] = fault_of_partial(outcome["error"], said, output.read_text())
+        elif output.exists():
             outcome["exit"] = "refused, but written"
         return outcome, None
     return outcome, json.loads(done.stdout)
@@ -309,9 +330,9 @@ def summary(outcomes):
 
 def details(outcomes):
     refused = [o for o in outcomes if o["exit"] != 0]
-    return tables.markdown(["refused", "group", "exit", "code", "why"],
-                           [[o["name"], o["group"], o["exit"], o["error"], o["text"].split("; ")[0].split(" (")[0][:90]]
-                            for o in refused])
+    why = lambda o: o.get("partial") or o["text"].split("; ")[0].split(" (")[0][:90]  # noqa: E731
+    return tables.markdown(["refused, or a part", "group", "exit", "code", "why"],
+                           [[o["name"], o["group"], o["exit"], o["error"], why(o)] for o in refused])
 
 
 def criteria(outcomes):
@@ -321,7 +342,8 @@ def criteria(outcomes):
     worst = lambda key: max((o[key] / o["tolerance"] for o in done if key in o), default=math.inf)  # noqa: E731
     off = max((o["compensation"] for o in made if "compensation" in o), default=math.inf)
     rapids, early = (sum(o.get(key, 0) for o in done) for key in ("rapids", "early"))
-    coded = [o for o in outcomes if o["exit"] != 0]
+    coded = [o for o in outcomes if o["exit"] != 0 and "partial" not in o]
+    partial = [o["partial"] for o in outcomes if "partial" in o]
     return [("every plate is done", f"{sum(o['exit'] == 0 for o in made)} of {len(made)}",
              all(o["exit"] == 0 for o in made)),
             ("plates: every outline cut, the right way round",
@@ -329,6 +351,8 @@ def criteria(outcomes):
              not any(o.get("missed", 1) + o.get("wrong_way", 1) for o in made)),
             ("what is refused has a code, and no file", f"{sum(bool(o['error']) for o in coded)} of {len(coded)}",
              all(o["error"] and o["exit"] in (3, 4, 5) for o in coded)),
+            ("programs of parts of drawings say so, with what is missing, and are whole",
+             f"{partial.count('')} of {len(partial)}", not any(partial)),
             (f"no gouge beyond {most} tolerances", f"{worst('gouge'):.3f}", worst("gouge") <= most),
             (f"ways no farther from outlines than {most} tolerances", f"{worst('off'):.3f}", worst("off") <= most),
             (f"outlines no farther from the cut than {most} tolerances", f"{worst('left'):.3f}", worst("left") <= most),

@@ -36,8 +36,8 @@ struct JointGaps {
   std::optional<double> slope{};
 };
 
-/// What is called continuous (docs/claims.md): gaps up to these, in rad, of the curvature, and of the
-/// largest slope of the two pieces.
+/// What is called continuous (docs/claims.md): gaps up to these, in rad, of the curvature, and of
+/// the largest slope of the two pieces.
 inline constexpr double kContinuousHeading = 1e-6;
 inline constexpr double kContinuousCurvature = 1e-6;
 inline constexpr double kContinuousSlope = 1e-6;
@@ -60,7 +60,8 @@ struct Certificate {
   [[nodiscard]] int smooth_joints() const {
     return gaps.slope ? joints - corners - curvature_steps - slope_steps : 0;
   }
-  std::vector<std::size_t> loose_slopes{};  ///< joints of one whose gap is beyond its bound
+  std::vector<std::size_t> loose_slopes{};   ///< joints of one whose gap is beyond its bound
+  std::optional<std::size_t> loose_joint{};  ///< the first with any gap beyond its bound
   int vertices = 0;
   int inflections = 0;
   int self_intersections = 0;

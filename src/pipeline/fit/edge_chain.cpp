@@ -364,12 +364,66 @@ ChainTurns turns_of_chain(const SeriesChain& chain) {
   return out;
 }
 
-bool proved_as_stored(const std::vector<Vec2>& points, const SeriesChain& chain) {
+namespace {
+
+Result<Contour> as_stored(const std::vector<Vec2>& points, const SeriesChain& chain) {
   auto contour = spirals_over(points, chain);
-  if (!contour) return false;
+  OBVID_TRY(contour);
   keep_joint_curvatures(*contour);
   take_piece_ends(*contour);
-  return certify(*contour).proved;
+  return contour;
+}
+
+/// From a joint on, one way: the first end of a line or arc, and how many joints away it is.
+/// Nothing where another point comes first.
+struct EndBeside {
+  std::size_t source = 0, away = 0;
+};
+std::optional<EndBeside> end_beside(const Contour& contour, std::size_t joint, bool forward) {
+  const auto is_flat = [&](std::size_t piece) {
+    return std::holds_alternative<LinePiece>(contour.pieces[piece]) ||
+           std::holds_alternative<ArcPiece>(contour.pieces[piece]);
+  };
+  for (std::size_t away = 0, j = joint; j < contour.joints.size(); ++away) {
+    if (const auto source = contour.joints[j].source) {
+      const bool ends = (j > 0 && is_flat(j - 1)) || (j < contour.pieces.size() && is_flat(j));
+      if (ends) return EndBeside{*source, away};
+      if (away > 0) return std::nullopt;
+    }
+    if (!forward && j == 0) return std::nullopt;
+    j = forward ? j + 1 : j - 1;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool proved_as_stored(const std::vector<Vec2>& points, const SeriesChain& chain) {
+  const auto contour = as_stored(points, chain);
+  return contour && certify(*contour).proved;
+}
+
+std::optional<std::size_t> unproved_joint(const Certificate& certificate) {
+  if (certificate.loose_joint) return certificate.loose_joint;
+  for (std::size_t i = 0; i < certificate.pieces.size(); ++i) {
+    const PieceProof& proof = certificate.pieces[i];
+    const bool monotone =
+        proof.verdict != Verdict::kHasVertex && proof.verdict != Verdict::kUndecided;
+    if (!monotone || !proof.turns_below_half) return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> primitive_end_unproved(const std::vector<Vec2>& points,
+                                                  const SeriesChain& chain) {
+  const auto contour = as_stored(points, chain);
+  if (!contour) return std::nullopt;
+  const auto joint = unproved_joint(certify(*contour));
+  if (!joint) return std::nullopt;
+  const auto before = end_beside(*contour, *joint, false);
+  const auto after = end_beside(*contour, *joint, true);
+  if (!before && !after) return std::nullopt;
+  return before && (!after || before->away < after->away) ? before->source : after->source;
 }
 
 std::optional<SeriesChain> edge_chain(const std::vector<Vec2>& points, const Analysis& analysis,

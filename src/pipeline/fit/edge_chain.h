@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "obvid/certify/certificate.h"
 #include "obvid/chain/internal/series_chain.h"
 #include "obvid/core/internal/watch.h"
 #include "obvid/series/analysis.h"
@@ -14,6 +15,16 @@ namespace obvid::pipeline_detail {
 /// joints too, whose curvature leaps beyond what doubles hold where a link is close to having no
 /// spiral. O(n log n).
 [[nodiscard]] bool proved_as_stored(const std::vector<Vec2>& points, const SeriesChain& chain);
+
+/// Where the contour that a chain with lines and arcs is stored as is not proved beside one of
+/// them: the point at the nearer end of the nearest one. Nothing where it is proved, or where it is
+/// not but a point lies between. O(n log n).
+[[nodiscard]] std::optional<std::size_t> primitive_end_unproved(const std::vector<Vec2>& points,
+                                                                const SeriesChain& chain);
+
+/// The first joint whose gap is beyond its bound, or before the first piece that is not proved to
+/// be monotone and to turn by less than half a turn. Nothing where there is none.
+[[nodiscard]] std::optional<std::size_t> unproved_joint(const Certificate& certificate);
 
 /// Vertices and inflections that a chain has.
 struct ChainTurns {

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
 #include "fit/assemble.h"
 #include "fit/corners_between.h"
+#include "fit/edge_chain.h"
 #include "fit/excursion.h"
 #include "fit/form.h"
 #include "fit/given.h"
@@ -21,6 +23,7 @@
 #include "fit/prepare.h"
 #include "fit/section_chain.h"
 #include "fit/slope_step.h"
+#include "fit/taken_back.h"
 #include "fit/waviness.h"
 #include "fit/whole_sections.h"
 #include "obvid/certify/certify.h"
@@ -31,6 +34,7 @@
 #include "obvid/pipeline/internal/lines_and_arcs.h"
 #include "obvid/region/internal/refine.h"
 #include "obvid/series/internal/order.h"
+#include "obvid/series/internal/scatter.h"
 #include "verify/against_spirals.h"
 #include "verify/report.h"
 
@@ -119,6 +123,7 @@ struct Formed {
   std::optional<Contour> spirals;  ///< that another carrier stands for
   ChainReport chain;
   std::vector<std::string> warnings;
+  bool lacks_primitives = false;  ///< points may mean lines and arcs that it does not have
 
   void add(Carried section, Assembly& assembly) {
     warnings.insert(warnings.end(), section.warnings.begin(), section.warnings.end());
@@ -181,6 +186,8 @@ bool makes_slopes_continuous(const FitJob& job) {
 
 /// Sections that are named in a warning.
 constexpr std::size_t kMostBareNamed = 4;
+/// Lines and arcs that are named where the contour does not have them; of more the longest ones.
+constexpr std::size_t kMostMissingNamed = 4;
 
 /// Forms the sections one after the other, and beside them the spirals of the same elements.
 class SectionForming {
@@ -216,6 +223,7 @@ class SectionForming {
     if (watch_.was_cancelled()) return fail(cancelled_error());  // sections are missing
     tell_bare_sections();
     out_.contour = finished(assembly_, job_.carrier);
+    tell_missing();
     tell_given_up();
     if (steps_everywhere(out_.contour)) {
       claim_slopes(out_.contour, false);
@@ -253,6 +261,35 @@ class SectionForming {
     out_.warnings.push_back(no_primitives_text(where));
   }
 
+  /// What the points mean and the contour does not have, of all sections: a sentence for each
+  /// reason.
+  void tell_missing() {
+    std::stable_sort(missing_.begin(), missing_.end(),
+                     [](const auto& a, const auto& b) { return a.because < b.because; });
+    for (auto begin = missing_.begin(); begin != missing_.end();) {
+      const auto end = std::find_if(begin, missing_.end(),
+                                    [&](const auto& m) { return m.because != begin->because; });
+      out_.warnings.push_back(
+          fmt::format("the contour does not keep {}, which the points mean: {}{}",
+                      names_of({begin, end}), begin->because, std::exchange(strays_, {})));
+      begin = end;
+    }
+  }
+
+  /// All of few, of many the number and the longest ones.
+  static std::string names_of(std::vector<MissingPiece> all) {
+    const std::size_t count = all.size();
+    if (count > kMostMissingNamed) {
+      std::stable_sort(all.begin(), all.end(),
+                       [](const auto& a, const auto& b) { return a.points > b.points; });
+      all.resize(kMostMissingNamed);
+    }
+    std::string out;
+    for (const MissingPiece& one : all) out += (out.empty() ? "" : ", ") + one.name;
+    if (count == all.size()) return out;
+    return fmt::format("{} lines and arcs, of which the longest are {}", count, out);
+  }
+
   /// Lines and arcs that are not kept, of all sections, beside those that the table has.
   void tell_given_up() {
     if (given_up_ == 0) return;
@@ -281,6 +318,8 @@ class SectionForming {
     OBVID_TRY(chain);
     if (chain->is_bare) bare_.push_back(k);
     given_up_ += chain->given_up;
+    missing_.insert(missing_.end(), chain->missing.begin(), chain->missing.end());
+    out_.lacks_primitives = out_.lacks_primitives || chain->lacks_some;
     if (strays_.empty()) strays_ = chain->strays;
     auto spirals = spirals_of(*chain);
     if (!spirals && (carrier.needs == CarrierNeeds::kSpirals || !follows_spirals(job_.carrier))) {
@@ -479,11 +518,12 @@ class SectionForming {
   Assembly assembly_, spirals_;
   Waviness waviness_g2_{watch_};
   KeptParts kept_;
-  std::vector<std::size_t> place_;  ///< of each point in the order of the series
-  std::size_t given_up_ = 0;        ///< lines and arcs of all sections
-  std::string strays_;              ///< that break them, of the first section that has such
-  std::vector<std::size_t> bare_;   ///< sections without a line or arc that were asked for
-  bool have_spirals_;               // as long as they are asked for, and all sections have them
+  std::vector<std::size_t> place_;     ///< of each point in the order of the series
+  std::size_t given_up_ = 0;           ///< lines and arcs of all sections
+  std::vector<MissingPiece> missing_;  ///< likewise
+  std::string strays_;                 ///< that break them, of the first section that has such
+  std::vector<std::size_t> bare_;      ///< sections without a line or arc that were asked for
+  bool have_spirals_;                  // as long as they are asked for, and all sections have them
 };
 
 Result<Formed> form_sections(const Prepared& series, const FitJob& job, double tolerance,
@@ -817,11 +857,40 @@ bool looks_between(const FitJob& job) {
          info_of(job.carrier).needs != CarrierNeeds::kPoints;
 }
 
-Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, FoundChains& chains,
-                              Watch& watch, const KeptParts& kept = {}, Reach reach = {}) {
+/// Where errors like those of the points put some of them farther off any line or arc than their
+/// tolerances, these break up, whatever the search does: no contour may leave a single point.
+std::optional<std::string> warn_of_scatter(const Prepared& series, const Units& units) {
+  const std::size_t n = series.measured();
+  const auto seen =
+      scatter_of({series.points.begin(), series.points.begin() + static_cast<std::ptrdiff_t>(n)});
+  if (!seen || series.exact() || series.part < 1.0) return std::nullopt;
+  double beyond = 0.0, most = 0.0;  // of normal errors, as many as are to be expected
+  for (std::size_t i = 0; i < n; ++i) {
+    beyond += std::erfc(series.tolerance[i] / (std::numbers::sqrt2 * seen->deviation));
+    most = std::max(most, series.tolerance[i]);
+  }
+  if (!(beyond >= 1.0) || most >= seen->bound) return std::nullopt;
+  return fmt::format(
+      "the points scatter by {0} {1} across the curve: errors like that put about {2:.0f} of {3} "
+      "points farther off their line or arc than the tolerance, which breaks it up; --noise auto "
+      "lets them move {4} {1}",
+      significant(seen->deviation, 3), units.text(), beyond, n, significant(seen->bound, 3));
+}
+
+/// What a contour is formed with beyond its job.
+struct FormedWith {
+  KeptParts kept{};
+  Reach reach{};
+  TakenBack taken_back{};
+};
+
+Result<Fit> formed_once(const PointSeries& series, const FitJob& job, const FormedWith& with,
+                        FoundChains& chains, Watch& watch) {
+  const auto& [kept, reach, taken_back] = with;
   watch.tell("analysing", 0.0);
   auto prepared = prepare(series, job);
   OBVID_TRY(prepared);
+  prepared->taken_back = taken_back;
   if (watch.cancelled()) return fail(cancelled_error());
   if (reach.part == 0.0) {
     prepared->reach.assign(prepared->points.size(), 0.0);
@@ -867,8 +936,13 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   if (watch.cancelled()) return fail(cancelled_error());
   out.report.chain = formed->chain;
   out.warnings = series.warnings;
-  for (const auto* more : {&prepared->warnings, &formed->warnings}) {
+  for (const auto* more : {&prepared->warnings, &prepared->taken_back.told, &formed->warnings}) {
     out.warnings.insert(out.warnings.end(), more->begin(), more->end());
+  }
+  if (formed->lacks_primitives) {
+    if (auto warning = warn_of_scatter(*prepared, series.units)) {
+      out.warnings.push_back(std::move(*warning));
+    }
   }
   if (auto warning = warn_of_excursion(out.contour, has_given_data(*prepared), watch)) {
     out.warnings.push_back(std::move(*warning));
@@ -879,6 +953,110 @@ Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, Foun
   }
   watch.tell("done", 1.0);
   return out;
+}
+
+/// Whether another choice of lines and arcs may end otherwise.
+bool depends_on_primitives(const Result<Fit>& made, Carrier carrier) {
+  if (made) return !keeps_promise(carrier, made->certificate);
+  const ErrorCode code = made.error().code;
+  return made.error().index >= 0 &&
+         (code == ErrorCode::kRoundingDecides || code == ErrorCode::kNoRoomForTransition ||
+          code == ErrorCode::kNotProved);
+}
+
+/// Forms a contour with lines and arcs, and takes back what it shows not to hold.
+class WithPrimitives {
+ public:
+  WithPrimitives(const PointSeries& series, const FitJob& job, FormedWith with, FoundChains& chains,
+                 Watch& watch)
+      : series_(series), job_(job), with_(std::move(with)), chains_(chains), watch_(watch) {}
+
+  Result<Fit> run() {
+    const double before = watch_.spent();
+    auto made = without_blunt_corners(formed());
+    // the plain contour is looked for first where one of G3 is not proved
+    if (is_made_g3(job_) || !depends_on_primitives(made, job_.carrier)) return made;
+    const Result<Fit> first = made;
+    const double most = watch_.spent() + kSpareWork + kTakenBackWork * (watch_.spent() - before);
+    for (int k = 0; k < kMostTakenBack && goes_on(most); ++k) {
+      if (!take_back_beside(made)) break;
+      made = without_blunt_corners(formed());
+      if (!depends_on_primitives(made, job_.carrier)) return made;
+    }
+    if (watch_.was_cancelled()) return fail(cancelled_error());
+    return without_any(first);
+  }
+
+ private:
+  /// Lines and arcs, and rounds of corners, that are taken back before all are.
+  static constexpr int kMostTakenBack = 8;
+  /// Of the work of the first contour, what the others may take before one without any is formed.
+  static constexpr double kTakenBackWork = 4.0;
+
+  [[nodiscard]] bool goes_on(double most) const {
+    return watch_.may_go_on() && watch_.spent() < most;
+  }
+
+  Result<Fit> formed() { return formed_once(series_, job_, with_, chains_, watch_); }
+
+  Result<Fit> without_blunt_corners(Result<Fit> made) {
+    const double angle = job_.corner_angle.value_or(kDefaultCornerAngle);
+    for (int k = 0; k < kMostTakenBack && made && watch_.may_go_on(); ++k) {
+      if (!take_back_corners(made->contour, angle, with_.taken_back)) break;
+      made = formed();
+    }
+    return made;
+  }
+
+  /// False where nothing is left to take back.
+  bool take_back_beside(const Result<Fit>& made) {
+    std::size_t point = 0;
+    if (made) {
+      const auto joint = unproved_joint(made->certificate);
+      if (!joint) return false;
+      point = point_nearest_to(*joint, made->contour);
+    } else {
+      point = static_cast<std::size_t>(made.error().index);
+    }
+    if (made && !follows_spirals(job_.carrier)) {
+      return take_back_nearest(lines_and_arcs(made->contour), point, made->contour.points.size(),
+                               made->contour.closed, with_.taken_back);
+    }
+    FitJob spirals = job_;  // other carriers do not tell what is a line
+    spirals.carrier = Carrier::kSpiral;
+    spirals.continuity = Continuity::kG2;
+    const auto followed = formed_once(series_, spirals, with_, chains_, watch_);
+    return followed && take_back_nearest(lines_and_arcs(followed->contour), point,
+                                         followed->contour.points.size(), followed->contour.closed,
+                                         with_.taken_back);
+  }
+
+  Result<Fit> without_any(const Result<Fit>& first) {
+    FitJob plain = job_;
+    plain.primitives = false;
+    FormedWith with{with_.kept, with_.reach, {}};
+    auto made = formed_once(series_, plain, with, chains_, watch_);
+    if (depends_on_primitives(made, job_.carrier) || !made) return first;
+    made->warnings.emplace_back(
+        "no line and no arc is kept: beside those that were found no transition was proved");
+    return made;
+  }
+
+  const PointSeries& series_;
+  const FitJob& job_;
+  FormedWith with_;
+  FoundChains& chains_;
+  Watch& watch_;
+};
+
+Result<Fit> formed_and_proved(const PointSeries& series, const FitJob& job, FoundChains& chains,
+                              Watch& watch, const KeptParts& kept = {}, Reach reach = {}) {
+  FormedWith with{kept, reach, {}};
+  // exact points lie on none, and drawings keep theirs
+  if (!job.primitives || reach.part == 0.0 || !series.kept.empty()) {
+    return formed_once(series, job, with, chains, watch);
+  }
+  return WithPrimitives(series, job, std::move(with), chains, watch).run();
 }
 
 /// Parts between two points with a piece that is not proved to be monotone, or not to turn far.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "fit/taken_back.h"
 #include "obvid/core/result.h"
 #include "obvid/pipeline/fit.h"
 #include "obvid/series/internal/sections.h"
@@ -52,6 +54,7 @@ struct Prepared {
   /// Corners that lie between two measured points stand behind all of these in `points`: of each
   /// the measured point before it. `split` has them in their places.
   std::vector<std::size_t> after{};
+  TakenBack taken_back{};
   std::vector<std::string> warnings;
   std::string polygon;  ///< what is said when the points may be corners of a polygon; mostly empty
 
@@ -62,6 +65,10 @@ struct Prepared {
   /// The measured point that a point is, or that lies before a corner between two.
   [[nodiscard]] std::size_t named(std::size_t i) const {
     return is_between(i) ? after[i - measured()] : i;
+  }
+  [[nodiscard]] bool is_loose(std::size_t i) const {
+    const auto& loose = taken_back.loose;
+    return std::find(loose.begin(), loose.end(), i) != loose.end();
   }
   /// The line or arc that a section is.
   [[nodiscard]] std::optional<WholePiece> whole_of(const Section& section) const {

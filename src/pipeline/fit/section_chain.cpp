@@ -632,6 +632,7 @@ class SectionChooser {
       }
     }
     for (const std::size_t i : whole) measured.reach.push_back(series_.reach[i]);
+    measured.loose = loose_among(whole);
     give_nodes(measured, whole, series_.convex);
     if (auto circle = whole_circle(measured)) return std::move(*circle);
     FairedSeries faired;
@@ -645,6 +646,7 @@ class SectionChooser {
       return std::move(*chain);
     }
     if (measured.primitives) {
+      out_.lacks_some = true;
       out_.warnings.push_back(
           "no contour was found that keeps the lines and arcs among the points: it is formed "
           "without them" +
@@ -661,6 +663,15 @@ class SectionChooser {
         "the points were moved within their tolerances onto a smooth curve, but runs of monotone "
         "curvature along it were not found; the contour runs through the moved points");
     return through_moved(faired);
+  }
+
+  /// Places of points that lie on no line and no arc.
+  [[nodiscard]] std::vector<std::size_t> loose_among(const std::vector<std::size_t>& whole) const {
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+      if (series_.is_loose(whole[k])) out.push_back(k);
+    }
+    return out;
   }
 
   /// `follow_runs`, with bends one way only where that takes no more runs.
@@ -692,7 +703,7 @@ class SectionChooser {
   std::vector<MeantPiece> keep_meant(MeasuredSeries measured, const std::vector<std::size_t>& whole,
                                      std::optional<SeriesChain>& chain, FairedSeries& faired) {
     if (goes_on_ || series_.part < 1.0) return {};
-    measured.loose.clear();
+    measured.loose = loose_among(whole);
     measured.meant = aligned_lines(measured, middle_deviation(series_.points), watch_);
     const std::size_t had = chain ? points_kept(faired, measured.meant) : 0;
     if (measured.meant.empty()) return {};
@@ -744,13 +755,15 @@ class SectionChooser {
   }
 
   void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {
-    const std::string missing = missing_text(faired, meant);
-    if (!missing.empty()) {
-      out_.warnings.push_back(missing + strays_text());
+    out_.missing = missing_pieces(faired, meant);
+    out_.lacks_some = !out_.missing.empty() || !is_all_primitives(faired);
+    if (!out_.missing.empty()) {
+      out_.strays = strays_text();
     } else if (meant.empty() && faired.given_up > 0) {
       out_.given_up = static_cast<std::size_t>(faired.given_up);
       out_.strays = strays_text();
     } else if (faired.primitives == 0) {
+      if (!series_.taken_back.loose.empty()) return;  // that is told
       out_.is_bare = series_.split.sections.size() > 1;
       if (!out_.is_bare) out_.warnings.push_back(no_primitives_text() + strays_text());
     } else if (!is_all_primitives(faired)) {
@@ -769,29 +782,49 @@ class SectionChooser {
     return "; " + pipeline_detail::strays_text(numbers);
   }
 
-  /// Names what the points mean and the contour does not have; empty: nothing.
-  [[nodiscard]] std::string missing_text(const FairedSeries& faired,
-                                         const std::vector<MeantPiece>& meant) const {
-    std::string missing;
+  /// What the points mean and the contour does not have.
+  [[nodiscard]] std::vector<MissingPiece> missing_pieces(
+      const FairedSeries& faired, const std::vector<MeantPiece>& meant) const {
+    std::vector<MissingPiece> missing;
     const std::size_t n = points_.size();
+    const bool all =
+        !loop_ && meant.size() == 1 && meant.front().first <= 1 && meant.front().last + 2 >= n;
     for (const MeantPiece& m : meant) {
-      if (2 * points_kept(faired, {m}) > m.last - m.first) continue;
-      missing += fmt::format("{}{} (points {}-{})", missing.empty() ? "" : ", ",
-                             m.middle.kappa == 0.0 ? std::string("a line")
-                                                   : fmt::format("an arc of radius {:.4g}",
-                                                                 std::abs(1.0 / m.middle.kappa)),
-                             told(index_[m.first % n]) + 1, told(index_[m.last % n]) + 1);
+      if (2 * points_kept(faired, {m}) > m.last - m.first || is_taken_back(m)) continue;
+      missing.push_back(
+          {fmt::format("{} (points {}-{})", shape_name(m), told(index_[m.first % n]) + 1,
+                       told(index_[m.last % n]) + 1),
+           m.last - m.first + 1,
+           !all ? "no transitions beside them were found that stay within the tolerance; `obvid "
+                  "alignment` has them, with steps of the curvature"
+           : has_data() ? "none that has all points within their tolerances and what is given was "
+                          "found"
+                        : "none that has all points within their tolerances was found"});
     }
-    if (missing.empty()) return {};
-    const MeantPiece& first = meant.front();
-    const bool all = !loop_ && meant.size() == 1 && first.first <= 1 && first.last + 2 >= n;
-    return fmt::format(
-        "the contour does not keep {}, which the points mean: {}", missing,
-        all ? (has_data() ? "none that has all points within their tolerances and what is given "
-                            "was found"
-                          : "none that has all points within their tolerances was found")
-            : "no transitions beside them were found that stay within the tolerance; `obvid "
-              "alignment` has them, with steps of the curvature");
+    return missing;
+  }
+
+  /// An arc that bends by less than its points may be off may as well be a line.
+  [[nodiscard]] std::string shape_name(const MeantPiece& m) const {
+    const double kappa = std::abs(m.middle.kappa);
+    if (kappa == 0.0) return "a line";
+    const std::size_t n = points_.size();
+    const Vec2 chord = points_[m.last % n] - points_[m.first % n];
+    double reach = 0.0;
+    for (std::size_t i = m.first; i <= m.last; ++i) {
+      reach = std::max(reach, series_.reach[index_[i % n]]);
+    }
+    if (kappa * dot(chord, chord) / 8.0 < reach) return "a nearly straight stretch";
+    return fmt::format("an arc of radius {:.4g}", 1.0 / kappa);
+  }
+
+  /// Whether most of its points lie on no line and no arc: that is told elsewhere.
+  [[nodiscard]] bool is_taken_back(const MeantPiece& meant) const {
+    std::size_t loose = 0;
+    for (std::size_t i = meant.first; i <= meant.last; ++i) {
+      loose += series_.is_loose(index_[i % index_.size()]) ? 1 : 0;
+    }
+    return 2 * loose > meant.last - meant.first;
   }
 
   /// Points of lines and arcs that are meant which lie on one of the contour.
@@ -857,19 +890,34 @@ class SectionChooser {
   std::optional<SeriesChain> follow_runs(MeasuredSeries& measured, FairedSeries& faired) {
     const double most =
         watch_.spent() + kPrimitiveWork + kPrimitiveSteps * static_cast<double>(points_.size());
+    std::optional<std::pair<SeriesChain, FairedSeries>> unproved;  // the first one
     for (int k = 0; k < kMostTrims && (k == 0 || watch_.spent() < most); ++k) {
       const ProgressShare share =
           ProgressShare::next_of_many(watch_, measured.primitives ? k + 1 : 0);
       faired = fair(measured, watch_);
-      if (!faired.feasible) return std::nullopt;
+      if (!faired.feasible) break;
       auto chain = follow(faired, measured);
-      if (chain) return std::move(*chain);
-      const auto end = nearest_primitive_end(faired, static_cast<std::size_t>(chain.error().index));
-      if (!end) return std::nullopt;
+      const auto end =
+          chain ? unproved_end(faired, *chain)
+                : nearest_primitive_end(faired, static_cast<std::size_t>(chain.error().index));
+      if (chain && !end) return std::move(*chain);
+      if (!end) break;
+      if (chain && !unproved) unproved = {std::move(*chain), faired};
       measured.loose = faired.loose;
       measured.loose.push_back(*end);  // the transition beside the primitive needs more room
     }
-    return std::nullopt;
+    if (!unproved) return std::nullopt;
+    faired = std::move(unproved->second);
+    return std::move(unproved->first);
+  }
+
+  /// The end of a line or arc beside which the spirals of a chain are not proved: they exist, but
+  /// so narrowly that doubles do not hold them.
+  [[nodiscard]] std::optional<std::size_t> unproved_end(const FairedSeries& faired,
+                                                        const SeriesChain& chain) const {
+    if (faired.primitives == 0) return std::nullopt;
+    const auto end = primitive_end_unproved(points_, chain);
+    return end && goes_on_ ? *end + overlap() : end;
   }
 
   /// Whether the curvature changes its sign although all points turn one way.
@@ -1035,11 +1083,13 @@ Result<SectionChain> FoundChains::chain(const Prepared& series, const Section& s
               series.split.smooth_loop,
               series.thin,
               series.convex,
+              series.primitives,
               series.prefer,
               series.placed.empty() ? series.points : series.placed,
               series.reach,
               series.fixed,
-              series.whole_of(section)};
+              series.whole_of(section),
+              series.taken_back.loose};
   for (Found& one : found_) {
     if (!(one.asked == asked)) continue;
     spared_ += std::exchange(one.counts, false) ? one.seconds : 0.0;

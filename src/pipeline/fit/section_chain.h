@@ -10,6 +10,13 @@
 
 namespace obvid::pipeline_detail {
 
+/// A line or arc that the points mean and the contour does not have.
+struct MissingPiece {
+  std::string name;        ///< "a line (points 3-9)"
+  std::size_t points = 0;  ///< how many mean it
+  std::string because;
+};
+
 /// Elements of one section; `chain.source` counts the points of the whole series. A smooth loop
 /// ends with its first element again.
 struct SectionChain {
@@ -17,8 +24,10 @@ struct SectionChain {
   NodeData seam{};  ///< what was given where a smooth loop begins; the chain holds that element
   std::vector<std::string> warnings;
   bool at_the_edge = false;  ///< of `edge_chain`: what is given leaves no fairer one that was found
+  std::vector<MissingPiece> missing{};
   std::size_t given_up = 0;  ///< lines and arcs that the points mean and that are not kept
   std::string strays{};      ///< what is said of points that break them
+  bool lacks_some = false;   ///< lines and arcs that were asked for, where points may mean them
   bool is_bare = false;      ///< one of several sections, without a line or arc that were asked for
 };
 
@@ -46,12 +55,13 @@ class FoundChains {
  private:
   struct Asked {
     std::size_t first, last;
-    bool loop, thin, convex;
+    bool loop, thin, convex, primitives;
     Prefer prefer;
     std::vector<Vec2> points;
     std::vector<double> reach;
     std::vector<FixedData> fixed;
     std::optional<WholePiece> whole;
+    std::vector<std::size_t> loose;
 
     bool operator==(const Asked&) const = default;
   };
