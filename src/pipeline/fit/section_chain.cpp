@@ -741,8 +741,7 @@ class SectionChooser {
 
   /// Of a loop whose points lie within their tolerances of one circle, which has no vertex.
   std::optional<SeriesChain> whole_circle(MeasuredSeries measured) {
-    if (!loop_ || measured.primitives || has_data() ||
-        !are_near_circle_of_squares(measured.points, measured.reach)) {
+    if (!loop_ || has_data() || !are_near_circle_of_squares(measured.points, measured.reach)) {
       return std::nullopt;
     }
     measured.primitives = true;
@@ -751,7 +750,32 @@ class SectionChooser {
     const bool whole =
         chain && faired.primitives == 1 &&
         std::all_of(chain->direction.begin(), chain->direction.end(), [](int d) { return d == 0; });
-    return whole ? std::move(chain) : std::nullopt;
+    if (whole) return chain;
+    auto circle = follow(around_circle(*circle_of_squares(measured.points)), measured);
+    return circle ? std::optional(std::move(*circle)) : std::nullopt;
+  }
+
+  /// Once around, from the place of the first point, the way the points go.
+  [[nodiscard]] FairedSeries around_circle(const LeastSquaresCircle& circle) const {
+    const Vec2 from = points_.front() - circle.centre;
+    double twice_area = 0.0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      twice_area +=
+          cross(points_[i] - circle.centre, points_[(i + 1) % points_.size()] - circle.centre);
+    }
+    const double side = std::copysign(1.0, twice_area);
+    const int parts = static_cast<int>(std::ceil(kFullTurn / kMostTurnOfPart));
+    FairedSeries out;
+    out.primitives = 1;
+    for (int k = 0; k < parts; ++k) {
+      const double angle = std::atan2(from.y, from.x) + side * kFullTurn * k / parts;
+      out.elements.push_back({circle.centre + circle.radius * unit_at(angle),
+                              angle + side * 0.5 * std::numbers::pi, side / circle.radius});
+      out.source.emplace_back();
+      out.direction.push_back(0);
+    }
+    out.source.front() = 0;
+    return out;
   }
 
   void tell_primitives(const FairedSeries& faired, const std::vector<MeantPiece>& meant) {
