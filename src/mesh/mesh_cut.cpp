@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "obvid/numeric/internal/wide.h"
+
 namespace obvid {
 namespace {
 
@@ -120,7 +122,12 @@ class Chains {
         heights_(std::move(heights)),
         cuts_(std::move(cuts)),
         partners_(partners_of(cuts_)),
-        used_(cuts_.size(), false) {}
+        used_(cuts_.size(), false) {
+    constexpr double kRoundings = 32.0;
+    double farthest = 0.0;
+    for (const Vec3 p : mesh.points) farthest = std::max(farthest, norm(p));
+    rounding_ = kRoundings * numeric::kUnitRoundoff * (farthest + norm(plane.origin));
+  }
 
   std::vector<MeshSection> all() {
     std::vector<MeshSection> out;
@@ -146,8 +153,11 @@ class Chains {
 
   void put(MeshSection& chain, std::size_t end) const {
     const Vec2 p = crossing_of(mesh_, heights_, plane_, edge_at(end));
-    if (chain.points.empty() || !(chain.points.back() == p)) chain.points.push_back(p);
+    if (chain.points.empty() || !is_same_place(chain.points.back(), p)) chain.points.push_back(p);
   }
+
+  /// Edges that meet in a corner which lies in the plane but for rounding are cut in one place.
+  [[nodiscard]] bool is_same_place(Vec2 a, Vec2 b) const { return norm(a - b) <= rounding_; }
 
   /// From one end of a cut to wherever the chain ends.
   MeshSection walk(std::size_t start) {
@@ -167,7 +177,8 @@ class Chains {
       }
       end = next;
     }
-    if (chain.closed && chain.points.size() > 1 && chain.points.front() == chain.points.back()) {
+    if (chain.closed && chain.points.size() > 1 &&
+        is_same_place(chain.points.front(), chain.points.back())) {
       chain.points.pop_back();
     }
     if (!chain.closed) close_seam(chain);
@@ -206,6 +217,7 @@ class Chains {
   std::vector<CutEdge> cuts_;
   std::vector<std::size_t> partners_;
   std::vector<bool> used_;
+  double rounding_ = 0.0;  ///< of places of cuts, units
 };
 
 double chain_length(const MeshSection& chain) {

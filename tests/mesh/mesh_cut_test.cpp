@@ -301,5 +301,33 @@ TEST(MeshCut, ASeamThatDiffersByRoundingOpensNoSection) {
   }
 }
 
+/// Corners of an equator lie a rounding above or below the plane by turns, as from sines and
+/// cosines.
+TEST(MeshCut, CornersNearlyInThePlaneAreOnePlaceEach) {
+  constexpr std::uint32_t kMeridians = 120;
+  constexpr double kRadius = 5.0, kTurn = 2.0 * 3.14159265358979323846;
+  TriangleMesh mesh;
+  for (const double height : {-1.0, 0.0, 1.0}) {
+    for (std::uint32_t k = 0; k < kMeridians; ++k) {
+      const double angle = kTurn * k / kMeridians, off = k % 2 == 0 ? 3e-16 : -3e-16;
+      mesh.points.push_back({kRadius * std::cos(angle), kRadius * std::sin(angle), height + off});
+    }
+  }
+  for (std::uint32_t row = 0; row < 2; ++row) {
+    for (std::uint32_t k = 0; k < kMeridians; ++k) {
+      const std::uint32_t a = row * kMeridians + k, b = row * kMeridians + (k + 1) % kMeridians;
+      mesh.triangles.push_back({a, b, b + kMeridians});
+      mesh.triangles.push_back({a, b + kMeridians, a + kMeridians});
+    }
+  }
+  const auto cut = cut_mesh(mesh, Frame{});
+  ASSERT_TRUE(cut);
+  ASSERT_EQ(cut->size(), 1U);
+  const std::vector<Vec2>& points = cut->front().points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_GT(norm(points[(i + 1) % points.size()] - points[i]), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace obvid
