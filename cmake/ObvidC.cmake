@@ -20,8 +20,9 @@ if(TARGET pugixml::static)  # before the shared one, which then is not needed
   target_link_libraries(obvid_c PRIVATE pugixml::static)
 endif()
 target_link_libraries(obvid_c PRIVATE obvid::pipeline)
-# The linker leaves out what nothing refers to: fmt is compiled in, the kernel is not linked.
-target_link_options(obvid_c PRIVATE -static-libstdc++ -static-libgcc -Wl,--as-needed
+# The linker leaves out what nothing refers to: fmt is compiled in, the kernel is not linked, and inline functions
+# that no exported one reaches are a twentieth of the file.
+target_link_options(obvid_c PRIVATE -static-libstdc++ -static-libgcc -Wl,--as-needed -Wl,--gc-sections
   "-Wl,--version-script=${PROJECT_SOURCE_DIR}/src/capi/exports.map" -Wl,--no-undefined)
 set_target_properties(obvid_c PROPERTIES
   LINK_DEPENDS "${PROJECT_SOURCE_DIR}/src/capi/exports.map"

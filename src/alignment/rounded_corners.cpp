@@ -37,10 +37,6 @@ struct Corner {
   double room = 0.0;  ///< how far an arc may be away from it
 };
 
-double turn_of(Vec2 before, Vec2 behind) {
-  return std::atan2(cross(before, behind), dot(before, behind));
-}
-
 /// Points, with the ends of a chord across in place of those where chords go nearly back.
 std::vector<Corner> corners_of(const std::vector<Vec2>& points,
                                const std::vector<double>& tolerance) {
@@ -49,7 +45,7 @@ std::vector<Corner> corners_of(const std::vector<Vec2>& points,
     const auto place = static_cast<double>(i);
     const bool inside = i > 0 && i + 1 < points.size();
     const Vec2 before = inside ? points[i] - points[i - 1] : Vec2{1.0, 0.0};
-    const double turn = inside ? turn_of(before, points[i + 1] - points[i]) : 0.0;
+    const double turn = inside ? turning(before, points[i + 1] - points[i]) : 0.0;
     if (std::abs(turn) <= kHairpin) {
       out.push_back({place, points[i], tolerance[i]});
       continue;
@@ -252,7 +248,7 @@ std::vector<Node> rounded_corners(const std::vector<Vec2>& points,
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
     const Corner& at = corners[i];
     const Vec2 before = at.point - corners[i - 1].point, behind = corners[i + 1].point - at.point;
-    const double turn = turn_of(before, behind);
+    const double turn = turning(before, behind);
     if (std::abs(turn) < kNoCorner) continue;
     // an arc between tangents of length t is t tan(turn / 4) away from where they meet
     const double tangent = std::min(kOfChord * std::min(norm(before), norm(behind)),

@@ -13,6 +13,7 @@
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/numeric/internal/gauss.h"
+#include "obvid/numeric/internal/small_system.h"
 
 namespace obvid {
 namespace {
@@ -369,22 +370,15 @@ class ClothoidPair {
   /// all three are linear.
   bool step(const Miss& now) {
     const Unknown by = {kSecantShare, kSecantShare * below_, kSecantLength * unknown_[2]};
-    std::array<Miss, 3> column;
+    std::array<Miss, 3> change;
     for (std::size_t j = 0; j < 3; ++j) {
       Unknown moved = unknown_;
       moved[j] += by[j];
-      column[j] = miss(moved);
-      for (std::size_t i = 0; i < 3; ++i) column[j][i] -= now[i];
+      const Miss there = miss(moved);
+      for (std::size_t i = 0; i < 3; ++i) change[i][j] = there[i] - now[i];
     }
-    const auto determinant = [](const Miss& a, const Miss& b, const Miss& c) {
-      return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-             a[2] * (b[0] * c[1] - b[1] * c[0]);
-    };
-    const double all = determinant(column[0], column[1], column[2]);
-    if (all == 0.0 || !std::isfinite(all)) return false;
-    const Miss share = {determinant(now, column[1], column[2]) / all,
-                        determinant(column[0], now, column[2]) / all,
-                        determinant(column[0], column[1], now) / all};
+    Miss share = now;
+    if (!solve_small(change, share)) return false;
     for (std::size_t j = 0; j < 3; ++j) unknown_[j] -= share[j] * by[j];
     return std::isfinite(unknown_[0] + unknown_[1] + unknown_[2]);
   }

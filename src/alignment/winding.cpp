@@ -84,7 +84,7 @@ Passage passage_of(const PointRow& row, std::size_t i) {
         behind ? (i + 1) % row.intervals() : (i + row.intervals() - 1) % row.intervals();
     const auto turned_by = loose_of(other);
     const Vec2 beside = chord_of(row, other);
-    const double turn = std::abs(std::atan2(cross(chord, beside), dot(chord, beside)));
+    const double turn = std::abs(turning(chord, beside));
     most = std::max(most, turned_by ? turn + *turned_by : kQuarter);
   }
   out.most = std::min(most + kSwing, kQuarter) + *own;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/curve/internal/curvature_extent.h"
+#include "obvid/numeric/internal/golden.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,18 +9,14 @@
 namespace obvid {
 namespace {
 
-constexpr int kNarrowings = 40;        ///< by thirds: to 1e-7 of the distance of two parameters
-constexpr double kNearlyStops = 0.25;  ///< of the largest speed
+constexpr double kExtremeFoundTo = 1e-7;  ///< of the distance of two parameters
+constexpr double kNearlyStops = 0.25;     ///< of the largest speed
 
 /// Walks to the place between the neighbours of a parameter where `value` is largest.
 template <class Value>
 double highest_beside(const std::vector<double>& at, std::size_t k, const Value& value) {
-  double low = at[k > 0 ? k - 1 : k], high = at[std::min(k + 1, at.size() - 1)];
-  for (int i = 0; i < kNarrowings; ++i) {
-    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-    (value(a) > value(b) ? high : low) = value(a) > value(b) ? b : a;
-  }
-  return 0.5 * (low + high);
+  const double low = at[k > 0 ? k - 1 : k], high = at[std::min(k + 1, at.size() - 1)];
+  return highest_place(low, high, value, kExtremeFoundTo * (high - low));
 }
 
 }  // namespace

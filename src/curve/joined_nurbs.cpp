@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "obvid/core/internal/questions.h"
+#include "obvid/numeric/internal/halving.h"
 
 namespace obvid {
 namespace {
@@ -101,14 +102,11 @@ std::vector<double> balances(const RationalBezier& b) {
     return f ? *f > 0.0 : x < 0.5 * (low + high);
   };
   for (int k = 0; k < kCells; ++k) {
-    double from = low + (high - low) * k / kCells, to = low + (high - low) * (k + 1) / kCells;
+    const double from = low + (high - low) * k / kCells, to = low + (high - low) * (k + 1) / kCells;
     if (positive(from) == positive(to)) continue;
     const bool sign = positive(from);
-    for (int step = 0; step < kHalvings; ++step) {
-      const double middle = 0.5 * (from + to);
-      (positive(middle) == sign ? from : to) = middle;
-    }
-    out.push_back(0.5 * (from + to));
+    const auto as_before = [&](double x) { return positive(x) == sign; };
+    out.push_back(end_of_condition(from, to, as_before, kHalvings).middle());
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "obvid/geom/internal/angle.h"
+#include "obvid/geom/internal/chord.h"
 
 namespace obvid {
 namespace {
@@ -13,9 +14,7 @@ constexpr int kNewtonSteps = 40;    // towards a nearest point
 constexpr double kFootStep = 1e-7;  // of a piece: the step after it would be the square of it
 
 double nearest_on(const LinePiece& line, Vec2 p, double) {
-  const Vec2 along = line.end - line.start;
-  const double square = dot(along, along);
-  return square > 0.0 ? std::clamp(dot(p - line.start, along) / square, 0.0, 1.0) : 0.0;
+  return part_of_chord(p, line.start, line.end);
 }
 
 double nearest_on(const ArcPiece& arc, Vec2 p, double) {

@@ -11,6 +11,7 @@
 
 #include "obvid/curve/internal/clothoid.h"
 #include "obvid/numeric/internal/gauss.h"
+#include "obvid/numeric/internal/halving.h"
 #include "obvid/numeric/internal/strict_arithmetic.h"
 
 namespace obvid {
@@ -312,12 +313,8 @@ double turning_both_ways(const ClothoidPiece& p, double t0, double t1) {
 /// Where a curvature that has one sign at t0 and another one at t1 changes it.
 double inflection_between(const RationalBezier& p, double t0, double t1) {
   const double start = curvature(evaluate(p, t0));
-  double low = t0, high = t1, middle = 0.5 * (low + high);
-  while (middle > low && middle < high) {
-    (start * curvature(evaluate(p, middle)) > 0.0 ? low : high) = middle;
-    middle = 0.5 * (low + high);
-  }
-  return middle;
+  const auto has_its_sign = [&](double t) { return start * curvature(evaluate(p, t)) > 0.0; };
+  return end_of_condition(t0, t1, has_its_sign).middle();
 }
 
 double turning_both_ways(const RationalBezier& p, double t0, double t1) {

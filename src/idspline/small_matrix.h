@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
+
+#include "obvid/numeric/internal/small_system.h"
 
 namespace obvid::idspline {
 
@@ -49,36 +50,27 @@ SmallColumn<Real, K> operator*(const SmallMatrix<Real, K>& a, const SmallColumn<
 }
 
 template <class Real, std::size_t K>
+SmallColumn<Real, K> operator*(const Real& a, SmallColumn<Real, K> b) {
+  for (std::size_t i = 0; i < K; ++i) b.at[i] = a * b.at[i];
+  return b;
+}
+
+template <class Real, std::size_t K>
 SmallColumn<Real, K> operator-(SmallColumn<Real, K> a, const SmallColumn<Real, K>& b) {
   for (std::size_t i = 0; i < K; ++i) a.at[i] -= b.at[i];
   return a;
 }
 
-/// Inverse by elimination with row exchanges; not finite when there is none.
+/// Inverse; not finite when there is none.
 template <class Real, std::size_t K>
-SmallMatrix<Real, K> inverse_of(SmallMatrix<Real, K> a) {
-  using std::abs;
+SmallMatrix<Real, K> inverse_of(const SmallMatrix<Real, K>& a) {
+  std::array<SmallColumn<Real, K>, K> rows;
+  for (std::size_t i = 0; i < K; ++i) rows[i].at[i] = Real(1);
   SmallMatrix<Real, K> out;
-  for (std::size_t i = 0; i < K; ++i) out.row[i][i] = Real(1);
+  const bool regular = solve_small(a.row, rows);
   for (std::size_t i = 0; i < K; ++i) {
-    std::size_t largest = i;
-    for (std::size_t j = i + 1; j < K; ++j) {
-      if (abs(a.row[j][i]) > abs(a.row[largest][i])) largest = j;
-    }
-    std::swap(a.row[i], a.row[largest]);
-    std::swap(out.row[i], out.row[largest]);
-    const Real per = Real(1) / a.row[i][i];
-    for (std::size_t l = 0; l < K; ++l) {
-      a.row[i][l] *= per;
-      out.row[i][l] *= per;
-    }
     for (std::size_t j = 0; j < K; ++j) {
-      if (j == i) continue;
-      const Real factor = a.row[j][i];
-      for (std::size_t l = 0; l < K; ++l) {
-        a.row[j][l] -= factor * a.row[i][l];
-        out.row[j][l] -= factor * out.row[i][l];
-      }
+      out.row[i][j] = regular ? rows[i].at[j] : Real(std::nan(""));
     }
   }
   return out;

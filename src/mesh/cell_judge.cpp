@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell_judge.h"
+#include "obvid/geom/internal/chord.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,14 +40,6 @@ void spread_places(const PatchAxis& axis, Line from, Line to, std::size_t most,
     out.push_back({k, begin + part * (end - begin)});
   }
   out.push_back({first + spans - 1, high});
-}
-
-double distance_to_chord(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 chord = b - a;
-  const double length2 = dot(chord, chord);
-  if (!(length2 > 0.0)) return norm(p - a);
-  const double part = std::clamp(dot(p - a, chord) / length2, 0.0, 1.0);
-  return norm(p - a - part * chord);
 }
 
 /// Gap between a triangle's point and the surface's: what of it lies along the normal.
@@ -130,11 +123,11 @@ double CellJudge::border_error(const Grid& g) const {
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t i = 0; g.border_v[side] && i < nu; ++i) {
       const Vec3 p = g.at(i, side == 0 ? 0 : nv - 1).point;
-      worst = std::max(worst, distance_to_chord(p, g.corner[2 * side], g.corner[2 * side + 1]));
+      worst = std::max(worst, distance_from_chord(p, g.corner[2 * side], g.corner[2 * side + 1]));
     }
     for (std::size_t j = 0; g.border_u[side] && j < nv; ++j) {
       const Vec3 p = g.at(side == 0 ? 0 : nu - 1, j).point;
-      worst = std::max(worst, distance_to_chord(p, g.corner[side], g.corner[side + 2]));
+      worst = std::max(worst, distance_from_chord(p, g.corner[side], g.corner[side + 2]));
     }
   }
   return worst;
@@ -164,7 +157,7 @@ bool CellJudge::cut_is_u(const Grid& g) const {
       const double part = way == 0 ? g.x(k) : g.y(k);
       const Vec3 gap = first.point + part * (last.point - first.point) - s.point;
       const double off =
-          border ? distance_to_chord(s.point, first.point, last.point) : height(gap, s.normal);
+          border ? distance_from_chord(s.point, first.point, last.point) : height(gap, s.normal);
       error[way] = std::max(error[way], off);
       turn[way] =
           std::max({turn[way], norm(s.normal - first.normal), norm(s.normal - last.normal)});

@@ -242,9 +242,9 @@ Result<Box3> bounds_of(const TriangleMesh& mesh) {
 
 Result<std::vector<MeshSection>> cut_mesh(const TriangleMesh& mesh, const Frame& plane) {
   auto heights = heights_over(mesh, plane);
-  if (!heights) return fail(std::move(heights.error()));
+  OBVID_TRY(heights);
   auto cuts = cut_edges(mesh, *heights);
-  if (!cuts) return fail(std::move(cuts.error()));
+  OBVID_TRY(cuts);
   std::vector<MeshSection> chains =
       Chains(mesh, plane, std::move(*heights), std::move(*cuts)).all();
   std::vector<std::pair<double, std::size_t>> order;

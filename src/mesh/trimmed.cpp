@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "obvid/curve/internal/basis.h"
+#include "obvid/geom/internal/chord.h"
+#include "obvid/geom/internal/directions.h"
 #include "obvid/surface/internal/trim.h"
 
 namespace obvid::mesh {
@@ -18,8 +20,6 @@ namespace {
 constexpr int kMostRounds = 8;
 constexpr int kMostHalvings = 20;
 constexpr double kSame = 1e-12;  // of the domain: places of a row that are one
-
-double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
 class TrimmedMesher {
  public:
@@ -127,12 +127,7 @@ class TrimmedMesher {
     const Range low = region_.across(band, v.from), high = region_.across(band, v.to),
                 between = region_.across(band, middle);
     const auto off = [&](double a, double b, double c) {
-      const Vec3 p = point(c, middle);
-      const Vec3 from = point(a, v.from), to = point(b, v.to);
-      const Vec3 chord = to - from;
-      const double square = dot(chord, chord);
-      const double t = square > 0.0 ? std::clamp(dot(p - from, chord) / square, 0.0, 1.0) : 0.0;
-      return norm(p - from - t * chord);
+      return distance_from_chord(point(c, middle), point(a, v.from), point(b, v.to));
     };
     const double most =
         std::max(off(low.from, high.from, between.from), off(low.to, high.to, between.to));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "obvid/geom/internal/angle.h"
+#include "obvid/numeric/internal/golden.h"
 #include "two_arcs.h"
 
 namespace obvid {
@@ -57,13 +58,9 @@ class Placement {
 
 /// The place between two others where f is largest, which rises to it and falls from it.
 template <class F>
-double top_in_thirds(const F& f, double low, double high) {
-  constexpr int kThirds = 60;  // (2/3)^60 = 3e-11 of a step; the value is flat there
-  for (int n = 0; n < kThirds; ++n) {
-    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-    (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
-  }
-  return 0.5 * (low + high);
+double peak_between(const F& f, double low, double high) {
+  constexpr double kTopFoundTo = 3e-11;  // of a step; the value is flat there
+  return highest_place(low, high, f, kTopFoundTo * (high - low));
 }
 
 /// Where f, 0 at all places that were looked at, is largest nearer than `step` to the ends of
@@ -77,8 +74,8 @@ double largest_beside_ends(const F& f, double step) {
     for (const bool back : {false, true}) {
       const double at = back ? 1.0 - t : t;
       if (!(f(at) > most)) continue;
-      best = back ? top_in_thirds(f, 1.0 - 2.0 * t, 1.0 - 0.5 * t)
-                  : top_in_thirds(f, 0.5 * t, 2.0 * t);
+      best =
+          back ? peak_between(f, 1.0 - 2.0 * t, 1.0 - 0.5 * t) : peak_between(f, 0.5 * t, 2.0 * t);
       most = f(best);
     }
   }
@@ -105,7 +102,7 @@ double largest_at(const F& f, int samples) {
     const auto at = [&](int k) { return value[static_cast<std::size_t>(k)]; };
     const int before = std::max(0, i - 1), after = std::min(samples, i + 1);
     if (!(at(i) >= high_enough && at(i) >= at(before) && at(i) >= at(after))) continue;
-    const double t = top_in_thirds(f, place(before), place(after));
+    const double t = peak_between(f, place(before), place(after));
     if (f(t) < most) continue;
     most = f(t);
     best = t;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/region/internal/feasible_data.h"
+#include "obvid/numeric/internal/golden.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ constexpr int kPartSamples = 96;
 /// Curves with more are thinned: what one part had at first lies ever closer later on.
 constexpr std::size_t kMostSamples = 1500;
 constexpr int kRootHalvings = 60;
-constexpr int kThirdsOfMinimum = 60;
+constexpr double kExtremumFoundTo = 3e-11;  // of the places beside an extremum
 
 /// Least curvature at a point with one heading, and its slope. Two samples of one heading are a
 /// corner: the slopes before and after it.
@@ -112,13 +113,9 @@ std::vector<LowSample> part_below(const std::vector<LowSample>& all, const F& f,
       if (value(all[i]) < value(all[least])) least = i;
     }
     for (std::size_t i = least > 0 ? least - 1 : 0; i <= least && i + 1 < all.size(); ++i) {
-      double low = all[i].theta, high = all[i + 1].theta;
+      const double low = all[i].theta, high = all[i + 1].theta;
       const auto at = [&](double t) { return f(t, hermite(all[i], all[i + 1], t)); };
-      for (int n = 0; n < kThirdsOfMinimum; ++n) {
-        const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-        (at(a) > at(b) ? low : high) = at(a) > at(b) ? a : b;
-      }
-      const double middle = 0.5 * (low + high);
+      const double middle = lowest_place(low, high, at, kExtremumFoundTo * (high - low));
       if (!(at(middle) < 0.0)) continue;
       for (const double end : {all[i].theta, all[i + 1].theta}) {
         const double root = root_between(end, middle, at);
@@ -634,12 +631,9 @@ class Both {
 
   /// A place of most room beside one of the grid.
   [[nodiscard]] double roomiest(const std::vector<double>& grid, std::size_t k) const {
-    double low = grid[k > 0 ? k - 1 : 0], high = grid[std::min(k + 1, grid.size() - 1)];
-    for (int n = 0; n < kThirdsOfMinimum; ++n) {
-      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-      (room(a) < room(b) ? low : high) = room(a) < room(b) ? a : b;
-    }
-    return 0.5 * (low + high);
+    const double low = grid[k > 0 ? k - 1 : 0], high = grid[std::min(k + 1, grid.size() - 1)];
+    return highest_place(
+        low, high, [this](double theta) { return room(theta); }, kExtremumFoundTo * (high - low));
   }
 
   template <class F>
@@ -648,12 +642,10 @@ class Both {
     for (std::size_t k = 1; k < grid.size(); ++k) {
       if (f(grid[k]) < f(grid[best])) best = k;
     }
-    double low = grid[best > 0 ? best - 1 : 0], high = grid[std::min(best + 1, grid.size() - 1)];
-    for (int n = 0; n < kThirdsOfMinimum && std::isfinite(f(grid[best])); ++n) {
-      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-      (f(a) > f(b) ? low : high) = f(a) > f(b) ? a : b;
-    }
-    return std::min(f(grid[best]), f(0.5 * (low + high)));
+    const double low = grid[best > 0 ? best - 1 : 0],
+                 high = grid[std::min(best + 1, grid.size() - 1)];
+    if (!std::isfinite(f(grid[best]))) return std::min(f(grid[best]), f(0.5 * (low + high)));
+    return std::min(f(grid[best]), f(lowest_place(low, high, f, kExtremumFoundTo * (high - low))));
   }
 
   Side left_, right_;

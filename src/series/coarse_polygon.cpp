@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "obvid/core/units.h"
+#include "obvid/numeric/internal/median.h"
 
 namespace obvid {
 namespace {
@@ -55,9 +56,7 @@ CoarsePolygon coarse_polygon(const std::vector<Vec2>& points, const std::vector<
     if (turn >= angle) out.corners.push_back(i);
   }
   if (turns.empty()) return {};
-  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
-  std::nth_element(turns.begin(), middle, turns.end());
-  out.turn = *middle;
+  out.turn = median_within(turns);
   return out.turn >= kCoarseTurn ? out : CoarsePolygon{};
 }
 

@@ -2,12 +2,12 @@
 // Strays at the ends of an open row: docs/methods/series.md.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "end_parabola.h"
 #include "obvid/geom/vec2.h"
+#include "obvid/numeric/internal/small_system.h"
 #include "obvid/series/internal/strays.h"
 #include "outlier_rules.h"
 
@@ -33,17 +33,10 @@ PastEnd past_end(Vec2 point, const std::array<Vec2, kBehind>& behind, std::size_
       if (j < right.size()) right[j] = right[j] + power * (behind[k] - behind.front());
     }
   }
-  // Cramer's rule for the symmetric system of three
-  const auto minor = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
-    return sum[i] * sum[j] - sum[k] * sum[l];
-  };
-  const double c00 = minor(2, 4, 3, 3), c01 = minor(2, 3, 1, 4), c02 = minor(1, 3, 2, 2);
-  const double c11 = minor(0, 4, 2, 2), c12 = minor(1, 2, 0, 3), c22 = minor(0, 2, 1, 1);
-  const double det = sum[0] * c00 + sum[1] * c01 + sum[2] * c02;
-  if (!(std::abs(det) > 0.0)) return {};
-  const Vec2 a = (c00 * right[0] + c01 * right[1] + c02 * right[2]) / det;
-  const Vec2 b = (c01 * right[0] + c11 * right[1] + c12 * right[2]) / det;
-  const Vec2 c = (c02 * right[0] + c12 * right[1] + c22 * right[2]) / det;
+  const std::array<std::array<double, 3>, 3> normal = {
+      {{sum[0], sum[1], sum[2]}, {sum[1], sum[2], sum[3]}, {sum[2], sum[3], sum[4]}}};
+  if (!solve_small(normal, right)) return {};
+  const auto [a, b, c] = right;
   const Vec2 q = point - behind.front();
   const double gap = norm(q);
   double u = gap / unit;

@@ -2,7 +2,6 @@
 // How far points lie off the curve of their neighbours (docs/methods/series.md).
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "obvid/geom/internal/chord.h"
 #include "obvid/geom/vec2.h"
 #include "obvid/numeric/internal/median.h"
 #include "obvid/numeric/internal/wide.h"
@@ -45,9 +45,7 @@ inline std::optional<MiddleResidual> middle_residual(const std::array<Vec2, 5>& 
   MiddleResidual out;
   out.between = u[1] < zero && zero < u[3];
   if (!out.between) {
-    const Vec2 side = p[3] - p[1], from = p[2] - p[1];
-    const double part = std::clamp(dot(from, side) / dot(side, side), 0.0, 1.0);
-    out.off = norm(from - part * side);
+    out.off = distance_from_chord(p[2], p[1], p[3]);
     return out;
   }
   numeric::Wide miss;

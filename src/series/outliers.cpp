@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "middle_residual.h"
+#include "obvid/geom/internal/chord.h"
 #include "obvid/series/internal/strays.h"
 #include "outlier_rules.h"
 
@@ -150,9 +151,7 @@ class Search {
   /// one along their way, the line between them. Beside long steps the cubics may swing far out.
   [[nodiscard]] double off_neighbours(std::size_t i, const MiddleResidual& r) const {
     const auto five = *five_around(i);
-    const Vec2 side = five[kSide + 1] - five[kSide - 1], from = points_[i] - five[kSide - 1];
-    const double part = std::clamp(dot(from, side) / dot(side, side), 0.0, 1.0);
-    double off = std::min(r.off, norm(from - part * side));
+    double off = std::min(r.off, distance_from_chord(points_[i], five[kSide - 1], five[kSide + 1]));
     if (const auto along = residual_along_way(five)) off = std::min(off, along->off);
     return off;
   }

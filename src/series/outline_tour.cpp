@@ -220,7 +220,7 @@ struct Way {
       length += norm(step);
       if (i == 0) continue;
       const Vec2 last = points[way[i]] - points[way[i - 1]];
-      turn += std::abs(std::atan2(cross(last, step), dot(last, step)));
+      turn += std::abs(turning(last, step));
     }
   }
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "obvid/curve/internal/basis.h"
+#include "obvid/geom/internal/directions.h"
 #include "obvid/numeric/internal/golden.h"
 
 namespace obvid {
@@ -123,7 +124,7 @@ AtJoint at_joint(const EdgePair& pair, PatchSide side, double part, double least
   const SurfaceCurvature ka = curvature(a), kb = curvature(b);
   if (ka.normal == Vec3{} || kb.normal == Vec3{}) return out;
   const double sign = dot(ka.normal, kb.normal) < 0.0 ? -1.0 : 1.0;
-  out.angle = std::atan2(norm(cross(ka.normal, kb.normal)), std::abs(dot(ka.normal, kb.normal)));
+  out.angle = angle_between_lines(ka.normal, kb.normal);
   // across the border: perpendicular to it in the tangent plane
   const Vec3 along = runs_along_u(side) ? a.du : a.dv;
   const Vec3 across = unit(cross(ka.normal, along));

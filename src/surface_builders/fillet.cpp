@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "obvid/curve/internal/basis.h"
+#include "obvid/geom/internal/chord.h"
+#include "obvid/geom/internal/directions.h"
 #include "obvid/numeric/internal/golden.h"
 #include "obvid/surface_builders/internal/check.h"
 #include "obvid/surface_builders/internal/deviation.h"
@@ -53,7 +55,7 @@ struct BallArc {
 };
 
 double angle_across(const BallPlace& place) {
-  return ball_turn(place.touch[0].inwards, place.touch[1].inwards);
+  return angle_between(place.touch[0].inwards, place.touch[1].inwards);
 }
 
 BallArc ball_arc_of(const BallPlace& place, double slope, std::size_t pieces) {
@@ -61,7 +63,7 @@ BallArc ball_arc_of(const BallPlace& place, double slope, std::size_t pieces) {
   arc.middle = place.centre - (place.radius * slope) * place.along;
   arc.radius = place.radius * std::sqrt(1.0 - slope * slope);
   const Vec3 a = place.touch[0].point - arc.middle, b = place.touch[1].point - arc.middle;
-  arc.angle = ball_turn(a, b);
+  arc.angle = angle_between(a, b);
   std::vector<Vec3> ends{place.touch[0].point, place.touch[1].point};
   if (pieces == 2) {
     ends.insert(ends.begin() + 1, arc.middle + arc.radius * unit(a + b));
@@ -336,8 +338,7 @@ class BlendMaker {
       const NearestPlace foot = nearest.at(jet.point);
       const SurfaceJet there = evaluate(face.patches[0].surface, foot.u, foot.v);
       const Vec3 a = cross(jet.du, jet.dv), b = cross(there.du, there.dv);
-      return MeasuredAlong{foot.distance, std::atan2(norm(cross(a, b)), std::abs(dot(a, b))),
-                           jet.point};
+      return MeasuredAlong{foot.distance, angle_between_lines(a, b), jet.point};
     };
     std::vector<double> places{out.along.from};
     const std::vector<double> knots = distinct(surface_.knots_v);
@@ -531,9 +532,7 @@ double distance_from_way(const BallWay& way, Vec3 p) {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i + 1 < way.places.size(); ++i) {
     const Vec3 a = way.places[i].centre, b = way.places[i + 1].centre;
-    const double square = dot(b - a, b - a);
-    const double part = square > 0.0 ? std::clamp(dot(p - a, b - a) / square, 0.0, 1.0) : 0.0;
-    least = std::min(least, norm(p - a - part * (b - a)));
+    least = std::min(least, distance_from_chord(p, a, b));
   }
   return least;
 }

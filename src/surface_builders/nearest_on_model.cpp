@@ -11,6 +11,7 @@
 
 #include "obvid/curve/internal/basis.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/numeric/internal/golden.h"
 #include "obvid/surface/internal/trim.h"
 #include "obvid/surface_builders/internal/deviation.h"
 #include "span_net.h"
@@ -171,29 +172,14 @@ class Trimmed {
 
   /// Golden sections: a piece is so short that it has one valley.
   [[nodiscard]] double least_on(const Piece& piece, Vec3 p) const {
-    constexpr double kGolden = 0.6180339887498949;
-    constexpr int kSections = 40;  // 1e-8 of a piece: distances are as exact as their rounding
+    constexpr double kFoundTo = 1e-8;  // of a piece: distances are as exact as their rounding
     const auto f = [&](double t) {
       const Vec3 away = point(place(*piece.curve, t)) - p;
       return dot(away, away);
     };
-    double a = piece.t.from, b = piece.t.to;
-    double x = b - kGolden * (b - a), y = a + kGolden * (b - a), fx = f(x), fy = f(y);
-    for (int k = 0; k < kSections; ++k) {
-      if (fx <= fy) {
-        b = std::exchange(y, x);
-        fy = fx;
-        x = b - kGolden * (b - a);
-        fx = f(x);
-      } else {
-        a = std::exchange(x, y);
-        fx = fy;
-        y = a + kGolden * (b - a);
-        fy = f(y);
-      }
-    }
+    const double least = lowest_place(piece.t.from, piece.t.to, f, kFoundTo * piece.t.length());
     const double ends = f(piece.t.from) < f(piece.t.to) ? piece.t.from : piece.t.to;
-    return f(ends) < std::min(fx, fy) ? ends : fx <= fy ? x : y;
+    return f(ends) < f(least) ? ends : least;
   }
 
   const SurfacePatch& patch_;

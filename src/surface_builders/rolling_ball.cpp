@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "obvid/geom/internal/directions.h"
 #include "obvid/surface/internal/topology.h"
 
 namespace obvid {
@@ -33,8 +34,6 @@ std::optional<Vec2> shares_in_plane(Vec3 target, Vec3 a, Vec3 b) {
 }
 
 }  // namespace
-
-double ball_turn(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
 std::string near_text(Vec3 p) { return fmt::format("near {:.6g} {:.6g} {:.6g}", p.x, p.y, p.z); }
 
@@ -327,12 +326,12 @@ class BallWalker {
 
   [[nodiscard]] bool is_short(const BallPlace& next) const {
     for (std::size_t i = 0; i < 2; ++i) {
-      if (ball_turn(at_.touch[i].inwards, next.touch[i].inwards) > kMostBallTurn) return false;
+      if (angle_between(at_.touch[i].inwards, next.touch[i].inwards) > kMostBallTurn) return false;
       const Vec2 by = next.touch[i].at - at_.touch[i].at, all = ball_.face(i).sizes();
       if (std::abs(by.x) > kMostBallStep * all.x || std::abs(by.y) > kMostBallStep * all.y)
         return false;
     }
-    return ball_turn(at_.along, next.along) <= kMostBallTurn;
+    return angle_between(at_.along, next.along) <= kMostBallTurn;
   }
 
   std::optional<BallPlace> next_place() {
@@ -340,9 +339,9 @@ class BallWalker {
     while (step_ >= kLeastBallStep * at_.radius) {
       const auto next = ball_.stepped(at_, direction_ * step_);
       if (next && is_short(*next)) {
-        double turn = ball_turn(at_.along, next->along);
+        double turn = angle_between(at_.along, next->along);
         for (std::size_t i = 0; i < 2; ++i) {
-          turn = std::max(turn, ball_turn(at_.touch[i].inwards, next->touch[i].inwards));
+          turn = std::max(turn, angle_between(at_.touch[i].inwards, next->touch[i].inwards));
         }
         if (turn < kLittleBallTurn) step_ *= 1.5;
         return next;

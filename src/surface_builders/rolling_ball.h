@@ -103,9 +103,6 @@ struct BallWay {
 [[nodiscard]] std::optional<BallPlace> place_at(const RollingBall& ball, const BallWay& way,
                                                 double s);
 
-/// Angle between two directions, rad, from 0 to pi; their lengths do not matter.
-[[nodiscard]] double ball_turn(Vec3 a, Vec3 b);
-
 /// "near x y z"
 [[nodiscard]] std::string near_text(Vec3 p);
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scatter_outliers.h"
+#include "obvid/numeric/internal/median.h"
+#include "obvid/numeric/internal/small_system.h"
 
 #include <algorithm>
 #include <array>
@@ -13,28 +15,6 @@ constexpr std::size_t kAskEvery = 4096;      // points
 constexpr double kSigma = 1.4826;            // of a normal distribution whose median is 1
 
 using Three = std::array<double, 3>;
-
-/// Symmetric 3 x 3 equations by Cholesky's factors; false when singular.
-bool solve_three(std::array<Three, 3> a, Three& x) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t j = 0; j < k; ++j) a[k][k] -= a[k][j] * a[k][j];
-    if (!(a[k][k] > 0.0)) return false;
-    a[k][k] = std::sqrt(a[k][k]);
-    for (std::size_t i = k + 1; i < 3; ++i) {
-      for (std::size_t j = 0; j < k; ++j) a[i][k] -= a[i][j] * a[k][j];
-      a[i][k] /= a[k][k];
-    }
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t j = 0; j < k; ++j) x[k] -= a[k][j] * x[j];
-    x[k] /= a[k][k];
-  }
-  for (std::size_t k = 3; k-- > 0;) {
-    for (std::size_t j = k + 1; j < 3; ++j) x[k] -= a[j][k] * x[j];
-    x[k] /= a[k][k];
-  }
-  return true;
-}
 
 /// What neighbours say of the height in their middle: 0, 0 of `place`, lengths of the farthest.
 class Neighbourhood {
@@ -62,7 +42,7 @@ class Neighbourhood {
     }
     height = plane[0];
     Three unit = {1.0, 0.0, 0.0};
-    if (!solve_three(matrix_, unit)) return false;
+    if (!solve_small(matrix_, unit)) return false;
     leverage = unit[0] * static_cast<double>(at_.size());
     return true;
   }
@@ -79,7 +59,7 @@ class Neighbourhood {
         right[i] += weight_[k] * row[i] * at_[k].height;
       }
     }
-    return solve_three(matrix_, right);
+    return solve_small(matrix_, right);
   }
   [[nodiscard]] double residual(std::size_t k, const Three& plane) const {
     const PlacedHeight& p = at_[k];
@@ -88,9 +68,7 @@ class Neighbourhood {
   double median_residual(const Three& plane) {
     sorted_.clear();
     for (std::size_t k = 0; k < at_.size(); ++k) sorted_.push_back(residual(k, plane));
-    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
-    std::nth_element(sorted_.begin(), middle, sorted_.end());
-    return *middle;
+    return median_within(sorted_);
   }
 
   std::vector<PlacedHeight> at_;

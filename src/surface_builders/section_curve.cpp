@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "section_curve.h"
+#include "obvid/numeric/internal/halving.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,12 +86,7 @@ double SectionCurve::parameter_of(double s) const {
   if (mark == s_.end()) return u_.back();
   const auto i = static_cast<std::size_t>(mark - s_.begin());
   if (*mark == s || i == 0) return u_[i];
-  double low = u_[i - 1], high = u_[i];
-  for (double middle = 0.5 * (low + high); middle > low && middle < high;
-       middle = 0.5 * (low + high)) {
-    (length_at(middle).s < s ? low : high) = middle;
-  }
-  return high;
+  return end_of_condition(u_[i - 1], u_[i], [&](double u) { return length_at(u).s < s; }).fails;
 }
 
 Hermite SectionCurve::at(double u) const {

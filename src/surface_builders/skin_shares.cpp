@@ -167,8 +167,8 @@ class SharedLines {
   }
 
   /// Step of the inner shares, section after section; empty where there is none.
-  [[nodiscard]] Result<std::vector<double>> newton(const std::vector<Stencil>& rows,
-                                                   double smooth, const RunContext& run) const {
+  [[nodiscard]] Result<std::vector<double>> newton(const std::vector<Stencil>& rows, double smooth,
+                                                   const RunContext& run) const {
     const std::size_t n = sections_.size();
     BandedCholesky matrix(n * kFreeMarks, 2 * kFreeMarks);
     std::vector<double> right(n * kFreeMarks, 0.0);
@@ -253,7 +253,7 @@ std::vector<double> marks_by_angle(const MeasuredSection& section, double from, 
   Vec2 before = section.path->at(from).tangent;
   for (std::size_t i = 1; i <= kTurnSteps; ++i) {
     const Vec2 here = section.path->at(at(i), i == kTurnSteps).tangent;
-    turned.push_back(turned.back() + std::abs(std::atan2(cross(before, here), dot(before, here))));
+    turned.push_back(turned.back() + std::abs(turning(before, here)));
     before = here;
   }
   constexpr double kStraight = 1e-9;  // radians

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "branches.h"
+#include "obvid/geom/internal/chord.h"
+#include "obvid/numeric/internal/halving.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +14,17 @@ constexpr int kMostBisections = 60;
 constexpr int kMostChordHalvings = 14;
 constexpr double kNoDistance = 1e-300;  ///< units: what keeps a ratio of distances finite
 
-}  // namespace
-
-double from_chord(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 chord = b - a;
-  const double square = dot(chord, chord);
-  const double t = square > 0.0 ? std::clamp(dot(p - a, chord) / square, 0.0, 1.0) : 0.0;
-  return norm(p - a - t * chord);
+/// Where a height that is monotone is 0.
+template <class Height>
+double zero_between(double low, double high, const Height& height_at) {
+  const bool rises = height_at(high) > height_at(low);
+  return end_of_condition(
+             low, high, [&](double place) { return (height_at(place) < 0.0) == rises; },
+             kMostBisections)
+      .middle();
 }
+
+}  // namespace
 
 SectionPoint PlaneFoot::slid(const CutPatch& patch, std::size_t number, double u, double v,
                              bool along_u) const {
@@ -65,13 +70,7 @@ SectionPoint PlaneFoot::on_strand(const CutPatch& patch, const Strand& strand, d
         strand.over_u ? evaluate(*patch.surface, t, other) : evaluate(*patch.surface, other, t);
     return height(jet.point);
   };
-  double low = strand.least, high = strand.most;
-  const bool rises = height_at(high) > height_at(low);
-  for (int k = 0; k < kMostBisections; ++k) {
-    const double middle = 0.5 * (low + high);
-    ((height_at(middle) < 0.0) == rises ? low : high) = middle;
-  }
-  const SectionPoint bisected = at(0.5 * (low + high));
+  const SectionPoint bisected = at(zero_between(strand.least, strand.most, height_at));
   const bool better = std::abs(height(bisected.point)) <= std::abs(height(found.point));
   return better || !inside(found) ? bisected : found;
 }
@@ -86,13 +85,7 @@ SectionPoint PlaneFoot::between_across(const CutPatch& patch, const Strand& stra
         strand.over_u ? evaluate(*patch.surface, t, other) : evaluate(*patch.surface, other, t);
     return height(jet.point);
   };
-  double low = t_of(a), high = t_of(b);
-  const bool rises = height_at(high) > height_at(low);
-  for (int k = 0; k < kMostBisections; ++k) {
-    const double middle = 0.5 * (low + high);
-    ((height_at(middle) < 0.0) == rises ? low : high) = middle;
-  }
-  const double t = 0.5 * (low + high);
+  const double t = zero_between(t_of(a), t_of(b), height_at);
   return strand.over_u ? slid(patch, strand.patch, t, other, true)
                        : slid(patch, strand.patch, other, t, false);
 }
@@ -121,12 +114,12 @@ std::vector<SectionPoint> sampled(const PlaneFoot& foot, const CutPatch& patch,
   const auto refine = [&](const auto& self, const SectionPoint& a, const SectionPoint& b,
                           int halvings) -> void {
     const SectionPoint middle = between(a, b);
-    double far = from_chord(middle.point, a.point, b.point);
+    double far = distance_from_chord(middle.point, a.point, b.point);
     bool enough = far <= tolerance;
     for (const bool before : {true, false}) {
       if (!enough) break;
       const SectionPoint quarter = before ? between(a, middle) : between(middle, b);
-      far = std::max(far, from_chord(quarter.point, a.point, b.point));
+      far = std::max(far, distance_from_chord(quarter.point, a.point, b.point));
       enough = far <= tolerance;
     }
     if (enough || halvings >= kMostChordHalvings) {

@@ -41,7 +41,4 @@ class PlaneFoot {
                                                 const SectionPoint& last, double tolerance,
                                                 double& deviation);
 
-/// Distance of a point from the chord between two others.
-[[nodiscard]] double from_chord(Vec3 p, Vec3 a, Vec3 b);
-
 }  // namespace obvid

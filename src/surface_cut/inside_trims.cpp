@@ -7,6 +7,7 @@
 
 #include "meeting_ends.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/numeric/internal/halving.h"
 #include "obvid/surface/internal/trim.h"
 #include "strands.h"
 #include "trim_line.h"
@@ -109,19 +110,17 @@ class TrimClipper {
   /// The place where the trim is crossed between one inside and one outside.
   void add_end(const SectionPoint& in, const SectionPoint& beyond,
                std::vector<SectionPoint>& into) const {
-    constexpr int kHalvings = 60;
     const NurbsSurface& s = model_.patches[in.patch].surface;
     const auto at = [&](double part) {
       const Vec2 p =
           onto_cut(s, field_, Vec2{in.u, in.v} + part * Vec2{beyond.u - in.u, beyond.v - in.v});
       return SectionPoint{evaluate(s, p.x, p.y).point, in.patch, p.x, p.y};
     };
-    double low = 0.0, high = 1.0;
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (low + high);
-      (is_there(at(middle)) ? low : high) = middle;
-    }
-    into.push_back(low > 0.0 ? at(low) : in);
+    constexpr int kHalvings = 60;
+    const double last = end_of_condition(
+                            0.0, 1.0, [&](double part) { return is_there(at(part)); }, kHalvings)
+                            .holds;
+    into.push_back(last > 0.0 ? at(last) : in);
   }
 
   static void once_at_borders(SectionBranch& part) {

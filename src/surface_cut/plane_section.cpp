@@ -13,6 +13,7 @@
 #include "inside_trims.h"
 #include "meeting_ends.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/geom/internal/chord.h"
 #include "obvid/surface/internal/topology.h"
 
 namespace obvid {
@@ -296,7 +297,8 @@ class Section {
       if (count == 1) return norm(p - line.points.front().point) <= same;
       for (std::size_t i = line.closed ? 0 : 1; i < count; ++i) {
         const Vec3 before = line.points[(i + count - 1) % count].point;
-        if (from_chord(p, before, line.points[i].point) <= same + 2.0 * tolerance_) return true;
+        if (distance_from_chord(p, before, line.points[i].point) <= same + 2.0 * tolerance_)
+          return true;
       }
       return false;
     };
@@ -420,7 +422,8 @@ class Section {
       const std::size_t count = branch.points.size();
       for (std::size_t i = branch.closed ? 0 : 1; i < count; ++i) {
         const Vec3 before = branch.points[(i + count - 1) % count].point;
-        if (from_chord(middle, before, branch.points[i].point) <= 2.0 * tolerance_) return true;
+        if (distance_from_chord(middle, before, branch.points[i].point) <= 2.0 * tolerance_)
+          return true;
       }
     }
     return false;
@@ -443,10 +446,10 @@ class Section {
     const auto refine = [&](const auto& self, const SectionPoint& a, const SectionPoint& b,
                             int halvings) -> void {
       const SectionPoint middle = place(0.5 * (t_of(a) + t_of(b)));
-      double most = from_chord(middle.point, a.point, b.point);
+      double most = distance_from_chord(middle.point, a.point, b.point);
       for (const double part : {0.25, 0.75}) {
         const SectionPoint p = place(Range{t_of(a), t_of(b)}.at(part));
-        most = std::max(most, from_chord(p.point, a.point, b.point));
+        most = std::max(most, distance_from_chord(p.point, a.point, b.point));
       }
       if (most <= tolerance_ || halvings >= kMostHalvings) {
         branch.deviation = std::max(branch.deviation, most);

@@ -10,6 +10,8 @@
 
 #include "obvid/curve/internal/basis.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/geom/internal/chord.h"
+#include "obvid/geom/internal/polygon.h"
 #include "obvid/surface/internal/trim.h"
 
 namespace obvid::afloat {
@@ -54,23 +56,6 @@ std::vector<Vec2> polygon_of(const TrimLoop& loop) {
   }
   return out;
 }
-double twice_area(const std::vector<Vec2>& polygon) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    sum += a.x * b.y - b.x * a.y;
-  }
-  return sum;
-}
-bool goes_around(const std::vector<Vec2>& polygon, Vec2 p) {
-  bool inside = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    if ((a.y > p.y) == (b.y > p.y)) continue;
-    if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) inside = !inside;
-  }
-  return inside;
-}
 
 /// What is there lies to the left, whatever a file says: outer loops run counter-clockwise.
 std::vector<TrimLoop> oriented_loops(const SurfacePatch& patch) {
@@ -86,12 +71,12 @@ std::vector<TrimLoop> oriented_loops(const SurfacePatch& patch) {
       const Vec2 p = polygons[i][k * polygons[i].size() / kPlaces];
       bool odd = false;
       for (std::size_t j = 0; j < out.size(); ++j) {
-        if (j != i && goes_around(polygons[j], p)) odd = !odd;
+        if (j != i && is_in_polygon(polygons[j], p)) odd = !odd;
       }
       within += odd ? 1 : 0;
     }
     const bool hole = 2 * within > kPlaces;
-    if ((twice_area(polygons[i]) < 0.0) == hole) continue;
+    if ((area_of_polygon(polygons[i]) < 0.0) == hole) continue;
     std::reverse(out[i].curves.begin(), out[i].curves.end());
     for (NurbsCurve& curve : out[i].curves) curve = reversed(curve);
   }
@@ -199,8 +184,7 @@ class JointFinder {
     const NurbsCurve& curve = *boundaries_[chord.curve].curve;
     const NurbsSurface& s = model_.patches[chord.patch].surface;
     const Range all{curve.knots.front(), curve.knots.back()};
-    const Vec3 way = chord.to - chord.from;
-    double t = chord.t.at(std::clamp(dot(p - chord.from, way) / dot(way, way), 0.0, 1.0));
+    double t = chord.t.at(part_of_chord(p, chord.from, chord.to));
     double least = std::numeric_limits<double>::infinity();
     constexpr int kSteps = 6;
     for (int k = 0; k < kSteps; ++k) {
@@ -226,9 +210,7 @@ class JointFinder {
       if (std::abs(turn) < kAlongEachOther) continue;
       const double enough = kMeetsAtTrims * size_ + model_.patches[own.patch].trims_within +
                             model_.patches[other.patch].trims_within;
-      const Vec3 way = other.to - other.from;
-      const double part = std::clamp(dot(own.middle - other.from, way) / dot(way, way), 0.0, 1.0);
-      if (norm(own.middle - other.from - part * way) > other.bent + enough) continue;
+      if (distance_from_chord(own.middle, other.from, other.to) > other.bent + enough) continue;
       if (other.curve == own.curve && turn > 0.0) continue;  // beside it on the same line
       if (distance(other, own.middle) > enough) continue;
       const std::pair<std::size_t, double> one{other.curve, turn > 0.0 ? 1.0 : -1.0};

@@ -9,6 +9,7 @@
 
 #include "obvid/curve/internal/basis.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/geom/internal/polygon.h"
 #include "obvid/numeric/internal/root.h"
 #include "obvid/surface/internal/trim.h"
 
@@ -417,16 +418,12 @@ class PatchTrimmer {
 
   /// Borders in the cut and the cut itself: no area between them.
   [[nodiscard]] bool is_nothing(const TrimLoop& loop) const {
-    double area = 0.0;
     std::vector<Vec2> outline;
     for (const NurbsCurve& curve : loop.curves) {
       for (const double t : places_of(curve)) outline.push_back(evaluate(curve, t).point);
     }
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      area += 0.5 * cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
-    }
     constexpr double kNothing = 1e-9;  // of the domain
-    return std::abs(area) <= kNothing * u_.length() * v_.length();
+    return std::abs(area_of_polygon(outline)) <= kNothing * u_.length() * v_.length();
   }
 
   static constexpr double kRoom = 1e3, kSame = 1e-3;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "obvid/curve/internal/basis.h"
+#include "obvid/numeric/internal/halving.h"
 #include "obvid/numeric/internal/root.h"
 
 namespace obvid::afloat {
@@ -173,6 +174,12 @@ void TrimmedIntegrals::where(const Path& path, Range t, double direction,
                              const std::function<bool(Vec2)>& state) {
   std::vector<double> ends{t.from};
   const auto at = [&](double place) { return state(path(place).at); };
+  const auto change_between = [&](double from, double to) {
+    const bool there = at(from);
+    return end_of_condition(
+               from, to, [&](double place) { return at(place) == there; }, kHalvingsToChanges)
+        .middle();
+  };
   // at places off the ends, where borders make it a matter of rounding
   double before = t.at(0.5 / kPlacesOfChanges);
   const bool first = at(before);
@@ -180,25 +187,14 @@ void TrimmedIntegrals::where(const Path& path, Range t, double direction,
   for (int k = 1; k < kPlacesOfChanges; ++k) {
     const double here = t.at((k + 0.5) / kPlacesOfChanges);
     if (at(here) != holds) {
-      double low = before, high = here;
-      for (int i = 0; i < kHalvingsToChanges; ++i) {
-        const double middle = 0.5 * (low + high);
-        (at(middle) == holds ? low : high) = middle;
-      }
-      ends.push_back(0.5 * (low + high));
+      ends.push_back(change_between(before, here));
       holds = !holds;
     }
     before = here;
   }
   const auto end_of = [&](double end, double inside) {  // where it changes beside an end
     if (at(end) == at(inside)) return end;
-    double low = end, high = inside;
-    const bool there = at(inside);
-    for (int i = 0; i < kHalvingsToChanges; ++i) {
-      const double middle = 0.5 * (low + high);
-      (at(middle) == there ? high : low) = middle;
-    }
-    return 0.5 * (low + high);
+    return change_between(inside, end);
   };
   ends.push_back(t.to);
   bool now = first;

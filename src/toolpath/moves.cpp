@@ -6,6 +6,7 @@
 
 #include "entry.h"
 #include "move_list.h"
+#include "obvid/geom/internal/chord.h"
 
 namespace obvid::toolpath {
 namespace {
@@ -178,13 +179,9 @@ std::vector<Vec3> tips(const std::vector<PassPoint>& piece, bool backwards) {
 }  // namespace
 
 double off_chord(const std::vector<Vec3>& points, std::size_t first, std::size_t last) {
-  const Vec3 a = points[first], way = points[last] - a;
-  const double length2 = dot(way, way);
   double worst = 0.0;
   for (std::size_t i = first + 1; i < last; ++i) {
-    const Vec3 to = points[i] - a;
-    const double part = length2 > 0.0 ? std::clamp(dot(to, way) / length2, 0.0, 1.0) : 0.0;
-    worst = std::max(worst, norm(to - part * way));
+    worst = std::max(worst, distance_from_chord(points[i], points[first], points[last]));
   }
   return worst;
 }

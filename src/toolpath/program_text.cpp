@@ -12,6 +12,7 @@
 #include "obvid/exchange/internal/gcode/dialect.h"
 #include "obvid/exchange/internal/gcode/gcode_limits.h"
 #include "obvid/exchange/internal/gcode/path.h"
+#include "obvid/geom/internal/chord.h"
 
 namespace obvid::toolpath {
 namespace {
@@ -144,13 +145,8 @@ double ProgramText::Block::turn() const {
 }
 
 double ProgramText::Block::distance(Vec2 p) const {
-  const Vec2 chord = to - from;
-  if (!arc) {
-    const double length2 = dot(chord, chord);
-    const double part = length2 > 0.0 ? std::clamp(dot(p - from, chord) / length2, 0.0, 1.0) : 0.0;
-    return norm(p - from - part * chord);
-  }
-  const Vec2 a = -to_centre, b = chord - to_centre, q = p - from - to_centre;
+  if (!arc) return distance_from_chord(p, from, to);
+  const Vec2 a = -to_centre, b = to - from - to_centre, q = p - from - to_centre;
   const double side = left ? 1.0 : -1.0;
   const bool between = side * cross(a, q) >= 0.0 && side * cross(q, b) >= 0.0;
   return between ? std::abs(norm(q) - norm(a)) : std::min(norm(p - from), norm(p - to));

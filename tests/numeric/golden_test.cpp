@@ -24,5 +24,16 @@ TEST(HighestPlace, EndsWhereNothingRises) {
   EXPECT_EQ(highest_place(4.0, 4.0, [](double) { return 0.0; }), 4.0);
 }
 
+TEST(HighestPlace, IsLookedForNoCloserThanAsked) {
+  int calls = 0;
+  const auto tent = [&](double x) { return ++calls, -std::abs(x - 0.3); };
+  EXPECT_NEAR(highest_place(0.0, 1.0, tent, 1e-3), 0.3, 1e-3);
+  EXPECT_LT(calls, 20);  // 0.618^15 < 1e-3, one call for each section
+}
+
+TEST(LowestPlace, IsTheHighestOfTheOpposite) {
+  EXPECT_NEAR(lowest_place(-1.0, 2.0, [](double x) { return std::abs(x - 0.7); }), 0.7, 1e-15);
+}
+
 }  // namespace
 }  // namespace obvid

@@ -14,10 +14,9 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "obvid/geom/internal/polygon.h"
 #include "splines.h"
 
 namespace obvid::cad {
@@ -55,25 +54,6 @@ std::vector<Vec2> outline_of_loop(const TrimLoop& loop) {
   return out;
 }
 
-bool is_inside(Vec2 p, const std::vector<Vec2>& outline) {
-  bool inside = false;
-  for (std::size_t i = 0, k = outline.size() - 1; i < outline.size(); k = i++) {
-    const Vec2 a = outline[k], b = outline[i];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
-
-double area_within(const std::vector<Vec2>& outline) {
-  double area = 0.0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    area += 0.5 * cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
-  }
-  return area;
-}
-
 TrimLoop turned_round(const TrimLoop& loop) {
   TrimLoop out;
   for (auto at = loop.curves.rbegin(); at != loop.curves.rend(); ++at) {
@@ -95,10 +75,11 @@ class FaceMaker {
     std::vector<std::size_t> depth(count, 0), around(count, count);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < count; ++k) {
-        if (i == k || !is_inside(outlines[i].front(), outlines[k])) continue;
+        if (i == k || !is_in_polygon(outlines[k], outlines[i].front())) continue;
         ++depth[i];
-        const bool smaller = around[i] == count || std::abs(area_within(outlines[k])) <
-                                                       std::abs(area_within(outlines[around[i]]));
+        const bool smaller =
+            around[i] == count ||
+            std::abs(area_of_polygon(outlines[k])) < std::abs(area_of_polygon(outlines[around[i]]));
         if (smaller) around[i] = k;
       }
     }
@@ -107,10 +88,10 @@ class FaceMaker {
       if (depth[i] % 2 == 1) continue;
       TopoDS_Face face;
       builder_.MakeFace(face, spline_, Precision::Confusion());
-      builder_.Add(face, wire_of(patch_.trims[i], area_within(outlines[i]) > 0.0));
+      builder_.Add(face, wire_of(patch_.trims[i], area_of_polygon(outlines[i]) > 0.0));
       for (std::size_t k = 0; k < count; ++k) {
         if (depth[k] != depth[i] + 1 || around[k] != i) continue;
-        builder_.Add(face, wire_of(patch_.trims[k], area_within(outlines[k]) < 0.0));
+        builder_.Add(face, wire_of(patch_.trims[k], area_of_polygon(outlines[k]) < 0.0));
       }
       out.push_back(face);
     }

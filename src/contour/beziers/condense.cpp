@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "obvid/contour/beziers.h"
+#include "obvid/numeric/internal/golden.h"
 #include "obvid/region/internal/convex_triangle.h"
 
 namespace obvid {
@@ -86,7 +87,7 @@ double margin_of(const Triangle& t, const Chain& chain) {
 double best_cut(const Triangle& t) {
   constexpr double kFrom = 0.2, kTo = 0.8;
   constexpr int kRow = 12;
-  constexpr int kSections = 40;  // 0.05 * 0.618^40 is below the sensitivity of a flat maximum
+  constexpr double kFoundTo = 1e-9;  // below the sensitivity of a flat maximum
   const auto margin = [&](double cut) { return margin_of(t, chain_at(t, cut)); };
   const double step = (kTo - kFrom) / kRow;
   double best = 0.5;
@@ -94,26 +95,7 @@ double best_cut(const Triangle& t) {
     const double cut = kFrom + i * step;
     if (margin(cut) > margin(best)) best = cut;
   }
-  constexpr double kGolden = 0.6180339887498949;
-  double low = best - step, high = best + step;
-  double x = high - kGolden * (high - low), y = low + kGolden * (high - low);
-  double at_x = margin(x), at_y = margin(y);
-  for (int i = 0; i < kSections; ++i) {
-    if (at_x > at_y) {
-      high = y;
-      y = x;
-      at_y = at_x;
-      x = high - kGolden * (high - low);
-      at_x = margin(x);
-    } else {
-      low = x;
-      x = y;
-      at_x = at_y;
-      y = low + kGolden * (high - low);
-      at_y = margin(y);
-    }
-  }
-  return 0.5 * (low + high);
+  return highest_place(best - step, best + step, margin, kFoundTo);
 }
 
 }  // namespace

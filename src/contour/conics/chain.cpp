@@ -7,6 +7,7 @@
 #include "links.h"
 #include "median.h"
 #include "obvid/contour/conics.h"
+#include "obvid/numeric/internal/halving.h"
 
 namespace obvid {
 namespace {
@@ -94,13 +95,10 @@ double nearest_to_middle(const std::vector<Link>& links, const std::vector<Eleme
     const LogRange r = near_middle(links, cuts, widths, range);
     return r.low <= r.high;
   };
-  double low = 0.0, high = 1.0;
+  double high = 1.0;
   constexpr int kDoublings = 1000, kBisections = 60;  // any double; to the last bit
   for (int i = 0; i < kDoublings && !possible(high); ++i) high *= 2.0;
-  for (int i = 0; i < kBisections; ++i) {
-    const double widths = 0.5 * (low + high);
-    (possible(widths) ? high : low) = widths;
-  }
+  high = end_of_condition(high, 0.0, possible, kBisections).holds;
   return middle_of(near_middle(links, cuts, high, range));
 }
 

@@ -132,7 +132,7 @@ bool Airfoil::open_at_corner() {
   for (std::size_t k = 0; k < path_.pieces().size(); ++k) {
     const Vec2 in = path_.at(k == 0 ? all : path_.joint(k), true).tangent;
     const Vec2 out = path_.at(path_.joint(k), false).tangent;
-    const double turn = std::abs(std::atan2(cross(in, out), dot(in, out)));
+    const double turn = std::abs(turning(in, out));
     if (!(turn > kCorner)) continue;
     corners.push_back(path_.joint(k));
     turns.push_back(turn);
@@ -287,7 +287,7 @@ AirfoilFigures Airfoil::figures() const {
   out.trailing_thickness = out.trailing_round ? 2.0 * edge_radius() / c : std::abs(apart.y) / c;
   out.trailing_gap = std::abs(apart.x) / c;
   const Vec2 upper = -1.0 * first.tangent, lower = last.tangent;  // both towards the edge
-  out.trailing_angle = std::atan2(cross(upper, lower), dot(upper, lower));
+  out.trailing_angle = turning(upper, lower);
   look_at_nose(out);
   return out;
 }
@@ -318,8 +318,7 @@ void Airfoil::look_at_nose(AirfoilFigures& figures) const {
     if (!(a < b)) continue;
     if (k > 0) {
       const auto in = at(stops[k] - beside), out = at(stops[k] + beside);
-      const double turn =
-          std::abs(std::atan2(cross(in.tangent, out.tangent), dot(in.tangent, out.tangent)));
+      const double turn = std::abs(turning(in.tangent, out.tangent));
       const double bent = 2.0 * beside * std::max(std::abs(in.kappa), std::abs(out.kappa));
       if (near(in.point) && turn > kCorner + bent) {
         figures.nose_corner = std::max(figures.nose_corner, turn);

@@ -8,6 +8,7 @@
 #include "obvid/core/result.h"
 #include "obvid/curve/contour.h"
 #include "obvid/curve/internal/contour_path.h"
+#include "obvid/numeric/internal/halving.h"
 #include "obvid/report/airfoil_figures.h"
 
 namespace obvid {
@@ -15,14 +16,8 @@ namespace obvid {
 /// Place in [a, b] at which a function that changes its sign there does so.
 template <class Function>
 double sign_change(double a, double b, const Function& f) {
-  constexpr int kHalvings = 200;  // more than doubles have
   const bool rises = f(b) > 0.0;
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = 0.5 * (a + b);
-    if (!(middle > a && middle < b)) break;
-    ((f(middle) > 0.0) == rises ? b : a) = middle;
-  }
-  return 0.5 * (a + b);
+  return end_of_condition(a, b, [&](double x) { return (f(x) > 0.0) != rises; }).middle();
 }
 
 /// Place on a side of this length whose x, which rises, is the given one; beyond its ends the end.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "space/paths.h"
+#include "obvid/geom/internal/chord.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +11,6 @@ namespace {
 constexpr double kTenths = 10.0;
 /// Points that are thinned at once: keeps the cost linear for long tool paths.
 constexpr std::size_t kChunk = 512;
-
-double distance(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const double length = dot(d, d);
-  const double t = length > 0.0 ? std::clamp(dot(p - a, d) / length, 0.0, 1.0) : 0.0;
-  return norm(p - (a + t * d));
-}
 
 }  // namespace
 
@@ -60,7 +54,7 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& line, double tolerance) {
     double most = tolerance;
     std::size_t farthest = 0;
     for (std::size_t i = from + 1; i < to; ++i) {
-      const double d = distance(line[i], line[from], line[to]);
+      const double d = distance_from_chord(line[i], line[from], line[to]);
       if (d > most) {
         most = d;
         farthest = i;

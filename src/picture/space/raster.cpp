@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "obvid/geom/internal/box.h"
+#include "obvid/geom/internal/directions.h"
 #include "obvid/surface/internal/trim.h"
 
 namespace obvid::picture {
@@ -44,8 +45,6 @@ struct Effort {
     return at;
   }
 };
-
-double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
 Effort effort_along(const NurbsSurface& surface, bool along_u, double patch_size, double model_size,
                     Watch* watch) {

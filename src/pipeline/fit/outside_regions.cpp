@@ -9,6 +9,7 @@
 #include "fit/parts.h"
 #include "obvid/core/units.h"
 #include "obvid/curve/internal/runs.h"
+#include "obvid/geom/internal/chord.h"
 #include "obvid/region/internal/boundary_distance.h"
 #include "obvid/region/internal/segment_region.h"
 
@@ -19,9 +20,7 @@ namespace {
 constexpr double kCoordinateRounding = 0x1p-48;
 
 double distance_from(const LinePiece& line, Vec2 p) {
-  const Vec2 chord = line.end - line.start, v = p - line.start;
-  const double part = std::clamp(dot(v, chord) / dot(chord, chord), 0.0, 1.0);
-  return norm(v - part * chord);
+  return distance_from_chord(p, line.start, line.end);
 }
 
 double distance_from(const ArcPiece& arc, Vec2 p) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/shape.h"
+#include "obvid/numeric/internal/small_system.h"
 
 #include <algorithm>
 #include <array>
@@ -19,24 +20,6 @@ constexpr double kLeastWeight = 1e-9;  ///< of a point, of the largest one
 constexpr int kMeetingSteps = 30;
 constexpr double kMet = 1e-14;  ///< last step towards the place where two meet, of the coordinates
 constexpr std::size_t kMostUnknowns = 3;
-
-/// Solves a symmetric system of up to three unknowns by elimination. False: it is singular.
-bool solve(std::array<std::array<double, kMostUnknowns>, kMostUnknowns>& a,
-           std::array<double, kMostUnknowns>& b, std::size_t size) {
-  for (std::size_t j = 0; j < size; ++j) {
-    if (!(a[j][j] > 0.0)) return false;
-    for (std::size_t i = j + 1; i < size; ++i) {
-      const double part = a[i][j] / a[j][j];
-      for (std::size_t k = j; k < size; ++k) a[i][k] -= part * a[j][k];
-      b[i] -= part * b[j];
-    }
-  }
-  for (std::size_t j = size; j-- > 0;) {
-    for (std::size_t k = j + 1; k < size; ++k) b[j] -= a[j][k] * b[k];
-    b[j] /= a[j][j];
-  }
-  return true;
-}
 
 /// The line or circle with the least weighted squares of distances, from one near it.
 std::optional<Shape> fitted(Shape shape, const ShapePoints& points,
@@ -58,7 +41,8 @@ std::optional<Shape> fitted(Shape shape, const ShapePoints& points,
         for (std::size_t c = 0; c < unknowns; ++c) a[r][c] += weight[i] * slope[r] * slope[c];
       }
     }
-    if (!solve(a, b, unknowns)) return std::nullopt;
+    if (!arc) a[2][2] = 1.0;  // a line stays one
+    if (!solve_small(a, b)) return std::nullopt;
     shape.anchor = shape.anchor + b[0] * length * left_normal(unit_at(shape.theta));
     shape.theta += b[1];
     shape.kappa += b[2] / length;

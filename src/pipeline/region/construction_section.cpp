@@ -10,6 +10,7 @@
 #include "obvid/chain/internal/series_chain.h"
 #include "obvid/contour/spirals/over_chain.h"
 #include "obvid/geom/internal/angle.h"
+#include "obvid/numeric/internal/halving.h"
 #include "obvid/pipeline/internal/region_files.h"
 #include "obvid/region/internal/feasible_data.h"
 
@@ -140,13 +141,10 @@ Result<Element> inflection_between(const Element& start, const Element& end, int
   OBVID_TRY(spirals);
   const auto kappa = [](const Piece& piece, double t) { return curvature(evaluate(piece, t)); };
   for (const Piece& piece : *spirals) {
-    double low = 0.0, high = 1.0;
-    if (kappa(piece, high) * end.kappa < 0.0) continue;
-    for (int n = 0; n < kInflectionHalvings; ++n) {
-      const double t = 0.5 * (low + high);
-      (kappa(piece, t) * end.kappa > 0.0 ? high : low) = t;
-    }
-    Element found = element_at(piece, low);
+    if (kappa(piece, 1.0) * end.kappa < 0.0) continue;
+    const auto before = [&](double t) { return !(kappa(piece, t) * end.kappa > 0.0); };
+    Element found =
+        element_at(piece, end_of_condition(0.0, 1.0, before, kInflectionHalvings).holds);
     found.theta = nearest_angle(found.theta, start.theta);
     found.kappa = 0.0;
     return found;

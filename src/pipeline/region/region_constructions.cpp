@@ -15,6 +15,7 @@
 #include "obvid/contour/bsplines.h"
 #include "obvid/contour/clothoids.h"
 #include "obvid/curve/nurbs.h"
+#include "obvid/numeric/internal/halving.h"
 #include "obvid/region/internal/boundary_distance.h"
 #include "obvid/series/analysis.h"
 #include "region/construction_section.h"
@@ -120,17 +121,14 @@ class TwoArcs {
     const Vec2 start = start_point(pair[0]), chord = end_point(pair[1]) - start;
     const Vec2 u = chord / frame.h;
     for (const Piece& piece : pair) {
-      double low = 0.0, high = 1.0;
       const auto along = [&](double t) {
         return dot(u, evaluate(piece, t).point - start) - 0.5 * frame.h;
       };
-      if (along(low) > 0.0 || along(high) < 0.0) continue;
+      if (along(0.0) > 0.0 || along(1.0) < 0.0) continue;
       constexpr int kHalvings = 60;
-      for (int n = 0; n < kHalvings; ++n) {
-        const double t = 0.5 * (low + high);
-        (along(t) < 0.0 ? low : high) = t;
-      }
-      return std::abs(cross(u, evaluate(piece, low).point - start));
+      const auto before = [&](double t) { return along(t) < 0.0; };
+      const double t = end_of_condition(0.0, 1.0, before, kHalvings).holds;
+      return std::abs(cross(u, evaluate(piece, t).point - start));
     }
     return kNoFigure;
   }

@@ -8,6 +8,7 @@
 
 #include "fit/prepare.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/geom/internal/directions.h"
 #include "obvid/io/internal/json_text.h"
 #include "obvid/numeric/internal/median.h"
 #include "obvid/pipeline/internal/promise.h"
@@ -84,9 +85,8 @@ std::pair<std::size_t, std::size_t> parts_at(const SpaceChain& chain, std::size_
 
 double turn_at(const SpaceChain& chain, std::size_t k) {
   const auto [before, behind] = parts_at(chain, k);
-  const Vec3 a = end_of(chain.parts[before], true).tangent,
-             b = end_of(chain.parts[behind], false).tangent;
-  return std::atan2(norm(cross(a, b)), dot(a, b));
+  return angle_between(end_of(chain.parts[before], true).tangent,
+                       end_of(chain.parts[behind], false).tangent);
 }
 
 std::vector<std::size_t> chain_part(const SpaceChain& chain, std::size_t k) {

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "obvid/core/internal/watch.h"
+#include "obvid/geom/internal/directions.h"
 #include "obvid/io/internal/json_text.h"
+#include "obvid/numeric/internal/golden.h"
 #include "obvid/pipeline/internal/region_boundaries.h"
 #include "obvid/pipeline/internal/space_audit.h"
 #include "obvid/surface/space_curve.h"
@@ -13,9 +15,8 @@ namespace obvid {
 namespace {
 
 constexpr int kStepsOfSpan = 64;
-constexpr double kSwing = 1e-9;   // of the largest curvature: less is rounding
-constexpr int kGoldenSteps = 60;  // by the golden ratio: 3e-13 of the steps beside it
-constexpr double kGolden = 0.6180339887498949;
+constexpr double kSwing = 1e-9;           // of the largest curvature: less is rounding
+constexpr double kVertexFoundTo = 1e-12;  // of the steps beside it
 
 struct CurvaturePlace {
   std::size_t span = 0;
@@ -62,7 +63,7 @@ class SpaceAuditor {
     for (std::size_t k = 1; k < spans_.size(); ++k) {
       const SpaceJet before = evaluate(spans_[k - 1], domain(spans_[k - 1]).to);
       const SpaceJet behind = evaluate(spans_[k], domain(spans_[k]).from);
-      const double turn = std::atan2(norm(cross(before.d1, behind.d1)), dot(before.d1, behind.d1));
+      const double turn = angle_between(before.d1, behind.d1);
       const double step = std::abs(curvature(behind) - curvature(before)) / scale;
       out_.largest_turn = std::max(out_.largest_turn, turn);
       out_.largest_step = std::max(out_.largest_step, step);
@@ -75,13 +76,10 @@ class SpaceAuditor {
   [[nodiscard]] SpaceExtremum narrowed(const CurvaturePlace& place, double sign) const {
     const Range range = domain(spans_[place.span]);
     const double step = range.length() / kStepsOfSpan;
-    double from = std::max(range.from, place.u - step), to = std::min(range.to, place.u + step);
+    const double from = std::max(range.from, place.u - step),
+                 to = std::min(range.to, place.u + step);
     const auto height = [&](double u) { return sign * curvature_at(place.span, u); };
-    for (int k = 0; k < kGoldenSteps; ++k) {
-      const double low = to - kGolden * (to - from), high = from + kGolden * (to - from);
-      (height(low) < height(high) ? from : to) = height(low) < height(high) ? low : high;
-    }
-    double u = 0.5 * (from + to);
+    double u = highest_place(from, to, height, kVertexFoundTo * step);
     if (!(height(u) >= sign * place.curvature)) u = place.u;
     return {u, evaluate(spans_[place.span], u).point, curvature_at(place.span, u)};
   }

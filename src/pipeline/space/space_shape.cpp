@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "space/space_shape.h"
+#include "obvid/numeric/internal/halving.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,13 +91,8 @@ SpaceShape::Curvatures SpaceShape::curvatures(double sigma, bool before_joint) c
 }
 
 double SpaceShape::where(double plan_length) const {
-  double low = 0.0, high = length();
-  for (int k = 0; k < kHalvingsOfLength && low < high; ++k) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    (unrolled_.jet(middle).point.x < plan_length ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  const auto is_before = [&](double s) { return unrolled_.jet(s).point.x < plan_length; };
+  return end_of_condition(0.0, length(), is_before, kHalvingsOfLength).middle();
 }
 
 std::vector<double> SpaceShape::joints() const {

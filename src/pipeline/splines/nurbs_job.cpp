@@ -9,12 +9,13 @@
 #include "obvid/cad/internal/cad.h"
 #include "obvid/exchange/internal/dxf/space.h"
 #include "obvid/io/internal/json_list.h"
+#include "obvid/numeric/internal/golden.h"
 #include "obvid/pipeline/file_formats.h"
 
 namespace obvid {
 namespace {
 
-constexpr int kThirdsOfSupport = 120;
+constexpr double kGreatestFoundTo = 1e-16;  // of the support: to rounding
 
 Error nurbs_error(ErrorCode code, std::string what, std::string where, std::string hint,
                   double value = 0.0) {
@@ -99,13 +100,9 @@ class WeightOfPoint {
       u_ = curve_.knots[point_ + 1];
       return;
     }
-    double low = curve_.knots[point_], high = curve_.knots[point_ + d + 1];
+    const double low = curve_.knots[point_], high = curve_.knots[point_ + d + 1];
     const auto height = [&](double u) { return evaluate(own_, u).point.x; };
-    for (int k = 0; k < kThirdsOfSupport; ++k) {
-      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-      (height(a) < height(b) ? low : high) = height(a) < height(b) ? a : b;
-    }
-    u_ = 0.5 * (low + high);
+    u_ = highest_place(low, high, height, kGreatestFoundTo * (high - low));
   }
 
   const SpaceCurve& curve_;

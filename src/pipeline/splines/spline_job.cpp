@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "obvid/exchange/internal/sketch.h"
+#include "obvid/geom/internal/chord.h"
 #include "obvid/idspline/internal/scalar_cubic.h"
 #include "obvid/io/internal/json_list.h"
+#include "obvid/numeric/internal/golden.h"
 
 namespace obvid {
 namespace {
@@ -29,21 +31,12 @@ constexpr std::size_t kPictureSteps = 16;  // of a cell
 
 using Place = std::array<double, 3>;
 
-double away(const Place& a, const Place& b) {
-  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                   (a[2] - b[2]) * (a[2] - b[2]));
-}
+Vec3 in_space(const Place& p) { return {p[0], p[1], p[2]}; }
+
+double away(const Place& a, const Place& b) { return norm(in_space(a) - in_space(b)); }
 
 double from_move(const Place& p, const Place& a, const Place& b) {
-  double along = 0.0, length2 = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    along += (p[k] - a[k]) * (b[k] - a[k]);
-    length2 += (b[k] - a[k]) * (b[k] - a[k]);
-  }
-  const double t = length2 > 0.0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
-  Place foot;
-  for (std::size_t k = 0; k < 3; ++k) foot[k] = a[k] + t * (b[k] - a[k]);
-  return away(p, foot);
+  return distance_from_chord(in_space(p), in_space(a), in_space(b));
 }
 
 /// Any spline of this file: what it has at a parameter, and the integral over a cell.
@@ -216,13 +209,9 @@ class RowMaker {
       const double u = first + width * static_cast<double>(k);
       if (distance(u) < distance(best)) best = u;
     }
-    double low = std::max(first, best - width), high = std::min(last, best + width);
-    constexpr int kThirds = 60;
-    for (int k = 0; k < kThirds; ++k) {
-      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-      (distance(a) > distance(b) ? low : high) = distance(a) > distance(b) ? a : b;
-    }
-    return distance(0.5 * (low + high));
+    constexpr double kNearestFoundTo = 1e-10;  // of a step
+    return distance(lowest_place(std::max(first, best - width), std::min(last, best + width),
+                                 distance, kNearestFoundTo * width));
   }
 
   const SplineInput& input_;

@@ -17,6 +17,7 @@
 #include "obvid/curve/internal/piece_box.h"
 #include "obvid/curve/internal/runs.h"
 #include "obvid/geom/internal/angle.h"
+#include "obvid/numeric/internal/halving.h"
 #include "obvid/series/analysis.h"
 #include "verify/report.h"
 
@@ -502,21 +503,19 @@ class Auditor {
   }
 
   /// The extremum nearest to a sample inside its piece, where the rate of curvature is 0.
+  static constexpr int kHalvings = 50;  // to rounding: a piece has parameters of about 1
+
   [[nodiscard]] Sample refined(Sample at) const {
     const Piece& piece = out_.contour.pieces[at.piece];
     const auto rate = [&](double t) { return curvature_rate(evaluate(piece, t)); };
-    double low = std::max(0.0, at.t - 1.0 / kPieceSamples),
-           high = std::min(1.0, at.t + 1.0 / kPieceSamples);
+    const double low = std::max(0.0, at.t - 1.0 / kPieceSamples),
+                 high = std::min(1.0, at.t + 1.0 / kPieceSamples);
     const bool rises = rate(low) > 0.0;
     if (rises == (rate(high) > 0.0)) return at;
-    constexpr int kHalvings = 50;
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (low + high);
-      ((rate(middle) > 0.0) == rises ? low : high) = middle;
-    }
-    at.kappa = curvature(evaluate(piece, low));
-    at.s = path_->length_at(at.piece, low);
-    at.t = low;
+    const auto before = [&](double t) { return (rate(t) > 0.0) == rises; };
+    at.t = end_of_condition(low, high, before, kHalvings).holds;
+    at.kappa = curvature(evaluate(piece, at.t));
+    at.s = path_->length_at(at.piece, at.t);
     return at;
   }
 
@@ -563,13 +562,9 @@ class Auditor {
     if (k + 1 == samples_.size()) return path_->length();
     if (one.piece != next.piece) return before + next.s;
     const Piece& piece = out_.contour.pieces[one.piece];
-    constexpr int kHalvings = 50;
-    double low = one.t, high = next.t;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = 0.5 * (low + high);
-      (holds(curvature(evaluate(piece, middle))) ? low : high) = middle;
-    }
-    return before + path_->length_at(one.piece, high);
+    const auto still_holds = [&](double t) { return holds(curvature(evaluate(piece, t))); };
+    return before + path_->length_at(one.piece,
+                                     end_of_condition(one.t, next.t, still_holds, kHalvings).fails);
   }
 
   Watch watch_;

@@ -7,6 +7,7 @@
 
 #include "fit/section_chain.h"
 #include "obvid/certify/certify.h"
+#include "obvid/numeric/internal/median.h"
 
 namespace obvid {
 namespace {
@@ -37,9 +38,7 @@ Result<Fit> timed_fit(const PointSeries& series, const FitJob& job,
     all += times.back();
   }
   if (times.empty()) return made;
-  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2),
-                   times.end());
-  median = times[times.size() / 2];
+  median = median_within(times);
   return made;
 }
 
