@@ -964,6 +964,11 @@ bool depends_on_primitives(const Result<Fit>& made, Carrier carrier) {
           code == ErrorCode::kNotProved);
 }
 
+/// Of the curve, whatever lines and arcs were chosen: without any there may be one.
+bool is_refusal(const Error& error) {
+  return error.code == ErrorCode::kNoSpiral || error.code == ErrorCode::kChordReversal;
+}
+
 /// Forms a contour with lines and arcs, and takes back what it shows not to hold.
 class WithPrimitives {
  public:
@@ -974,6 +979,7 @@ class WithPrimitives {
   Result<Fit> run() {
     const double before = watch_.spent();
     auto made = without_blunt_corners(formed());
+    if (!made && is_refusal(made.error()) && !watch_.was_cancelled()) return without_any(made);
     // the plain contour is looked for first where one of G3 is not proved
     if (is_made_g3(job_) || !depends_on_primitives(made, job_.carrier)) return made;
     const Result<Fit> first = made;
@@ -1038,7 +1044,8 @@ class WithPrimitives {
     auto made = formed_once(series_, plain, with, chains_, watch_);
     if (depends_on_primitives(made, job_.carrier) || !made) return first;
     made->warnings.emplace_back(
-        "no line and no arc is kept: beside those that were found no transition was proved");
+        first ? "no line and no arc is kept: beside those that were found no transition was proved"
+              : "no line and no arc is kept: with those that were found there is no contour");
     return made;
   }
 
