@@ -30,6 +30,17 @@ from acceptance_sets.plates import Circle, Ellipse, Round, drawing, plate  # noq
 PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
 
 
+def polygons(*corners):
+    """Closed polylines of straight edges, mm."""
+    plan = ezdxf.new()
+    plan.header["$INSUNITS"] = 4
+    for one in corners:
+        plan.modelspace().add_lwpolyline(one, close=True)
+    with io.StringIO() as out:
+        plan.write(out)
+        return out.getvalue()
+
+
 class Cutting(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -465,6 +476,33 @@ class Cutting(unittest.TestCase):
         self.run_cut(near, "--diameter", 1.9, "--depth", 1)
         notch = drawing([Round(0, 0, 4, 40, 0)])
         self.assertIn("E409", self.run_cut(notch, "--diameter", 5, "--depth", 1, "--side", "inside", code=4))
+
+    def test_slots_narrower_than_the_tool_are_refused(self):
+        plates = {  # upper side of a plate of 40 by 20: the widest cutter that enters
+            1.0: [(20.5, 20), (20.5, 10), (19.5, 10), (19.5, 20)],
+            2 * math.hypot(0.5, 15) * 0.5 / 15: [(20.5, 20), (20, 5), (19.5, 20)],
+        }
+        for widest, inside in plates.items():
+            with self.subTest(widest=widest):
+                text = polygons([(0, 0), (40, 0), (40, 20), *inside, (0, 20)])
+                said = self.run_cut(text, "--diameter", 4, "--depth", 2, code=4)
+                self.assertIn("E409", said)
+                named = float(re.search(r"a cutter of ([0-9.]+) enters it", said)[1])
+                self.assertLessEqual(named, widest)
+                self.assertGreater(named, 0.99 * widest)
+                self.run_cut(text, "--diameter", named, "--depth", 2)
+                self.run_cut(text, "--diameter", 1.02 * widest, "--depth", 2, code=4)
+
+    def test_much_that_stays_in_corners_is_warned_of_also_when_quiet(self):
+        notch = polygons([(0, 0), (40, 0), (40, 30), (25, 30), (20, 2), (15, 30), (0, 30)])
+        step = polygons([(0, 0), (40, 0), (40, 20), (20, 20), (20, 21), (0, 21)])
+        for text, said in ((notch, "leaves more than its radius in 1 inner corner: up to 14.1 mm"),
+                           (step, "too short for the round tool to touch them: 1.00 mm of")):
+            (self.at / "d.dxf").write_text(text)
+            done = subprocess.run([PROGRAM, "cut", "d.dxf", "--diameter", "6", "--depth", "1", "-q"], cwd=self.at,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(said, done.stderr)
 
     def test_options_that_do_not_go_together(self):
         one = drawing([Circle(0, 0, 10)])
