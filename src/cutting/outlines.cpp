@@ -404,7 +404,7 @@ class TrackMaker {
   /// In digits: halved until one enters all slots of an outline, then the largest that was found
   /// to.
   [[nodiscard]] std::optional<std::string> diameter_that_enters(const ArcPath& edge) const {
-    constexpr int kHalvings = 12, kBisections = 12;
+    constexpr int kTimesHalved = 12, kTimesBisected = 12;
     constexpr std::size_t kMostPieces = 20000;  // of an outline: seconds
     if (edge.pieces.size() > kMostPieces) return std::nullopt;
     const auto enters = [&](double radius) {
@@ -413,11 +413,11 @@ class TrackMaker {
     };
     double fits = radius_, wide = radius_;
     for (int k = 0; !enters(fits); ++k) {
-      if (k == kHalvings || watch_.cancelled()) return std::nullopt;
+      if (k == kTimesHalved || watch_.cancelled()) return std::nullopt;
       wide = fits;
       fits *= 0.5;
     }
-    for (int k = 0; k < kBisections; ++k) {
+    for (int k = 0; k < kTimesBisected; ++k) {
       const double middle = 0.5 * (fits + wide);
       (enters(middle) ? fits : wide) = middle;
     }
