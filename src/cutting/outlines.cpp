@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common_edges.h"
 #include "edge_arcs.h"
 #include "joined_curves.h"
 #include "obvid/contour/arcs/arcs_along.h"
@@ -97,6 +98,8 @@ class TrackMaker {
     out_.edges.finish();
     spacing_ = spacing_of(out_.all, radius_);
     for (std::size_t i = 0; i < out_.all.size(); ++i) OBVID_TRY(keeps_clear(i));
+    tell_common_edges();
+    if (watch_.was_cancelled()) return fail(cancelled_error());
     return std::move(out_);
   }
 
@@ -505,6 +508,27 @@ class TrackMaker {
       }
     }
     return {};
+  }
+
+  /// Of what is followed on the line nothing is refused.
+  void tell_common_edges() {
+    const CommonEdges found = common_edges(out_.all, within(), watch_);
+    const auto where = [&](const CommonEdges::Place& place) {
+      return fmt::format("{} and {}, {}", out_.all[place.one].name, out_.all[place.other].name,
+                         place_text(place.at));
+    };
+    if (found.first_again && options_.process != CutProcess::kMill) {
+      out_.warnings.push_back(
+          fmt::format("{} are burnt once more, where outlines lie on each other: first {}; draw "
+                      "common edges once",
+                      told(found.again), where(*found.first_again)));
+    }
+    if (found.first_crossing && options_.side != CutSide::kOn) {
+      const std::size_t more = found.crossings - 1;
+      out_.warnings.push_back(fmt::format(
+          "closed outlines cross and are cut as they are drawn: {}{}", where(*found.first_crossing),
+          more == 0 ? "" : fmt::format(", and {} more", counted(more, "pair", "pairs"))));
+    }
   }
 
   /// What the outlines themselves do not leave room for.

@@ -504,6 +504,42 @@ class Cutting(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn(said, done.stderr)
 
+    def test_common_edges_and_crossings_are_told_where_nothing_is_compensated(self):
+        def rectangle(x, y, w, h):
+            return [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
+        apart = polygons(rectangle(0, 0, 30, 20), rectangle(31, 0, 30, 20))
+        self.run_cut(apart, "--laser", 100)
+        self.assertEqual(self.report["warnings"], [])
+        # three parts: the middle one shares 20 with the first and 12 with the last
+        common = polygons(rectangle(0, 0, 30, 20), rectangle(30, 0, 30, 20), rectangle(60, 5, 30, 12))
+        self.run_cut(common, "--laser", 100)
+        said = "\n".join(self.report["warnings"])
+        self.assertIn("32.0 mm are burnt once more", said)
+        self.assertNotIn("cross", said)
+        crossing = polygons(rectangle(0, 0, 30, 20), rectangle(20, 10, 30, 20), rectangle(45, 15, 30, 2))
+        self.run_cut(crossing, "--laser", 100)
+        said = "\n".join(self.report["warnings"])
+        self.assertIn("closed outlines cross and are cut as they are drawn", said)
+        self.assertIn("and 1 pair more", said)
+        self.assertNotIn("burnt", said)
+        self.run_cut(crossing, "--laser", 100, "--side", "on")  # as asked
+        self.assertEqual(self.report["warnings"], [])
+
+    def test_outlines_of_drawings_of_paths_are_circles_where_they_were(self):
+        (self.at / "d.dxf").write_text(drawing([Circle(20, 30, 7)]))
+        subprocess.run([PROGRAM, "cut", "d.dxf", "--diameter", "2", "--depth", "1", "-o", "paths.dxf"], cwd=self.at,
+                       check=True, capture_output=True)
+        found = [e for e in ezdxf.readfile(self.at / "paths.dxf").modelspace() if e.dxf.layer == "OUTLINES"]
+        self.assertEqual([e.dxftype() for e in found], ["CIRCLE"])
+        self.assertAlmostEqual(found[0].dxf.radius, 7.0, places=9)
+
+    def test_remarks_for_fanuc_have_no_small_letters(self):
+        text = self.run_cut(drawing([Circle(0, 0, 10)]), "--diameter", 2, "--depth", 1, "--controller", "fanuc")
+        remarks = re.findall(r"\(.*\)", text)
+        self.assertTrue(remarks)
+        for one in remarks:
+            self.assertEqual(one, one.upper())
+
     def test_options_that_do_not_go_together(self):
         one = drawing([Circle(0, 0, 10)])
         for options, word in (([], "--depth"), (["--depth", -1], "--depth"), (["--depth", 1, "--diameter", -2], "--diameter"),
