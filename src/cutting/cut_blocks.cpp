@@ -168,6 +168,12 @@ class Blocks {
         const double ramp = (z_ramp_ - z) / rules_.fall;
         walk(along, at, at + ramp, z_ramp_, z);
         at += ramp;
+        // where a turn falls by no more than this pass and the next one, that goes on from here
+        const double next = pass + 1 < out_.levels ? (z - bottom(pass + 1)) / rules_.fall : 0.0;
+        if (std::min(ramp, next) >= along.length() * (1.0 - kNothing)) {
+          z_ramp_ = z;
+          continue;
+        }
       } else {
         if (pass > 0 && visit.lead_in) {  // where the tool goes down, it leaves no mark
           level(rules_.safe_z);

@@ -101,6 +101,17 @@ double Edges::room_beside(const Edge& edge, Vec2 point, double distance) const {
                                                                                    : -distance;
 }
 
+std::vector<Edges::Named> Edges::near_to(const Piece& piece, double within) const {
+  const Box2 box = box_of(piece);
+  const TreeBox around{{box.low.x - within, box.low.y - within},
+                       {box.high.x + within, box.high.y + within}};
+  std::vector<Named> out;
+  for (auto it = tree_->boxes.qbegin(bgi::intersects(around)); it != tree_->boxes.qend(); ++it) {
+    out.push_back({&edges_[it->second].piece, edges_[it->second].name});
+  }
+  return out;
+}
+
 std::optional<std::size_t> Edges::met_by(const Piece& piece, std::optional<std::size_t> but) const {
   const TreeBox box = tree_box(piece);
   for (auto it = tree_->boxes.qbegin(bgi::intersects(box)); it != tree_->boxes.qend(); ++it) {

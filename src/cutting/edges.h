@@ -30,6 +30,14 @@ class Edges {
   [[nodiscard]] std::optional<std::size_t> met_by(const Piece& piece,
                                                   std::optional<std::size_t> but = {}) const;
 
+  /// A line or arc of one of the paths; lives as long as these edges.
+  struct Named {
+    const Piece* piece;
+    std::size_t name;
+  };
+  /// Those whose boxes come as near as `within` to that of a piece, and perhaps others.
+  [[nodiscard]] std::vector<Named> near_to(const Piece& piece, double within) const;
+
   Edges();
   ~Edges();
   Edges(Edges&&) noexcept;

@@ -41,18 +41,22 @@ Vec2 centre_of(const ArcPiece& a) {
   return a.start + (1.0 / a.kappa) * left_normal(unit_at(a.theta0));
 }
 
-/// Places on an arc of a point of its circle: the turn from its start, over its own.
+/// Places on an arc of a point of its circle: the turn from its start, over its own. None on what
+/// was cut off to nothing.
 std::optional<double> place_on(const Piece& piece, Vec2 point) {
   constexpr double kBeyond = 1e-9;  // of a piece: rounding of places at its ends
   double place = 0.0;
   if (is_line(piece)) {
     const Vec2 along = end_point(piece) - start_point(piece);
-    place = dot(point - start_point(piece), along) / dot(along, along);
+    const double square = dot(along, along);
+    if (!(square > 0.0)) return std::nullopt;
+    place = dot(point - start_point(piece), along) / square;
   } else {
     const ArcPiece& a = arc_of(piece);
     const Vec2 centre = centre_of(a);
     double turn = turning(a.start - centre, point - centre);
     const double whole = a.kappa * a.length, full = kFullTurn;
+    if (whole == 0.0) return std::nullopt;
     if (whole > 0.0 && turn < -kBeyond * whole) turn += full;
     if (whole < 0.0 && turn > -kBeyond * whole) turn -= full;
     place = turn / whole;
@@ -119,13 +123,14 @@ class ParallelOf {
     Parallel out;
     out.path.closed = path_.closed;
     joints_.resize(corners_.size());
-    for (Link& link : links_) {
+    for (const Link& link : links_) {
       for (const std::size_t corner : link.closes) joints_[corner] = out.path.pieces.size();
-      out.path.pieces.push_back(std::move(link.piece));
+      out.path.pieces.push_back(link.piece);
     }
     join(out.path);
     out.corners = std::move(corners_);
     measure_corners(out);
+    for (std::size_t i = 0; i < links_.size(); ++i) tell_untouched(i, out);
     return out;
   }
 
@@ -135,6 +140,10 @@ class ParallelOf {
     bool gap_behind = false;            ///< an inner corner: it crosses what comes behind
     Vec2 corner;                        ///< of the outline there
     std::vector<std::size_t> closes{};  ///< inner corners that the joint behind it stands for
+    bool around_corner = false;         ///< the arc around one that turns away from the tool
+    std::size_t lost_corners = 0;       ///< such ones that the joint behind it stands for
+    double lost = 0.0;                  ///< length of pieces that it stands for
+    double own = 0.0;                   ///< length of the outline's piece
   };
 
   Result<void> add(const Piece& piece) {
@@ -149,6 +158,7 @@ class ParallelOf {
           .value(radius);
     }
     links_.push_back({std::move(*beside), false, end_point(piece)});
+    links_.back().own = length_of(piece);
     return {};
   }
 
@@ -166,6 +176,7 @@ class ParallelOf {
         return std::holds_alternative<LinePiece>(piece) ? length_of(piece) : 0.0;
       };
       straight_.push_back(std::min(straight(before), straight(behind)));
+      turns_.push_back(std::abs(turn));
       return;
     }
     const Vec2 corner = end_point(before);
@@ -173,6 +184,7 @@ class ParallelOf {
                           corner + by_ * left_normal(unit_at(theta + turn)), theta, -1.0 / by_,
                           std::abs(turn * by_)),
                       false, corner});
+    links_.back().around_corner = true;
   }
 
   /// What the formula of two long lines says is so where both are as long as the tool's reaches in
@@ -199,6 +211,29 @@ class ParallelOf {
     const double nearest =
         std::min(distance_from(before, corner.at), distance_from(behind, corner.at));
     corner.left = std::max(0.0, nearest - std::abs(by_));
+  }
+
+  /// What the joint behind a link stands for, where whole edges are among it: smooth pieces are
+  /// one.
+  void tell_untouched(std::size_t i, Parallel& parallel) const {
+    const Link &before = links_[i], &behind = links_[(i + 1) % links_.size()];
+    const int mouth = (before.around_corner ? 1 : 0) + (behind.around_corner ? 1 : 0);
+    const std::size_t inner = before.closes.size();
+    const bool edges = inner + before.lost_corners + static_cast<std::size_t>(mouth) > 1;
+    if (inner == 0 || !(before.lost > 0.0) || !edges) return;
+    Parallel::Untouched out;
+    out.length = before.lost;
+    double turn = 0.0;
+    for (const std::size_t k : before.closes) {
+      const Parallel::InnerCorner& corner = parallel.corners[k];
+      turn += turns_[k];
+      if (corner.left < out.left) continue;
+      out.at = corner.at;
+      out.left = corner.left;
+    }
+    out.slot =
+        mouth == 2 || before.lost_corners > 0 || (inner > 1 && turn >= std::numbers::pi - kSmooth);
+    parallel.untouched.push_back(out);
   }
 
   /// Cuts both sides of every gap off where they meet.
@@ -247,10 +282,11 @@ class ParallelOf {
     for (std::size_t k = 0; k < ahead; ++k) gone[(at + 1 + k) % n] = true;
     std::vector<Link> kept;
     for (std::size_t k = 0; k < n; ++k) {
-      if (gone[k]) {
-        links_[a].closes.insert(links_[a].closes.end(), links_[k].closes.begin(),
-                                links_[k].closes.end());
-      }
+      if (!gone[k]) continue;
+      links_[a].closes.insert(links_[a].closes.end(), links_[k].closes.begin(),
+                              links_[k].closes.end());
+      links_[a].lost_corners += links_[k].lost_corners + (links_[k].around_corner ? 1 : 0);
+      links_[a].lost += links_[k].lost + links_[k].own;
     }
     for (std::size_t k = 0; k < n; ++k) {
       if (!gone[k]) kept.push_back(std::move(links_[k]));
@@ -277,6 +313,7 @@ class ParallelOf {
   std::vector<Link> links_;
   std::vector<Parallel::InnerCorner> corners_;
   std::vector<std::size_t> joints_;  ///< of these: the piece whose end stands for it
+  std::vector<double> turns_;        ///< of these: absolute, rad
   std::vector<double> straight_;  ///< of these: the shorter of two lines beside it; 0 beside an arc
 };
 
@@ -419,7 +456,7 @@ std::optional<Meeting> meeting_of(const Piece& first, const Piece& second) {
 }
 
 Result<Parallel> parallel_of(const ArcPath& path, double by) {
-  if (by == 0.0) return Parallel{path, {}};
+  if (by == 0.0) return Parallel{path, {}, {}};
   return ParallelOf(path, by).run();
 }
 

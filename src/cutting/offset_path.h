@@ -65,6 +65,17 @@ struct Parallel {
     double reach = 0.0, left = 0.0;
   };
   std::vector<InnerCorner> corners;
+  /// Whole edges of the outline that the tool does not touch, between two places that it does.
+  struct Untouched {
+    Vec2 at;              ///< the inner corner there that is farthest from the tool
+    double length = 0.0;  ///< of the pieces that it does not touch at all
+    double left = 0.0;    ///< how far the tool stays from that corner
+    /// A slot or notch that the tool does not enter: it lies on both corners of its mouth, its
+    /// walls turn back by half a turn, or more than one feature is in it. Else an inner corner with
+    /// a chamfer or a step that is too short for the tool.
+    bool slot = false;
+  };
+  std::vector<Untouched> untouched;
 };
 /// Errors: E409 a hollow narrower than the tool (`value`: its radius), or neighbours of a corner
 /// that do not meet. What meets itself elsewhere is not looked for.

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common_edges.h"
 #include "edge_arcs.h"
 #include "joined_curves.h"
 #include "obvid/contour/arcs/arcs_along.h"
@@ -89,12 +90,16 @@ class TrackMaker {
     nest();
     keep_what_is_cut();
     for (Track& track : out_.all) OBVID_TRY(compensate(track));
+    tell_short_edges();
+    tell_deep_corners();
     for (std::size_t i = 0; i < out_.all.size(); ++i) {
       if (out_.all[i].side != CutSide::kOn) out_.edges.add(out_.all[i].edge, i);
     }
     out_.edges.finish();
     spacing_ = spacing_of(out_.all, radius_);
     for (std::size_t i = 0; i < out_.all.size(); ++i) OBVID_TRY(keeps_clear(i));
+    tell_common_edges();
+    if (watch_.was_cancelled()) return fail(cancelled_error());
     return std::move(out_);
   }
 
@@ -363,12 +368,105 @@ class TrackMaker {
     const bool compensated = track.side != CutSide::kOn;
     auto parallel = parallel_of(track.edge, compensated ? radius_ : 0.0);
     if (!parallel) return fail(in_drawing(parallel.error(), track.name));
+    if (const Parallel::Untouched* slot = deepest_slot(*parallel)) {
+      return fail(does_not_enter(track, *slot));
+    }
+    for (const Parallel::Untouched& one : parallel->untouched) {
+      if (one.left > within()) short_edges_.push_back({&track, one});
+    }
     track.axis = std::move(parallel->path);
     track.corners = std::move(parallel->corners);
     if (compensated && options_.direction == CutDirection::kConventional) {
       track.axis = reversed(track.axis);
     }
     return {};
+  }
+
+  /// Of what a slot or notch keeps the tool out of, more than the tolerance.
+  [[nodiscard]] const Parallel::Untouched* deepest_slot(const Parallel& parallel) const {
+    const Parallel::Untouched* out = nullptr;
+    for (const Parallel::Untouched& one : parallel.untouched) {
+      if (one.slot && one.left > within() && (!out || one.left > out->left)) out = &one;
+    }
+    return out;
+  }
+
+  [[nodiscard]] Error does_not_enter(const Track& track, const Parallel::Untouched& slot) const {
+    const auto fits = diameter_that_enters(track.edge);
+    return error(
+               ErrorCode::kToolTooLarge,
+               fmt::format("the tool is wider than a slot or notch there: {} of the outline would "
+                           "not be touched, and up to {} left",
+                           told(slot.length), told(slot.left)))
+        .where(fmt::format("{}, {}", track.name, place_text(slot.at)))
+        .hint(fits ? fmt::format("a cutter of {} enters it", *fits)
+                   : "choose a smaller cutter, or cut along the outline (--side on)")
+        .value(slot.left / scale_);
+  }
+
+  /// In digits: halved until one enters all slots of an outline, then the largest that was found
+  /// to.
+  [[nodiscard]] std::optional<std::string> diameter_that_enters(const ArcPath& edge) const {
+    constexpr int kTimesHalved = 12, kTimesBisected = 12;
+    constexpr std::size_t kMostPieces = 20000;  // of an outline: seconds
+    if (edge.pieces.size() > kMostPieces) return std::nullopt;
+    const auto enters = [&](double radius) {
+      const auto made = parallel_of(edge, radius);
+      return made && !deepest_slot(*made);
+    };
+    double fits = radius_, wide = radius_;
+    for (int k = 0; !enters(fits); ++k) {
+      if (k == kTimesHalved || watch_.cancelled()) return std::nullopt;
+      wide = fits;
+      fits *= 0.5;
+    }
+    for (int k = 0; k < kTimesBisected; ++k) {
+      const double middle = 0.5 * (fits + wide);
+      (enters(middle) ? fits : wide) = middle;
+    }
+    constexpr int kDigits = 3;
+    const double diameter = 2.0 * fits / scale_;
+    const double unit = std::pow(10.0, std::floor(std::log10(diameter)) - (kDigits - 1));
+    const double rounded = std::floor(diameter / unit) * unit;
+    if (!enters(0.5 * rounded * scale_)) return std::nullopt;
+    return significant(rounded, kDigits);
+  }
+
+  [[nodiscard]] std::string place_text(Vec2 at) const {
+    return fmt::format("at {}, {}", significant(at.x / scale_, 6), significant(at.y / scale_, 6));
+  }
+
+  /// Chamfers and steps.
+  void tell_short_edges() {
+    if (short_edges_.empty()) return;
+    const auto worst =
+        std::max_element(short_edges_.begin(), short_edges_.end(),
+                         [](const auto& a, const auto& b) { return a.what.left < b.what.left; });
+    const std::size_t count = short_edges_.size();
+    out_.warnings.push_back(fmt::format(
+        "edges in {} are too short for the round tool to touch them: {} of {}, {}, where {} stay",
+        counted(count, "inner corner", "inner corners"), told(worst->what.length),
+        worst->track->name, place_text(worst->what.at), told(worst->what.left)));
+  }
+
+  void tell_deep_corners() {
+    std::size_t count = 0;
+    const Track* where = nullptr;
+    Parallel::InnerCorner worst;
+    for (const Track& track : out_.all) {
+      for (const Parallel::InnerCorner& corner : track.corners) {
+        if (!(corner.left > radius_)) continue;
+        ++count;
+        if (where && corner.left <= worst.left) continue;
+        where = &track;
+        worst = corner;
+      }
+    }
+    if (!where) return;
+    out_.warnings.push_back(
+        fmt::format("the round tool leaves more than its radius in {}: up to {}, of {}, {}",
+                    counted(count, "inner corner", "inner corners"), told(worst.left), where->name,
+                    place_text(worst.at)));
   }
 
   /// Lengths in messages are those of the machine, which are other ones for a drawing in metres.
@@ -412,6 +510,27 @@ class TrackMaker {
     return {};
   }
 
+  /// Of what is followed on the line nothing is refused.
+  void tell_common_edges() {
+    const CommonEdges found = common_edges(out_.all, within(), watch_);
+    const auto where = [&](const CommonEdges::Place& place) {
+      return fmt::format("{} and {}, {}", out_.all[place.one].name, out_.all[place.other].name,
+                         place_text(place.at));
+    };
+    if (found.first_again && options_.process != CutProcess::kMill) {
+      out_.warnings.push_back(
+          fmt::format("{} are burnt once more, where outlines lie on each other: first {}; draw "
+                      "common edges once",
+                      told(found.again), where(*found.first_again)));
+    }
+    if (found.first_crossing && options_.side != CutSide::kOn) {
+      const std::size_t more = found.crossings - 1;
+      out_.warnings.push_back(fmt::format(
+          "closed outlines cross and are cut as they are drawn: {}{}", where(*found.first_crossing),
+          more == 0 ? "" : fmt::format(", and {} more", counted(more, "pair", "pairs"))));
+    }
+  }
+
   /// What the outlines themselves do not leave room for.
   Result<void> crosses_none(std::size_t i) const {
     for (const Piece& piece : out_.all[i].edge.pieces) {
@@ -429,6 +548,11 @@ class TrackMaker {
   double scale_, share_, radius_, spacing_ = 0.0;
   Watch& watch_;
   Tracks out_;
+  struct ShortEdge {
+    const Track* track;
+    Parallel::Untouched what;
+  };
+  std::vector<ShortEdge> short_edges_;
 };
 
 }  // namespace

@@ -30,6 +30,17 @@ from acceptance_sets.plates import Circle, Ellipse, Round, drawing, plate  # noq
 PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
 
 
+def polygons(*corners):
+    """Closed polylines of straight edges, mm."""
+    plan = ezdxf.new()
+    plan.header["$INSUNITS"] = 4
+    for one in corners:
+        plan.modelspace().add_lwpolyline(one, close=True)
+    with io.StringIO() as out:
+        plan.write(out)
+        return out.getvalue()
+
+
 class Cutting(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -465,6 +476,69 @@ class Cutting(unittest.TestCase):
         self.run_cut(near, "--diameter", 1.9, "--depth", 1)
         notch = drawing([Round(0, 0, 4, 40, 0)])
         self.assertIn("E409", self.run_cut(notch, "--diameter", 5, "--depth", 1, "--side", "inside", code=4))
+
+    def test_slots_narrower_than_the_tool_are_refused(self):
+        plates = {  # upper side of a plate of 40 by 20: the widest cutter that enters
+            1.0: [(20.5, 20), (20.5, 10), (19.5, 10), (19.5, 20)],
+            2 * math.hypot(0.5, 15) * 0.5 / 15: [(20.5, 20), (20, 5), (19.5, 20)],
+        }
+        for widest, inside in plates.items():
+            with self.subTest(widest=widest):
+                text = polygons([(0, 0), (40, 0), (40, 20), *inside, (0, 20)])
+                said = self.run_cut(text, "--diameter", 4, "--depth", 2, code=4)
+                self.assertIn("E409", said)
+                named = float(re.search(r"a cutter of ([0-9.]+) enters it", said)[1])
+                self.assertLessEqual(named, widest)
+                self.assertGreater(named, 0.99 * widest)
+                self.run_cut(text, "--diameter", named, "--depth", 2)
+                self.run_cut(text, "--diameter", 1.02 * widest, "--depth", 2, code=4)
+
+    def test_much_that_stays_in_corners_is_warned_of_also_when_quiet(self):
+        notch = polygons([(0, 0), (40, 0), (40, 30), (25, 30), (20, 2), (15, 30), (0, 30)])
+        step = polygons([(0, 0), (40, 0), (40, 20), (20, 20), (20, 21), (0, 21)])
+        for text, said in ((notch, "leaves more than its radius in 1 inner corner: up to 14.1 mm"),
+                           (step, "too short for the round tool to touch them: 1.00 mm of")):
+            (self.at / "d.dxf").write_text(text)
+            done = subprocess.run([PROGRAM, "cut", "d.dxf", "--diameter", "6", "--depth", "1", "-q"], cwd=self.at,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(said, done.stderr)
+
+    def test_common_edges_and_crossings_are_told_where_nothing_is_compensated(self):
+        def rectangle(x, y, w, h):
+            return [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
+        apart = polygons(rectangle(0, 0, 30, 20), rectangle(31, 0, 30, 20))
+        self.run_cut(apart, "--laser", 100)
+        self.assertEqual(self.report["warnings"], [])
+        # three parts: the middle one shares 20 with the first and 12 with the last
+        common = polygons(rectangle(0, 0, 30, 20), rectangle(30, 0, 30, 20), rectangle(60, 5, 30, 12))
+        self.run_cut(common, "--laser", 100)
+        said = "\n".join(self.report["warnings"])
+        self.assertIn("32.0 mm are burnt once more", said)
+        self.assertNotIn("cross", said)
+        crossing = polygons(rectangle(0, 0, 30, 20), rectangle(20, 10, 30, 20), rectangle(45, 15, 30, 2))
+        self.run_cut(crossing, "--laser", 100)
+        said = "\n".join(self.report["warnings"])
+        self.assertIn("closed outlines cross and are cut as they are drawn", said)
+        self.assertIn("and 1 pair more", said)
+        self.assertNotIn("burnt", said)
+        self.run_cut(crossing, "--laser", 100, "--side", "on")  # as asked
+        self.assertEqual(self.report["warnings"], [])
+
+    def test_outlines_of_drawings_of_paths_are_circles_where_they_were(self):
+        (self.at / "d.dxf").write_text(drawing([Circle(20, 30, 7)]))
+        subprocess.run([PROGRAM, "cut", "d.dxf", "--diameter", "2", "--depth", "1", "-o", "paths.dxf"], cwd=self.at,
+                       check=True, capture_output=True)
+        found = [e for e in ezdxf.readfile(self.at / "paths.dxf").modelspace() if e.dxf.layer == "OUTLINES"]
+        self.assertEqual([e.dxftype() for e in found], ["CIRCLE"])
+        self.assertAlmostEqual(found[0].dxf.radius, 7.0, places=9)
+
+    def test_remarks_for_fanuc_have_no_small_letters(self):
+        text = self.run_cut(drawing([Circle(0, 0, 10)]), "--diameter", 2, "--depth", 1, "--controller", "fanuc")
+        remarks = re.findall(r"\(.*\)", text)
+        self.assertTrue(remarks)
+        for one in remarks:
+            self.assertEqual(one, one.upper())
 
     def test_options_that_do_not_go_together(self):
         one = drawing([Circle(0, 0, 10)])

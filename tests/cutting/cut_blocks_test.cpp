@@ -98,8 +98,9 @@ double length_of_cuts(const std::vector<CutFrom>& cuts) {
 }
 
 // A way of length L that falls by d at the angle a has d = L tan a; a pass that is level goes once
-// around.
-TEST(RampsAroundAClosedPath, FallByTheirAngleAndAreFollowedByOneLevelTurn) {
+// around. Where a ramp is longer than the path, a turn of it cuts less than a pass: it goes on, and
+// one level turn is left, at the bottom.
+TEST(RampsAroundAClosedPath, FallByTheirAngleAndAreFollowedByLevelTurnsWhereTheyAreSteep) {
   for (const ArcPath& axis : {begun_square(), circle_of(kRound)}) {
     const double perimeter = length_of(axis);
     for (const double degrees : {0.5, 3.0, 20.0}) {
@@ -119,10 +120,11 @@ TEST(RampsAroundAClosedPath, FallByTheirAngleAndAreFollowedByOneLevelTurn) {
         EXPECT_NEAR(std::atan(cut.fall()) * 180.0 / kStraight, degrees, 1e-7);
       }
       EXPECT_EQ(deepest, -6.0);
-      EXPECT_NEAR(level, 3.0 * perimeter, kBlockRounding * perimeter);
       const double ramps = 6.0 / std::tan(degrees * kStraight / 180.0);
-      EXPECT_NEAR(length_of_cuts(cuts), ramps + 3.0 * perimeter,
-                  kBlockRounding * (ramps + 3.0 * perimeter));
+      const double turns = ramps / 3.0 >= perimeter ? 1.0 : 3.0;
+      EXPECT_NEAR(level, turns * perimeter, kBlockRounding * perimeter);
+      EXPECT_NEAR(length_of_cuts(cuts), ramps + turns * perimeter,
+                  kBlockRounding * (ramps + turns * perimeter));
       // each begins where the last one ended
       for (std::size_t i = 1; i < cuts.size(); ++i) {
         EXPECT_NEAR(norm(start_point(cuts[i].block.piece) - end_point(cuts[i - 1].block.piece)),
@@ -130,6 +132,19 @@ TEST(RampsAroundAClosedPath, FallByTheirAngleAndAreFollowedByOneLevelTurn) {
       }
     }
   }
+}
+
+// The last of three passes is too short for a turn: before it there is a level one, so that no
+// place has more than a pass cut at once.
+TEST(RampsAroundAClosedPath, BeforeAShortPassThereIsALevelTurn) {
+  BlockRules rules = milling(5.0, 2.0);
+  rules.fall = std::tan(0.5 * kStraight / 180.0);
+  const ArcPath axis = begun_square();
+  double level = 0.0;
+  for (const CutFrom& cut : cuts_of(blocks_around(axis, rules))) {
+    if (cut.from_z == cut.block.z) level += cut.length();
+  }
+  EXPECT_NEAR(level, 2.0 * length_of(axis), kBlockRounding * length_of(axis));
 }
 
 // To and fro over a length L at an angle a: ceil(d / (L tan a)) legs down, the last one shorter,

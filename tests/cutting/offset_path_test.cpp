@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace obvid::cutting {
 namespace {
@@ -85,6 +86,94 @@ TEST(ParallelOfACorner, WhatIsLeftIsNotMeasuredThroughAThinWall) {
   const double half = std::atan2(5.0, 28.0);
   EXPECT_NEAR(made->corners[0].left, kBy * (1.0 / std::sin(half) - 1.0), kCloseBy * kSide);
   EXPECT_NEAR(made->corners[0].reach, kBy / std::tan(half), kCloseBy * kSide);
+}
+
+/// A plate of 40 by 20 whose upper side has something in its middle; the tool of radius 2 is
+/// outside.
+Result<Parallel> around_plate(const std::vector<Vec2>& inside) {
+  std::vector<Vec2> at = {{0, 0}, {40, 0}, {40, 20}};
+  at.insert(at.end(), inside.begin(), inside.end());
+  ArcPath plate;
+  plate.closed = true;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    plate.pieces.emplace_back(LinePiece{at[i], at[(i + 1) % at.size()]});
+  return parallel_of(plate, -2.0);
+}
+
+// It hangs in the mouth: its centre is sqrt(r^2 - (w/2)^2) above both corners of that.
+TEST(ParallelOfASlot, WhatTheToolDoesNotEnterIsTold) {
+  const struct {
+    const char* name;
+    std::vector<Vec2> inside;
+    double length, half_mouth, below,
+        aside;  // of the inner corner: below the mouth, off its middle
+  } cases[] = {
+      {"slot", {{20.5, 20}, {20.5, 10}, {19.5, 10}, {19.5, 20}}, 21.0, 0.5, 10.0, 0.5},
+      {"shallow slot", {{20.5, 20}, {20.5, 19.7}, {19.5, 19.7}, {19.5, 20}}, 1.6, 0.5, 0.3, 0.5},
+      {"a little narrower", {{21.9, 20}, {21.9, 16}, {18.1, 16}, {18.1, 20}}, 11.8, 1.9, 4.0, 1.9},
+      {"half as wide as it, where its walls meet the ends of its ground",
+       {{21, 20}, {21, 10}, {19, 10}, {19, 20}},
+       22.0,
+       1.0,
+       10.0,
+       1.0},
+      {"notch", {{20.5, 20}, {20, 5}, {19.5, 20}}, 2.0 * std::hypot(0.5, 15.0), 0.5, 15.0, 0.0},
+  };
+  for (const auto& one : cases) {
+    SCOPED_TRACE(one.name);
+    std::vector<Vec2> inside = one.inside;
+    inside.push_back({0, 20});
+    const auto made = around_plate(inside);
+    ASSERT_TRUE(made) << to_line(made.error());
+    ASSERT_EQ(made->untouched.size(), 1U);
+    const Parallel::Untouched& found = made->untouched[0];
+    EXPECT_TRUE(found.slot);
+    EXPECT_NEAR(found.length, one.length, kCloseBy * kSide);
+    const double above = std::sqrt(4.0 - one.half_mouth * one.half_mouth);
+    EXPECT_NEAR(found.left, std::hypot(one.aside, above + one.below) - 2.0, kCloseBy * kSide);
+  }
+}
+
+// Beside a wall that goes on upwards.
+TEST(ParallelOfASlot, BesideAWallIsOneToo) {
+  const auto made = around_plate({{20, 20}, {20, 10}, {19, 10}, {19, 40}, {0, 40}});
+  ASSERT_TRUE(made) << to_line(made.error());
+  ASSERT_EQ(made->untouched.size(), 1U);
+  EXPECT_TRUE(made->untouched[0].slot);
+  EXPECT_NEAR(made->untouched[0].length, 11.0, kCloseBy * kSide);
+  // it lies on the upper side and the wall
+  EXPECT_NEAR(made->untouched[0].left, std::hypot(2.0, 12.0) - 2.0, kCloseBy * kSide);
+}
+
+TEST(ParallelOfASlot, WideOnesAndCornersThatItTouchesAreNone) {
+  for (const std::vector<Vec2>& inside : {
+           std::vector<Vec2>{{22.1, 20}, {22.1, 16}, {17.9, 16}, {17.9, 20}, {0, 20}},  // slot
+           std::vector<Vec2>{
+               {24, 20}, {20, 5}, {16, 20}, {0, 20}},       // notch: r / tan(w/2) of a wall is left
+           std::vector<Vec2>{{20, 20}, {20, 12}, {0, 12}},  // a step higher than the radius
+       }) {
+    const auto made = around_plate(inside);
+    ASSERT_TRUE(made) << to_line(made.error());
+    EXPECT_TRUE(made->untouched.empty());
+  }
+}
+
+// A step of 1: the tool lies on the ground and on the upper corner, sqrt(r^2 - (r - 1)^2) off the
+// wall. A chamfer of 0.5 by 0.5 in a corner of lines that are long.
+TEST(ParallelOfACorner, StepsAndChamfersThatItDoesNotTouchAreNoSlots) {
+  for (const double rise : {-1.0, 1.0}) {
+    const auto step = around_plate({{20, 20}, {20, 20 + rise}, {0, 20 + rise}});
+    ASSERT_TRUE(step);
+    ASSERT_EQ(step->untouched.size(), 1U);
+    EXPECT_FALSE(step->untouched[0].slot);
+    EXPECT_NEAR(step->untouched[0].length, 1.0, kCloseBy * kSide);
+    EXPECT_NEAR(step->untouched[0].left, std::hypot(std::sqrt(3.0), 2.0) - 2.0, kCloseBy * kSide);
+  }
+  const auto chamfer = around_plate({{20.5, 20}, {20, 20.5}, {20, 40}, {0, 40}});
+  ASSERT_TRUE(chamfer);
+  ASSERT_EQ(chamfer->untouched.size(), 1U);
+  EXPECT_FALSE(chamfer->untouched[0].slot);
+  EXPECT_NEAR(chamfer->untouched[0].left, std::hypot(2.0, 1.5) - 2.0, kCloseBy * kSide);
 }
 
 TEST(ParallelOfASquare, OutsideIsRoundedByQuarterCircles) {

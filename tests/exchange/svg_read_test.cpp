@@ -267,6 +267,89 @@ TEST(SvgRead, PrefixesHiddenGroupsTextAndForeignElementsAreUnderstood) {
   expect_near(end_point(d.curves[0].pieces[0]), {25.4, 25.4});
 }
 
+/// Whether a style sheet leaves a line with such marks, 1 or 0.
+std::size_t shown(const std::string& css, const std::string& marks) {
+  const Drawing d = read_svg_text(
+      sheet("<style>" + css + "</style><path d='M0 0h1'/><path " + marks + " d='M0 1h1'/>"));
+  EXPECT_FALSE(warns(d, "not understood")) << css;
+  return d.curves.size() - 1;
+}
+
+// CSS 2.1, 6.4: importance, the style attribute, ids, classes, names, and what comes later.
+TEST(SvgRead, StyleSheetsHideByTheCascade) {
+  const struct {
+    const char *css, *marks;
+    bool shown;
+  } cases[] = {
+      {".st0{display:none;}", "class='st0'", false},
+      {"\n\t.st1{fill:none}\n\t.st0{display:none;}", "class='a st0 b'", false},
+      {".st0{display:none}", "class='st01'", true},
+      {"path.st0 , #q{ DISPLAY : NONE }", "class='st0'", false},
+      {"rect.st0{display:none}", "class='st0'", true},
+      {"#q{display:none}", "id='q'", false},
+      {"#q{display:none}.a{display:inline}", "id='q' class='a'", false},
+      {".a{display:none}.b{display:inline}", "class='b a'", true},
+      {".b{display:inline}.a{display:none}", "class='a b'", false},
+      {".b.a{display:inline}.a{display:none}", "class='a b'", true},
+      {".a{display:none}", "class='a' style='display:inline'", true},
+      {".a{display:none!important}", "class='a' style='display:inline'", false},
+      {".a{display:none ! important}", "class='a' style='display:inline !important'", true},
+      {".a{display:inline}", "class='a' display='none'", true},
+      {"*{visibility:hidden}path{visibility:visible}", "", true},
+      {".a{visibility:hidden}", "class='a'", false},
+      {".a{opacity:0}", "class='a'", false},
+      {"/* .a{display:inline} */.a{display:/**/none}", "class='a'", false},
+      {".a{background:url('x;}y');display:none}", "class='a'", false},
+      {"svg .a{display:none}", "class='a'", false},
+      {"svg > path.a{display:none}", "class='a'", false},
+      {"g .a{display:none}", "class='a'", true},
+      {"<![CDATA[ .a{display:none} ]]>", "class='a'", false},
+      {"@font-face{font-display:swap;src:url(a)} .a{display:none}", "class='a'", false},
+  };
+  for (const auto& one : cases)
+    EXPECT_EQ(shown(one.css, one.marks), one.shown ? 1U : 0U) << one.css;
+}
+
+TEST(SvgRead, GroupsHiddenByAClassAndRulesBehindThemAreFollowed) {
+  const Drawing d = read_svg_text(
+      sheet("<g class='st0'><rect class='st1' width='9' height='9'/></g><circle r='5'/>"
+            "<style>.st0{display:none;} .st1{display:inline;}</style>"));
+  ASSERT_EQ(d.curves.size(), 1U);
+  EXPECT_TRUE(warns(d, "hidden elements (display: none)"));
+  const Drawing two = read_svg_text(
+      sheet("<style>.a > .b .c{display:none}</style><g class='a'><g class='b'><g><path class='c' "
+            "d='M0 0h1'/></g></g></g><g class='b'><path class='c' d='M0 0h2'/></g>"));
+  ASSERT_EQ(two.curves.size(), 1U);
+  EXPECT_EQ(end_point(two.curves[0].pieces[0]).x, 2.0);
+}
+
+TEST(SvgRead, RulesThatMayHideAndAreNotUnderstoodAreTold) {
+  for (const char* css :
+       {".a:not(.b){display:none}", "[id='q']{visibility:hidden}", ".a+.b{opacity:0}",
+        "@media print{.a{display:none}}", ".a{fill:red; .b{display:none}}", "@import 'a.css';"}) {
+    EXPECT_TRUE(warns(
+        read_svg_text(sheet(std::string("<style>") + css + "</style><path class='a' d='M0 0h1'/>")),
+        "not understood"))
+        << css;
+  }
+  EXPECT_FALSE(warns(read_svg_text(sheet("<style>a:hover{fill:red}</style><path d='M0 0h1'/>")),
+                     "not understood"));
+}
+
+// A class of many words that so many rules ask for: it ends, and says so.
+TEST(SvgRead, StyleSheetsOfManyRulesEnd) {
+  std::string css, words, lines;
+  for (int k = 0; k < 4000; ++k) {
+    css += ".a.b" + std::to_string(k) + "{display:none}";
+    words += " b" + std::to_string(k) + "x";
+    lines += "<path class='a" + std::string(k == 0 ? "" : words.substr(0, 200)) + "' d='M0 0h1'/>";
+  }
+  const Drawing d = read_svg_text(sheet("<style>" + css + "</style>" + lines));
+  EXPECT_EQ(d.curves.size(), 4000U);
+  EXPECT_TRUE(warns(d, "too many rules"));
+  EXPECT_GT(d.left_out, 0U);
+}
+
 TEST(SvgRead, AUseOfItselfAndUsesOfUsesEnd) {
   const Drawing d = read_svg_text(sheet("<g id='a'><path d='M0 0h1'/><use href='#a'/></g>"));
   EXPECT_TRUE(warns(d, "contains itself"));

@@ -135,9 +135,9 @@ struct CutProgram {
 /// before it is handed out; for LinuxCNC a quarter of the tolerance is left to its blending (G64
 /// P). Errors: E203 sizes, feeds or options that do not go together, splines for another controller
 /// than LinuxCNC; E311 no outline; E409 the tool does not fit: it would cut into this outline or
-/// another one there (`where`; the hint names the largest that does where the outline's own
-/// curvature decides); E502 decimals too few for the tolerance, or the printed program leaves it;
-/// E103.
+/// another one there or does not enter a slot or notch of it (`where`; the hint names one that
+/// does where the outline's own shape decides); E502 decimals too few for the tolerance, or the
+/// printed program leaves it; E103.
 [[nodiscard]] Result<CutProgram> cut(const std::vector<CutOutline>& outlines,
                                      const CutOptions& options, const RunContext& run = {});
 

@@ -43,7 +43,13 @@ int decimals_of_digit(double digit, bool inches) {
 std::string gcode_remark(GcodeController controller, std::string_view text) {
   if (text.empty()) return {};
   const bool semicolon = controller == GcodeController::kMarlin;
-  return (semicolon ? "; " : "(") + std::string(text) + (semicolon ? "\n" : ")\n");
+  std::string out(text);
+  if (controller == GcodeController::kFanuc) {  // its characters have no small letters
+    for (char& c : out) {
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    }
+  }
+  return (semicolon ? "; " : "(") + out + (semicolon ? "\n" : ")\n");
 }
 
 double blending_of(GcodeController controller, double tolerance) {

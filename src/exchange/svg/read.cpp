@@ -17,6 +17,7 @@
 #include "obvid/core/internal/inch.h"
 #include "obvid/series/internal/straight_rows.h"
 #include "svg/read_shapes.h"
+#include "svg/style_sheet.h"
 
 namespace obvid {
 namespace {
@@ -25,7 +26,10 @@ using exchange::Affine;
 using exchange::attribute_of;
 using exchange::local_name;
 using exchange::SvgAxis;
+using exchange::SvgProperty;
 using exchange::SvgShape;
+using exchange::SvgStyle;
+using exchange::SvgStyleSheet;
 using exchange::SvgViewport;
 using exchange::XmlFile;
 using exchange::XmlWarnings;
@@ -50,41 +54,30 @@ bool is_silent(string_view name) {
   return std::find(kSilent.begin(), kSilent.end(), name) != kSilent.end();
 }
 
-/// A property of its style, or the attribute of that name; empty: none of both.
-std::string property(pugi::xml_node node, string_view name) {
-  std::string out(exchange::trimmed(node.attribute(std::string(name).c_str()).value()));
-  string_view rest = node.attribute("style").value();
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find(';'), rest.size());
-    const string_view one = rest.substr(0, end);
-    const std::size_t colon = one.find(':');
-    if (colon != string_view::npos && exchange::trimmed(one.substr(0, colon)) == name) {
-      out = exchange::trimmed(one.substr(colon + 1));
-    }
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return out;
-}
-
 /// What of an element shows: these are handed down to those inside.
 struct Paint {
   bool visible = true, filled = true, stroked = false;
 
-  [[nodiscard]] Paint inside(pugi::xml_node node) const {
+  /// `sure`: no style sheet says more than was read.
+  [[nodiscard]] Paint inside(const SvgStyle& style, bool sure) const {
     Paint out = *this;
-    const std::string visibility = property(node, "visibility"), fill = property(node, "fill"),
-                      stroke = property(node, "stroke");
-    if (!visibility.empty()) out.visible = visibility != "hidden" && visibility != "collapse";
-    if (!fill.empty()) out.filled = fill != "none" && fill != "transparent";
-    if (!stroke.empty()) out.stroked = stroke != "none" && stroke != "transparent";
-    // a style sheet may say otherwise
-    if (node.attribute("class")) out.filled = true;
+    const auto given = [&](SvgProperty one) {
+      return !style[one].empty() && style[one] != "inherit";
+    };
+    const std::string &visibility = style[SvgProperty::kVisibility],
+                      &fill = style[SvgProperty::kFill], &stroke = style[SvgProperty::kStroke];
+    if (given(SvgProperty::kVisibility)) {
+      out.visible = visibility != "hidden" && visibility != "collapse";
+    }
+    if (given(SvgProperty::kFill)) out.filled = fill != "none" && fill != "transparent";
+    if (given(SvgProperty::kStroke)) out.stroked = stroke != "none" && stroke != "transparent";
+    if (!sure) out.filled = true;
     return out;
   }
 };
 
-bool is_transparent(pugi::xml_node node) {
-  const std::string opacity = property(node, "opacity");
+bool is_transparent(const SvgStyle& style) {
+  const std::string& opacity = style[SvgProperty::kOpacity];
   return !opacity.empty() && opacity.find_first_not_of("0.%") == std::string::npos;
 }
 
@@ -107,6 +100,7 @@ class SvgReader {
 
   Result<Drawing> run() {
     collect_ids();
+    collect_styles();
     children(file_.root(), sheet());
     drawing_.name = file_.name();
     drawing_.units = "mm";
@@ -133,6 +127,46 @@ class SvgReader {
       if (const auto id = node.attribute("id")) ids_.try_emplace(id.value(), node);
       has_layers_ = has_layers_ || is_layer(node);
     }
+  }
+
+  /// Those of the file, in its order.
+  void collect_styles() {
+    const pugi::xml_node root = file_.root();
+    for (pugi::xml_node node = root; node;) {
+      if (local_name(node) == "style") style_sheet(node);
+      if (const pugi::xml_node inner = node.first_child()) {
+        node = inner;
+        continue;
+      }
+      while (node != root && !node.next_sibling()) node = node.parent();
+      node = node == root ? pugi::xml_node{} : node.next_sibling();
+    }
+  }
+
+  void style_sheet(pugi::xml_node node) {
+    const string_view type = exchange::trimmed(node.attribute("type").value()),
+                      media = exchange::trimmed(node.attribute("media").value());
+    if ((!type.empty() && type != "text/css") ||
+        (!media.empty() && media != "all" && media != "screen")) {
+      return warnings_.add("style sheets of other types or media are not applied", node);
+    }
+    std::string text;
+    for (const pugi::xml_node part : node.children()) text += part.value();
+    const std::size_t before = styles_.not_understood().size();
+    styles_.add(text);
+    for (std::size_t k = before; k < styles_.not_understood().size(); ++k) {
+      warnings_.add(
+          fmt::format("the style sheet's \"{}\" is not understood: what it hides or shows "
+                      "is read as if it did not",
+                      shortened(styles_.not_understood()[k])),
+          node);
+    }
+  }
+
+  [[nodiscard]] Paint paint_inside(const Paint& outer, pugi::xml_node node,
+                                   const SvgStyle& style) const {
+    const bool sure = !styles_.is_empty() && styles_.not_understood().empty();
+    return outer.inside(style, sure || !node.attribute("class"));
   }
 
   /// What Inkscape calls a layer.
@@ -164,7 +198,9 @@ class SvgReader {
             : Affine{};
     const double k = kMillimetresPerPixel;
     const Affine up = {k, 0.0, 0.0, -k, 0.0, k * size.height};
-    return {up * to_pixels * own_transform(root), box ? whole : size, 0};
+    const SvgStyle style = styles_.of(root);
+    return {up * to_pixels * own_transform(root, style), box ? whole : size, 0, "",
+            paint_inside({}, root, style)};
   }
 
   /// Pixels. What is not given follows from the view box and its shape.
@@ -189,14 +225,15 @@ class SvgReader {
   }
 
   /// Transform of an element; the identity where it has an error.
-  Affine own_transform(pugi::xml_node node) {
+  Affine own_transform(pugi::xml_node node, const SvgStyle& style) {
     const string_view text = node.attribute("transform").value();
     const auto transform = exchange::svg_transform(text);
     if (!transform) {
       warnings_.leave_out(
           fmt::format("transform \"{}\" has an error and is not used", shortened(text)), node);
     }
-    if (string_view(node.attribute("style").value()).find("transform") != string_view::npos) {
+    if (string_view(node.attribute("style").value()).find("transform") != string_view::npos ||
+        style[SvgProperty::kTransform] != exchange::trimmed(text)) {
       warnings_.leave_out("a transform in a style is not followed", node);
     }
     return transform.value_or(Affine{});
@@ -219,7 +256,9 @@ class SvgReader {
   bool afford(pugi::xml_node node) {
     if (active_.empty()) return true;
     const std::size_t cost = kElementCost + string_view(node.attribute("d").value()).size() +
-                             string_view(node.attribute("points").value()).size();
+                             string_view(node.attribute("points").value()).size() +
+                             string_view(node.attribute("style").value()).size() +
+                             string_view(node.attribute("class").value()).size();
     if (cost > budget_) {
       warnings_.leave_out("more is drawn through use than 16 times the file; the rest left out",
                           node);
@@ -233,17 +272,21 @@ class SvgReader {
   void element(pugi::xml_node node, const State& outer) {
     const string_view whole = node.name(), name = local_name(whole);
     if (whole.substr(0, whole.size() - name.size()) != prefix_ || is_silent(name)) return;
-    if (property(node, "display") == "none") {
+    if (!afford(node)) return;
+    const SvgStyle style = styles_.of(node);
+    if (!styles_.looked_at_all()) {
+      warnings_.leave_out("the style sheet has too many rules for so many elements", node);
+    }
+    if (style[SvgProperty::kDisplay] == "none") {
       return warnings_.add("hidden elements (display: none) left out", node);
     }
-    if (is_transparent(node)) return warnings_.add("elements with opacity 0 left out", node);
-    if (!afford(node)) return;
-    State state = {outer.to_sheet * own_transform(node), outer.viewport, outer.depth + 1,
-                   outer.layer, outer.paint.inside(node)};
+    if (is_transparent(style)) return warnings_.add("elements with opacity 0 left out", node);
+    State state = {outer.to_sheet * own_transform(node, style), outer.viewport, outer.depth + 1,
+                   outer.layer, paint_inside(outer.paint, node, style)};
     if (!state.to_sheet.is_finite() || state.to_sheet.determinant() == 0.0) {
       return warnings_.leave_out("elements with a transform that flattens them left out", node);
     }
-    const std::string clip = property(node, "clip-path"), mask = property(node, "mask");
+    const std::string &clip = style[SvgProperty::kClipPath], &mask = style[SvgProperty::kMask];
     if ((!clip.empty() && clip != "none") || (!mask.empty() && mask != "none")) {
       warnings_.add("clip paths and masks are not applied: what they cut off is read too", node);
     }
@@ -381,6 +424,7 @@ class SvgReader {
   XmlWarnings warnings_;
   std::string prefix_;  ///< of the names of this file's SVG elements, with the colon
   std::unordered_map<std::string, pugi::xml_node> ids_;
+  SvgStyleSheet styles_;
   std::vector<pugi::xml_node> active_;  ///< targets of use that are being drawn
   std::size_t budget_;                  ///< of what is drawn through use
   std::size_t empty_segments_ = 0;

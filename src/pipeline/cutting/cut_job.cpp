@@ -13,6 +13,7 @@
 #include "obvid/curve/internal/flatten.h"
 #include "obvid/cutting/internal/edge_of_cut.h"
 #include "obvid/exchange/internal/gcode/dialect.h"
+#include "obvid/exchange/internal/whole_arcs.h"
 #include "obvid/io/internal/json_list.h"
 #include "obvid/pipeline/internal/drawn_contour.h"
 #include "obvid/pipeline/internal/job_values.h"
@@ -265,7 +266,9 @@ Sketch cut_sketch(const MadeCut& made, const CutJob& job) {
   SketchLayer tabs = sketch_layer("TABS", "tab: stays below the tool", "#1a7f37", 3, 2.4);
   SketchLayer starts = sketch_layer("STARTS", "begins here, in this order", "#a3209b", 6, 1.0);
   for (const CutOutline& one : made.outlines) {
-    for (const Piece& piece : one.contour.pieces) add_polyline(outlines, piece, made.tolerance);
+    for (const Piece& piece : exchange::whole_arcs(one.contour.pieces)) {
+      add_polyline(outlines, piece, made.tolerance);
+    }
   }
   for (const CutMove& move : made.program.moves) {
     SketchLayer& layer = move.kind == CutMoveKind::kRapid ? rapid
