@@ -151,7 +151,7 @@ std::optional<std::string> runs_lost(const Skin& skin) {
 std::optional<std::string> fair_remark(const Skin& skin, const std::string& units) {
   if (!skin.fair) return std::nullopt;
   const FairAcrossReport& fair = *skin.fair;
-  const double light = skin.light ? skin.light->moved : 0.0;
+  const double light = skin.light ? skin.light->knots_alone : 0.0;
   std::string text;
   if (!(fair.moved > light)) {
     text = "nothing moved across: ";
