@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "obvid/core/internal/figures.h"
 #include "obvid/core/units.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/surface_builders/internal/network.h"
@@ -105,10 +106,12 @@ Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance
   const double largest = distance < 0.0 ? found.largest_inwards : found.largest_outwards;
   const std::size_t places = found.folds.size();
   return error(ErrorCode::kSurfaceFolds,
-               fmt::format("the offset by {:g} folds back on itself in {} {}, first at {}",
-                           distance, places, places == 1 ? "place" : "places",
+               fmt::format("the offset by {} folds back on itself in {} {}, first at {}", distance,
+                           places, places == 1 ? "place" : "places",
                            folded_at(patch, found.folds.front())))
-      .hint(fmt::format("up to {:.6g} on this side it does not", largest))
+      .hint(fmt::format("up to {} on this side it does not; near that it may need a larger "
+                        "--tolerance",
+                        significant_below(largest, 6)))
       .value(largest);
 }
 
@@ -250,7 +253,7 @@ Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job,
     patch.surface = std::move(form->surface);
     made.deviation = std::max(made.deviation, form->deviation);
   }
-  made.kind = fmt::format("offset by {:g}", kind.distance);
+  made.kind = fmt::format("offset by {}", kind.distance);
   return made;
 }
 

@@ -14,6 +14,9 @@ namespace obvid {
 /// The same of a bound above 0: never below it.
 [[nodiscard]] std::string significant_above(double bound, int digits);
 
+/// The same of a limit above 0 from above: always below it.
+[[nodiscard]] std::string significant_below(double limit, int digits);
+
 /// Digits of a bound that is told beside the figures that it holds for.
 inline constexpr int kDigitsOfBounds = 3;
 
