@@ -192,13 +192,12 @@ Result<std::vector<Output>> pictures_of(const SurfaceCheckOptions& options) {
   return outputs;
 }
 
-/// "12 meet, 3 of them too far apart to be joined in meshes and CAD files, 2 are free".
+/// "12 meet, 4 of them too far apart to be joined in meshes and CAD files, 2 are free".
 std::string borders_text(const SurfaceCheck& check) {
-  const auto apart = std::count_if(check.joints.begin(), check.joints.end(),
-                                   [](const JointReport& joint) { return !joint.shared; });
-  std::string text = fmt::format("{} meet", check.joints.size());
-  if (apart > 0) {
-    text += fmt::format(", {} of them too far apart to be joined in meshes and CAD files", apart);
+  std::string text = fmt::format("{} meet", check.met_borders);
+  if (check.apart_borders > 0) {
+    text += fmt::format(", {} of them too far apart to be joined in meshes and CAD files",
+                        check.apart_borders);
   }
   return text + fmt::format(", {} free", check.free_borders);
 }

@@ -355,10 +355,22 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
                  return !trimmed(joint.patch[0]) && !trimmed(joint.patch[1]);
                });
   for (const TopologyEdge& edge : topology.edges) {
-    if (edge.point || edge.uses.size() != 1 || trimmed(edge.uses.front().patch)) continue;
-    ++result.free_borders;
+    for (const EdgeUse& use : edge.uses) {
+      if (edge.point || trimmed(use.patch)) continue;
+      const bool alone = edge.uses.size() == 1;
+      if (met[use.patch][use.side]) {
+        ++result.met_borders;
+        if (alone) ++result.apart_borders;
+      } else if (alone) {
+        ++result.free_borders;
+      }
+    }
   }
   return result;
 }
 
 }  // namespace obvid
+  std::vector<std::array<bool, 4>> met(model.patches.size());
+  for (const JointReport& joint : result.joints) {
+    for (const std::size_t k : {0u, 1u}) met[joint.patch[k]][joint.side[k]] = true;
+  }
