@@ -325,6 +325,9 @@ Result<void> finish(const Part& part, const SurfaceCells& cells, LargeList<Neare
   tell_steepest(out.moves, options, out.report.entries);
   const auto seen = check_program(part, cells, reach, left, out.program.text,
                                   *exchange::machine_units_in(out.units), options, run);
+  out.report.cutting_length = out.program.cutting_length;
+  out.report.plunge_length = out.program.plunge_length;
+  out.report.rapid_length = out.program.rapid_length;
   OBVID_TRY(seen);
   take_over(*seen, cells.spacing(), out.report);
   out.hidden_strokes = seen->hidden_strokes;
