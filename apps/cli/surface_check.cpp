@@ -215,8 +215,11 @@ std::string surface_check_text(const SurfaceModel& model, const CheckedSurface& 
   facts.add("borders", borders_text(check));
   if (const auto& deviation = checked.deviation) {
     const std::string units = model.units.text();
-    facts.add("against", fmt::format("{}: {} {}", deviation->against, deviation->found.places,
-                                     deviation->points ? "points" : "places of this surface"));
+    facts.add("against", fmt::format("{}: {}", deviation->against,
+                                     deviation->points
+                                         ? counted(deviation->found.places, "point", "points")
+                                         : counted(deviation->found.places, "place of this surface",
+                                                   "places of this surface")));
     add_deviation(facts, deviation->points ? "points off" : "this off", deviation->found,
                   deviation->points, units);
     if (deviation->back) add_deviation(facts, "it off this", *deviation->back, false, units);

@@ -30,7 +30,7 @@ void add_patches(const SurfaceModel& model, Facts& facts) {
 
 std::string deviation_text(const MadeSurface& made) {
   if (made.deviation == 0.0) return "exact";
-  return fmt::format("at most {} {} off where measured", significant(made.deviation, 3),
+  return fmt::format("at most {} {} off where measured", significant_above(made.deviation, 3),
                      made.model.units.text());
 }
 
