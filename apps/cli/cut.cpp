@@ -77,7 +77,7 @@ std::string steps_table(const MadeCut& made) {
     table.row({std::to_string(++number), std::to_string(made.curves[step.outline] + 1), step.name,
                step.side == CutSide::kOn ? "on it" : to_string(step.side),
                significant(step.start.x), significant(step.start.y), significant(step.length),
-               step.left_in_corners > 0.0 ? significant(step.left_in_corners, 4) : "-"});
+               step.left_in_corners > 0.0 ? significant_above(step.left_in_corners, 4) : "-"});
   }
   return table.text();
 }
@@ -106,9 +106,9 @@ Facts cut_facts(const MadeCut& made) {
         "blending",
         fmt::format("the controller may round corners by {} {} more (G64 P): {} of a tolerance "
                     "of {} {} in all",
-                    significant(r.blending, 2), unit,
+                    significant_above(r.blending, kDigitsOfBounds), unit,
                     significant_above(std::max(r.beyond, r.short_of) + r.blending, kDigitsOfBounds),
-                    significant(made.tolerance, 2), unit));
+                    significant(made.tolerance, kDigitsOfBounds), unit));
   }
   if (r.left_in_corners > 0.0) {
     facts.add("inner corners", fmt::format("the round tool leaves up to {} {} in them",

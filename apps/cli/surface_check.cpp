@@ -192,13 +192,12 @@ Result<std::vector<Output>> pictures_of(const SurfaceCheckOptions& options) {
   return outputs;
 }
 
-/// "12 meet, 3 of them too far apart to be joined in meshes and CAD files, 2 are free".
+/// "12 meet, 4 of them too far apart to be joined in meshes and CAD files, 2 are free".
 std::string borders_text(const SurfaceCheck& check) {
-  const auto apart = std::count_if(check.joints.begin(), check.joints.end(),
-                                   [](const JointReport& joint) { return !joint.shared; });
-  std::string text = fmt::format("{} meet", check.joints.size());
-  if (apart > 0) {
-    text += fmt::format(", {} of them too far apart to be joined in meshes and CAD files", apart);
+  std::string text = fmt::format("{} meet", check.met_borders);
+  if (check.apart_borders > 0) {
+    text += fmt::format(", {} of them too far apart to be joined in meshes and CAD files",
+                        check.apart_borders);
   }
   return text + fmt::format(", {} free", check.free_borders);
 }
@@ -216,8 +215,11 @@ std::string surface_check_text(const SurfaceModel& model, const CheckedSurface& 
   facts.add("borders", borders_text(check));
   if (const auto& deviation = checked.deviation) {
     const std::string units = model.units.text();
-    facts.add("against", fmt::format("{}: {} {}", deviation->against, deviation->found.places,
-                                     deviation->points ? "points" : "places of this surface"));
+    facts.add("against", fmt::format("{}: {}", deviation->against,
+                                     deviation->points
+                                         ? counted(deviation->found.places, "point", "points")
+                                         : counted(deviation->found.places, "place of this surface",
+                                                   "places of this surface")));
     add_deviation(facts, deviation->points ? "points off" : "this off", deviation->found,
                   deviation->points, units);
     if (deviation->back) add_deviation(facts, "it off this", *deviation->back, false, units);

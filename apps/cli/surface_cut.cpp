@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -77,9 +78,10 @@ std::string faired_text(const MadeSection& section) {
 /// "12.5 m^3, last step 3e-12"
 std::string figure_text(const MeasuredFigure& figure, const std::string& unit, int power,
                         bool trimmed) {
+  if (std::isnan(figure.value)) return "none";
   return fmt::format("{} {}{}, last step{} {}", significant(figure.value, 8), unit,
                      power == 1 ? std::string() : fmt::format("^{}", power),
-                     trimmed ? " and trims" : "", significant(figure.error, 2));
+                     trimmed ? " and trims" : "", significant_above(figure.error, 2));
 }
 
 void add_displaced(Facts& facts, const MadeSurfaceCut& made) {
@@ -119,8 +121,8 @@ std::string sections_text(const SurfaceCutOptions& options, const MadeSurfaceCut
                                     std::to_string(section.section.branches.size()),
                                     std::to_string(closed),
                                     std::to_string(points),
-                                    significant(section.section.residual, 2),
-                                    significant(off, 2)};
+                                    significant_above(section.section.residual, 2),
+                                    significant_above(off, 2)};
     if (options.job.fair) row.push_back(faired_text(section));
     table.row(row);
   }

@@ -30,7 +30,7 @@ void add_patches(const SurfaceModel& model, Facts& facts) {
 
 std::string deviation_text(const MadeSurface& made) {
   if (made.deviation == 0.0) return "exact";
-  return fmt::format("at most {} {} off where measured", significant(made.deviation, 3),
+  return fmt::format("at most {} {} off where measured", significant_above(made.deviation, 3),
                      made.model.units.text());
 }
 
@@ -75,12 +75,18 @@ std::string fair_text(const FairAcrossReport& fair, const AcrossReport& now,
       significant(fair.tolerance, 3));
 }
 
-std::string light_text(const LightSkinReport& light, const std::string& units) {
-  return fmt::format(
+/// Of a skin that is fair besides, both were solved for in one: what is allowed is allowed to few
+/// knots alone.
+std::string light_text(const LightSkinReport& light, bool fair, const std::string& units) {
+  std::string text = fmt::format(
       "{} control points instead of {}; nowhere farther than {} {} from the exact "
-      "skin, {} allowed",
-      light.points, light.points_before, significant_above(light.moved, 3), units,
-      significant(light.tolerance, 3));
+      "skin",
+      light.points, light.points_before, significant_above(light.moved, 3), units);
+  if (fair) {
+    text += fmt::format(", fairing included; few knots alone moved it by at most {}",
+                        significant_above(light.knots_alone, 3));
+  }
+  return text + fmt::format(", {} allowed", significant(light.tolerance, 3));
 }
 
 std::string matching_text(const Skin& skin) {
@@ -123,8 +129,7 @@ void add_skin_report(const FittedSkin& fitted, const std::string& units, Facts& 
   facts.add("matched by", matching_text(skin));
   facts.add("tolerance", significant(fitted.tolerance, 3) + " " + units);
   if (skin.light) {
-    facts.add("light",
-              light_text(*skin.light, units) + (skin.fair ? ", made after it was fair" : ""));
+    facts.add("light", light_text(*skin.light, skin.fair.has_value(), units));
   }
   if (skin.fair) {
     std::string fair = fair_text(*skin.fair, skin.across, units);

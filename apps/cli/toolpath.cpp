@@ -85,9 +85,10 @@ std::string toolpath_place(Vec3 p) {
 }
 
 void add_rough_facts(const ToolpathReport& r, const std::string& unit, Facts& facts) {
-  facts.add("left",
-            fmt::format("up to {} {} over part and allowance, measured along normals, at {}",
-                        significant(r.scallop.found, 3), unit, toolpath_place(r.scallop.place)));
+  facts.add(
+      "left",
+      fmt::format("up to {} {} over part and allowance, measured along normals, at {}",
+                  significant_above(r.scallop.found, 3), unit, toolpath_place(r.scallop.place)));
   if (r.narrow_stretches > 0) {
     facts.add("left out", fmt::format("{} stretches too short to go down", r.narrow_stretches));
   }
@@ -97,7 +98,7 @@ std::string entries_text(const ToolpathEntries& e, bool rough) {
   const std::string steepest =
       e.helical + e.ramped > 0
           ? fmt::format(" (both at most {} degrees against the level as planned, at {})",
-                        significant(e.steepest_deg, 3), toolpath_place(e.steepest_place))
+                        significant_above(e.steepest_deg, 3), toolpath_place(e.steepest_place))
           : "";
   return fmt::format("{} helical and {} on ramps{}, {} straight down{}", e.helical, e.ramped,
                      steepest, e.straight, rough ? " beside the stock" : "");
@@ -108,13 +109,13 @@ std::string rest_text(const ToolpathReport& r, const std::string& unit) {
   if (!(r.leftover_area > 0.0)) return share;
   return fmt::format("{} of the surface, {} left there by the earlier cutter at {}", share,
                      std::isfinite(r.leftover_depth)
-                         ? fmt::format("up to {} {}", significant(r.leftover_depth, 3), unit)
+                         ? fmt::format("up to {} {}", significant_above(r.leftover_depth, 3), unit)
                          : std::string("more than its diameter"),
                      toolpath_place(r.leftover_place));
 }
 
 std::string bound_text(const char* words, double most) {
-  return std::isfinite(most) ? fmt::format(fmt::runtime(words), significant(most, 3))
+  return std::isfinite(most) ? fmt::format(fmt::runtime(words), significant_above(most, 3))
                              : std::string("no bound is known");
 }
 
@@ -162,7 +163,7 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                           "for; {} at {}",
                           area_share(r.flat_area, r.surface_area),
                           std::isfinite(r.flat_left)
-                              ? fmt::format("up to {} {}", significant(r.flat_left, 3), unit)
+                              ? fmt::format("up to {} {}", significant_above(r.flat_left, 3), unit)
                               : std::string("no pass comes"),
                           toolpath_place(r.flat_place)));
   }
@@ -182,7 +183,7 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                   (r.unreached_area > 0.0
                        ? fmt::format(" ({}): narrower than the cutter, up to {} {} left at {}",
                                      counted(r.unreached_places, "place", "places"),
-                                     significant(r.unreached_depth, 3), unit,
+                                     significant_above(r.unreached_depth, 3), unit,
                                      toolpath_place(r.unreached_place))
                        : ""));
   }

@@ -20,15 +20,30 @@ std::string significant(double value, int digits) {
   return fmt::format("{:.{}f}", value, std::clamp(digits - before, 0, digits + 3));
 }
 
-std::string significant_above(double bound, int digits) {
-  std::string text = significant(bound, digits);
-  if (!(bound > 0.0) || !std::isfinite(bound) || std::stod(text) >= bound) return text;
-  // by a unit of the last digit that is shown, which is more of them than asked for above them
+namespace {
+
+/// A number as `significant` shows it, and so many units of its last digit beside it. The last
+/// digit is the last one that is shown: more of them than asked for may be.
+std::string units_beside(const std::string& text, double units, int digits) {
   const std::size_t power = text.find('e'), point = text.find('.');
   const std::size_t end = std::min(power, text.size());
   const auto decimals = point < end ? static_cast<int>(end - point) - 1 : 0;
   const int exponent = power < text.size() ? std::stoi(text.substr(power + 1)) : 0;
-  return significant(std::stod(text) + std::pow(10.0, exponent - decimals), digits);
+  return significant(std::stod(text) + units * std::pow(10.0, exponent - decimals), digits);
+}
+
+}  // namespace
+
+std::string significant_above(double bound, int digits) {
+  const std::string text = significant(bound, digits);
+  if (!(bound > 0.0) || !std::isfinite(bound) || std::stod(text) >= bound) return text;
+  return units_beside(text, 1.0, digits);
+}
+
+std::string significant_below(double limit, int digits) {
+  const std::string text = significant(limit, digits);
+  if (!(limit > 0.0) || !std::isfinite(limit) || std::stod(text) < limit) return text;
+  return units_beside(text, -1.0, digits);
 }
 
 std::string tolerance_text(double tolerance) {

@@ -155,7 +155,7 @@ Result<void> CellTree::append(const std::vector<Cell>& leaves) {
   if (2 * cells_.size() <= options_.most_triangles) return {};
   return error(ErrorCode::kToleranceNotReached,
                fmt::format("the surface needs more than {} triangles", options_.most_triangles))
-      .hint("allow a larger chord tolerance or angle, or more triangles")
+      .hint("allow a larger chord tolerance or angle")
       .value(static_cast<double>(options_.most_triangles));
 }
 

@@ -157,7 +157,7 @@ class Tessellator {
     if (mesh.triangles.size() > options_.most_triangles) {
       return error(ErrorCode::kToleranceNotReached,
                    fmt::format("the surface needs more than {} triangles", options_.most_triangles))
-          .hint("allow a larger chord tolerance or angle, or more triangles")
+          .hint("allow a larger chord tolerance or angle")
           .value(static_cast<double>(options_.most_triangles));
     }
     if (measured->any_bad && may_cut) {

@@ -38,7 +38,7 @@ class TrimmedMesher {
         return error(
                    ErrorCode::kToleranceNotReached,
                    fmt::format("the surface needs more than {} triangles", options_.most_triangles))
-            .hint("allow a larger chord tolerance or angle, or more triangles")
+            .hint("allow a larger chord tolerance or angle")
             .value(static_cast<double>(options_.most_triangles));
       }
       measure();

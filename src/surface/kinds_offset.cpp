@@ -9,6 +9,7 @@
 #include <span>
 
 #include "kinds.h"
+#include "obvid/core/internal/figures.h"
 #include "obvid/curve/internal/basis.h"
 #include "obvid/curve/internal/knots.h"
 #include "obvid/surface/internal/collocation.h"
@@ -239,6 +240,11 @@ Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance) {
   const Frameworks frame_v = framework({transposed(s.base), -s.distance});
   int parts_u = 1, parts_v = 1, stalls = 0;
   double before = std::numeric_limits<double>::infinity();
+  struct {
+    NurbsSurface form;
+    std::vector<double> us, vs;
+    double total = std::numeric_limits<double>::infinity();
+  } nearest;
   while (tolerance > 0.0 && stalls < kMostStalls) {
     const std::vector<double> knots_u = divided(frame_u, parts_u);
     const std::vector<double> knots_v = divided(frame_v, parts_v);
@@ -252,17 +258,24 @@ Result<NurbsForm> nurbs_of(const OffsetSurface& s, double tolerance) {
       const double deviation = offset_error(s, *form, us, vs);
       if (deviation <= tolerance) return NurbsForm{std::move(*form), deviation};
     }
+    if (total < nearest.total) nearest = {std::move(*form), us, vs, total};
     stalls = total > kHelps * before ? stalls + 1 : 0;
     before = total;
     // the direction that errs more is divided; both when they are alike
     if (worst.u >= worst.v / 4.0) parts_u *= 2;
     if (worst.v >= worst.u / 4.0) parts_v *= 2;
   }
+  double reached = nearest.total;  // as what is accepted is measured
+  if (std::isfinite(reached)) {
+    reached = std::max(reached, offset_error(s, nearest.form, nearest.us, nearest.vs));
+  }
   return error(ErrorCode::kToleranceNotReached,
-               fmt::format("the offset by {:g} is followed within {:.3g}, not {:g}", s.distance,
-                           before, tolerance))
-      .hint("allow a larger tolerance; at creases of the surface its offset is torn")
-      .value(before);
+               fmt::format("the offset by {} is followed within {}, not {:g}", s.distance,
+                           significant_above(reached, 3), tolerance))
+      .hint(fmt::format("a tolerance of {} is reached; near the distance at which it folds and at "
+                        "creases of the surface an offset is torn",
+                        significant_above(reached, 3)))
+      .value(reached);
 }
 
 }  // namespace obvid

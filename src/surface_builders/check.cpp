@@ -135,6 +135,22 @@ SurfacePlace place_of(const NurbsSurface& s, double u, double v) {
   return {u, v, evaluate(s, u, v).point};
 }
 
+/// Ends below the rounding of the largest curvature (of its square, for Gaussian curvature) are 0:
+/// a cone has none along its lines.
+void take_rounding_away(CurvatureExtents& found) {
+  // sums of some ten products for each derivative, and as many for the forms of them
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+  const double largest = std::max(std::abs(found.k1.most), std::abs(found.k2.least));
+  if (!std::isfinite(largest)) return;
+  const auto rounded = [](Extent& extent, double rounding) {
+    for (double* end : {&extent.least, &extent.most}) {
+      if (std::abs(*end) <= rounding) *end = 0.0;
+    }
+  };
+  rounded(found.gaussian, kRounding * largest * largest);
+  for (Extent* extent : {&found.mean, &found.k1, &found.k2}) rounded(*extent, kRounding * largest);
+}
+
 /// `region`: what of the surface is there; nothing: all.
 Result<Measured> measured(const NurbsSurface& s, const TrimRegion* region, std::size_t n,
                           const RunContext& run) {
@@ -210,6 +226,7 @@ Result<Measured> measured(const NurbsSurface& s, const TrimRegion* region, std::
   out.curvature.mean = extent(1);
   out.curvature.k1 = extent(2);
   out.curvature.k2 = extent(3);
+  take_rounding_away(out.curvature);
   return out;
 }
 
@@ -354,9 +371,21 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
                [&](const JointReport& joint) {
                  return !trimmed(joint.patch[0]) && !trimmed(joint.patch[1]);
                });
+  std::vector<std::array<bool, 4>> met(model.patches.size());
+  for (const JointReport& joint : result.joints) {
+    for (const std::size_t k : {0u, 1u}) met[joint.patch[k]][joint.side[k]] = true;
+  }
   for (const TopologyEdge& edge : topology.edges) {
-    if (edge.point || edge.uses.size() != 1 || trimmed(edge.uses.front().patch)) continue;
-    ++result.free_borders;
+    for (const EdgeUse& use : edge.uses) {
+      if (edge.point || trimmed(use.patch)) continue;
+      const bool alone = edge.uses.size() == 1;
+      if (met[use.patch][use.side]) {
+        ++result.met_borders;
+        if (alone) ++result.apart_borders;
+      } else if (alone) {
+        ++result.free_borders;
+      }
+    }
   }
   return result;
 }

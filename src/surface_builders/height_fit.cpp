@@ -2,6 +2,8 @@
 #include "height_fit.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "obvid/curve/internal/basis.h"
@@ -132,20 +134,26 @@ Result<std::optional<HeightSpline>> HeightFit::solved(double weight, const RunCo
 
 double HeightFit::bending(const HeightSpline& spline) const {
   const std::size_t nu = spline.count_u(), nv = spline.count_v();
-  double sum = 0.0;
+  constexpr double kDigit = std::numeric_limits<double>::epsilon();
+  const double height = kDigit * std::max(width_, depth_);  // rounding of the points
+  double sum = 0.0, terms = 0.0, all = 0.0, rounding = 0.0;
   for (std::size_t j = 0; j < nv; ++j) {
     for (std::size_t i = 0; i < nu; ++i) {
       for (std::size_t j2 = j; j2 < std::min(nv, j + kWidth); ++j2) {
         const std::size_t first = j2 == j ? i : i - std::min<std::size_t>(i, kDegree);
         for (std::size_t i2 = first; i2 < std::min(nu, i + kWidth); ++i2) {
           const double twice = i2 == i && j2 == j ? 1.0 : 2.0;
-          sum +=
-              twice * spline.value[j * nu + i] * spline.value[j2 * nu + i2] * plate(i, j, i2, j2);
+          const double a = spline.value[j * nu + i], b = spline.value[j2 * nu + i2];
+          const double form = twice * plate(i, j, i2, j2);
+          sum += a * b * form;
+          terms += 1.0;
+          all += std::abs(a * b * form);
+          rounding += height * (std::abs(a) + std::abs(b) + height) * std::abs(form);
         }
       }
     }
   }
-  return sum;
+  return sum <= rounding + terms * kDigit * all ? 0.0 : sum;
 }
 
 }  // namespace obvid

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "distance_bound.h"
 #include "fair_across.h"
 #include "loop_start.h"
 #include "obvid/core/internal/parallel.h"
@@ -318,7 +319,7 @@ Result<void> choose(const std::vector<MeasuredSection>& sections, double toleran
 /// Puts surfaces with few control points in the place of the exact ones.
 Result<LightSkinReport> lighten(std::vector<SkinStretch>& stretches, double tolerance,
                                 LightWhere where, const RunContext& run) {
-  LightSkinReport report{tolerance, 0.0, 0, 0};
+  LightSkinReport report{tolerance, 0.0, 0.0, 0, 0};
   std::vector<NurbsSurface> exact;
   for (const SkinStretch& stretch : stretches) {
     report.points_before += stretch.surface.points.size();
@@ -326,7 +327,7 @@ Result<LightSkinReport> lighten(std::vector<SkinStretch>& stretches, double tole
   }
   auto light = lightened(exact, tolerance, run, where);
   OBVID_TRY(light);
-  report.moved = light->moved;
+  report.moved = report.knots_alone = light->moved;
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     stretches[n].surface = std::move(light->surfaces[n]);
     report.points += stretches[n].surface.points.size();
@@ -388,7 +389,8 @@ Result<std::vector<ForcedAcross>> fair_across(std::vector<SkinStretch>& stretche
       auto both = light_and_fair(stretch, how, light->tolerance, run, part(n), part(n + 1));
       OBVID_TRY(both);
       fair = std::move(both->fair);
-      light->moved = std::max(light->moved, both->light_moved);
+      light->moved = std::max(light->moved, distance_bound(stretch.surface, fair.surface));
+      light->knots_alone = std::max(light->knots_alone, both->light_moved);
       light->points_before += stretch.surface.points.size();
       light->points += fair.surface.points.size();
     } else {

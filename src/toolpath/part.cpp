@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace obvid::toolpath {
 namespace {
@@ -105,6 +106,11 @@ Result<Part> Part::make(const SurfaceModel& model, const CutterShape& cutter, do
   options.angle = kEdgeAngle;
   options.threads = threads;
   auto meshes = tessellate(model, options, run);
+  if (!meshes && meshes.error().code == ErrorCode::kToleranceNotReached) {
+    Error error = meshes.error();
+    error.hint = "allow a larger --tolerance";
+    return fail(std::move(error));
+  }
   OBVID_TRY(meshes);
   return Part(model, cutter, tolerance, allowance, std::move(*meshes), threads);
 }

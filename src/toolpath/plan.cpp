@@ -242,18 +242,21 @@ void judge(Toolpath& out, const ToolpathOptions& options) {
                     r.gouge.found, out.units.text(), place_text(r.gouge.place), out.tolerance),
         r.gouge.found, "do not run it; a smaller --tolerance may keep it");
   }
+  const bool ball = options.cutter.kind == CutterKind::kBall;
   if (options.scallop && !std::isfinite(r.scallop.found)) {
     add(fmt::format("no pass comes to the surface from outside at {}: what stays beside it is not "
                     "bounded",
                     place_text(r.scallop.place)),
-        r.scallop.found, "a ball cutter or another angle leaves less");
+        r.scallop.found,
+        ball ? "another strategy or angle may come there"
+             : "a ball cutter, or another strategy or angle, may come there");
   } else if (options.scallop && r.scallop.found > *options.scallop) {
     add(fmt::format("the residual scallop height is {:.3g} {} at {}, where {:.3g} was asked for",
                     r.scallop.found, out.units.text(), place_text(r.scallop.place),
                     *options.scallop),
         r.scallop.found,
-        "a ball cutter, another strategy or angle, or a smaller --step-over "
-        "leaves less");
+        fmt::format("{}another strategy or angle, or a smaller --step-over, leaves less",
+                    ball ? "" : "a ball cutter, "));
   }
   if (r.narrow_stretches > 0) {
     const bool helix = options.entry == ToolpathEntry::kHelix;
@@ -322,6 +325,9 @@ Result<void> finish(const Part& part, const SurfaceCells& cells, LargeList<Neare
   OBVID_TRY(program);
   out.program = std::move(*program);
   out.report.minutes = out.program.minutes;
+  out.report.cutting_length = out.program.cutting_length;
+  out.report.plunge_length = out.program.plunge_length;
+  out.report.rapid_length = out.program.rapid_length;
   tell_steepest(out.moves, options, out.report.entries);
   const auto seen = check_program(part, cells, reach, left, out.program.text,
                                   *exchange::machine_units_in(out.units), options, run);

@@ -97,6 +97,7 @@ void ProgramText::line(bool rapid, Vec3 to) {
   if (axes.empty()) return;
   text_ += (rapid ? "G0" : "G1") + axes + "\n";
   const Vec3 way = end - at_, heading = unit(way);
+  length_ += norm(way);
   if (rapid) {
     time_.rapid(norm(way));
   } else {
@@ -226,6 +227,7 @@ void ProgramText::print(const Upright& in, const Block& block) {
   const double turn = block.turn();
   const Vec2 from = -block.to_centre, to = block.to - block.from - block.to_centre;
   const double side = block.left ? 1.0 : -1.0;
+  length_ += norm(from) * turn;
   time_.goes_on(norm(from) * turn, feed_, in.direction(side * left_normal(from)),
                 in.direction(side * left_normal(to)));
   at_ = end;

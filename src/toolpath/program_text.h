@@ -64,7 +64,9 @@ class ProgramText {
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] std::size_t blocks() const { return blocks_; }
   [[nodiscard]] std::size_t arcs() const { return arc_blocks_; }
-  /// Of all blocks from the first place on, as they are printed.
+  /// Of all blocks from the first place on, as they are printed, machine units.
+  [[nodiscard]] double length() const { return length_; }
+  /// Of the same.
   [[nodiscard]] double seconds() { return time_.seconds(); }
 
  private:
@@ -89,6 +91,7 @@ class ProgramText {
   PassPlane plane_ = PassPlane::kNone;
   std::string text_;
   std::size_t blocks_ = 0, arc_blocks_ = 0;
+  double length_ = 0.0;
   exchange::MotionTime time_;
 };
 

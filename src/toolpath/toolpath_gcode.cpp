@@ -47,7 +47,7 @@ std::string head(const Toolpath& path, const ToolpathGcodeOptions& options, doub
 }
 
 void write_moves(const Toolpath& path, double scale, std::size_t threads,
-                 toolpath::ProgramText& program) {
+                 toolpath::ProgramText& program, ToolpathGcode& out) {
   const auto scaled = [&](const ToolpathMove& move) {
     std::vector<Vec3> points = move.points;
     for (Vec3& p : points) p = scale * p;
@@ -62,11 +62,15 @@ void write_moves(const Toolpath& path, double scale, std::size_t threads,
   });
   for (std::size_t k = 0; k < ways.size(); ++k) {
     const ToolpathMove& move = path.moves[k];
+    const double before = program.length();
     if (move.kind == ToolMove::kRapid) {
       program.rapid(scaled(move));
     } else {
       program.print(ways[k], move.kind == ToolMove::kPlunge ? path.feeds.plunge : path.feeds.pass);
     }
+    (move.kind == ToolMove::kRapid    ? out.rapid_length
+     : move.kind == ToolMove::kPlunge ? out.plunge_length
+                                      : out.cutting_length) += (program.length() - before) / scale;
   }
   program.level_plane();
 }
@@ -99,8 +103,8 @@ Result<ToolpathGcode> toolpath_gcode(const Toolpath& path, const ToolpathGcodeOp
                                       exchange::machine_acceleration(path.acceleration, inches),
                                       path.tolerance * scale};
   toolpath::ProgramText program(decimals, within, options.arcs, machine);
-  write_moves(path, scale, threads, program);
   ToolpathGcode out;
+  write_moves(path, scale, threads, program, out);
   out.minutes = program.seconds() / exchange::kSecondsOfMinute;
   out.blocks = program.blocks();
   out.arc_blocks = program.arcs();

@@ -124,7 +124,7 @@ Borders seen(const SurfaceModel& model) {
   const auto check = check_surface(model);
   EXPECT_TRUE(check);
   for (const JointReport& joint : check->joints) out.joints += joint.shared ? 1 : 0;
-  out.free = check->free_borders;
+  out.free = check->free_borders + check->apart_borders;
   const std::vector<Mesh> meshes = meshes_of(model);
   out.open_in_mesh = open_length(meshes);
   out.open_to_cutter = open_to_cutter(meshes);

@@ -79,8 +79,20 @@ def main():
             assert report["moved"] <= float(said[3]) <= 1.01 * report["moved"], (said[0], report)
             assert found > 0.1 * report["moved"], "a bound so far above what is there says nothing"
             judged += 1
+        # fair across besides: the distance is that of what was written, between the sections too
+        options = ("--fair-across", "1e-2", "--light", "1e-3")
+        text, fair = made("fair.json", *options)
+        report = json.loads(made("again.json", *options, "--json")[0])["skin"]
+        _, exact = made("exact.json", "--match", report["matched_by"])
+        found = max(math.dist(a, b) for one, other in zip(exact, fair) for a, b in zip(points(one), points(other)))
+        light = report["light"]
+        assert found <= light["moved"] <= 4.0 * found + 1e-12, (found, light)
+        assert light["knots_alone"] <= 1e-3 <= light["tolerance"], light
+        assert "made after it was fair" not in text, text
+        assert float(re.search(r"nowhere farther than (\S+) m from the exact skin, fairing included", text)[1]) >= found, text
+        judged += 1
     print(f"{judged} light skins judged")
-    assert judged == 3
+    assert judged == 4
 
 
 if __name__ == "__main__":

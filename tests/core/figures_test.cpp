@@ -25,6 +25,19 @@ TEST(Figures, WhatFollowsTheNamedOnesIsCounted) {
   EXPECT_EQ(and_more(20, 8), " and 12 more");
 }
 
+TEST(Figures, LimitsAreNeverPrintedAboveThemselvesAndHardlyBelow) {
+  for (double limit = 1.2345678e-12; limit < 1e9; limit *= 1.37) {
+    for (const int digits : {2, 3, 5}) {
+      const double printed = std::stod(significant_below(limit, digits));
+      EXPECT_LT(printed, limit);
+      EXPECT_GE(printed, limit * (1.0 - 2.0 * std::pow(10.0, 1 - digits)));
+    }
+  }
+  EXPECT_EQ(significant_below(0.08166566, 6), "0.0816656");
+  EXPECT_EQ(significant_below(3.0, 6), "2.99999");
+  EXPECT_EQ(significant_below(HUGE_VAL, 6), "inf");
+}
+
 TEST(Figures, BoundsAreNeverPrintedBelowThemselvesAndHardlyAbove) {
   for (double bound = 1.2345678e-12; bound < 1e9; bound *= 1.37) {
     for (const int digits : {2, 3, 5}) {

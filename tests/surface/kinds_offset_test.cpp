@@ -119,6 +119,26 @@ TEST(KindsOffset, ShapesDoNotDependOnPlaceAndSize) {
   }
 }
 
+/// A tolerance that is told to be reached is: of a roof, and of hills near their smallest radius.
+TEST(KindsOffset, TheToleranceThatIsNamedIsReached) {
+  const NurbsSurface roof{1,
+                          1,
+                          {0, 0, 0.5, 1, 1},
+                          {0, 0, 1, 1},
+                          {{0, 0, 0}, {1, 0, 1}, {2, 0, 0}, {0, 1, 0}, {1, 1, 1}, {2, 1, 0}},
+                          {}};
+  const auto refused = to_nurbs(OffsetSurface{roof, 0.1}, 1e-6);
+  ASSERT_FALSE(refused);
+  const std::string mark = "a tolerance of ";
+  const std::size_t at = refused.error().hint.find(mark);
+  ASSERT_NE(at, std::string::npos) << refused.error().hint;
+  const double named = std::stod(refused.error().hint.substr(at + mark.size()));
+  EXPECT_GE(named, refused.error().value);
+  const auto made = to_nurbs(OffsetSurface{roof, 0.1}, named);
+  ASSERT_TRUE(made) << made.error().what;
+  EXPECT_LE(made->deviation, named);
+}
+
 TEST(KindsOffset, CreasesAndCollapsedSurfacesAreRefused) {
   // a roof: the offset of its ridge is torn
   const NurbsSurface roof{1,

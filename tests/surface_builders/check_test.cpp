@@ -249,6 +249,37 @@ TEST(CheckSurface, LastDigitsOfAPoleAreNoCurvatureWithoutBound) {
   }
 }
 
+/// Two squares have eight sides; where one of them nearly meets one of the other six are left.
+TEST(CheckSurface, CountsEachBorderOnce) {
+  const auto square = [](double x) {
+    return NurbsSurface{
+        1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}, {x + 1, 1, 0}}, {}};
+  };
+  struct Case {
+    double gap;
+    std::size_t met, apart, free;
+  };
+  for (const Case& one : {Case{0.0, 2, 0, 6}, Case{1e-5, 2, 2, 6}, Case{1e-2, 0, 0, 8}}) {
+    const SurfaceCheck found =
+        checked({"s", "mm", {{"a", square(0.0)}, {"b", square(1.0 + one.gap)}}}, {5, {}});
+    EXPECT_EQ(found.met_borders, one.met) << one.gap;
+    EXPECT_EQ(found.apart_borders, one.apart) << one.gap;
+    EXPECT_EQ(found.free_borders, one.free) << one.gap;
+  }
+}
+
+/// Lines of a cone are straight: 0, not what rounding leaves of it.
+TEST(CheckSurface, AConeHasNoGaussianCurvature) {
+  const NurbsSurface cone =
+      nurbs(RevolutionSurface{line_between({4, 0, 0}, {2, 3, 0}), {0, 0, 0}, {0, 1, 0}, 2 * kPi});
+  const SurfaceCheck found = checked({"s", "mm", {{"cone", cone}}}, {9, {}});
+  EXPECT_EQ(found.patches[0].gaussian.least, 0.0);
+  EXPECT_EQ(found.patches[0].gaussian.most, 0.0);
+  // 1 / (r / cos a), with tan a = 2 / 3
+  const double cosine = 3.0 / std::sqrt(13.0);
+  EXPECT_NEAR(std::max(found.patches[0].k1.most, -found.patches[0].k2.least), cosine / 2.0, 1e-9);
+}
+
 TEST(CheckSurface, CountsVerticesAndInflectionsOfLines) {
   // y = sin x over one and a half waves: extrema of curvature at the crests, inflections between
   std::vector<Vec3> points;

@@ -573,9 +573,9 @@ TEST(SkinFairAcross, IsLightBesides) {
   const auto both = skin(scattered(kShift), options);
   ASSERT_TRUE(exact && both) << both.error().what;
   ASSERT_TRUE(both->light && both->fair);
-  EXPECT_LE(both->light->moved, 1e-4);
+  EXPECT_LE(both->light->knots_alone, 1e-4);
   EXPECT_LE(both->fair->moved, 2 * kShift);
-  EXPECT_GE(both->fair->moved, both->light->moved);
+  EXPECT_GE(both->fair->moved, both->light->knots_alone);
   EXPECT_LT(both->light->points, both->light->points_before);
   EXPECT_EQ(both->patches[0].surface.points.size(), both->light->points);
   EXPECT_LT(both->across.all, both->fair->before.all);
@@ -587,6 +587,17 @@ TEST(SkinFairAcross, IsLightBesides) {
                 both->fair->moved);
     }
   }
+  // anywhere, between the sections too
+  double farthest = 0.0;
+  for (int i = 0; i <= 200; ++i) {
+    for (int j = 0; j <= 200; ++j) {
+      const double u = i / 200.0, v = j / 200.0;
+      farthest = std::max(farthest, norm(evaluate(exact->patches[0].surface, u, v).point -
+                                         evaluate(both->patches[0].surface, u, v).point));
+    }
+  }
+  EXPECT_LE(farthest, both->light->moved);
+  EXPECT_GT(farthest, 0.5 * both->light->moved);
   options.light = 2 * kShift;
   EXPECT_EQ(skin(scattered(kShift), options).error().code, ErrorCode::kBadOption);
 }

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
+#include "obvid/exchange/internal/gcode/nc_program.h"
 #include "obvid/toolpath/internal/toolpath_gcode.h"
 #include "shapes.h"
 
@@ -17,6 +19,11 @@ ToolpathOptions ball(double diameter) {
   o.tolerance = 0.02;
   o.scallop = 0.1;
   return o;
+}
+
+NurbsSurface bump() {
+  return test::surface_of([](double x, double y) { return 5.0 - 0.05 * (x * x + y * y); },
+                          {-6.0, -6.0}, {6.0, 6.0}, 13);
 }
 
 double lowest_tip(const Toolpath& path) {
@@ -132,6 +139,47 @@ TEST(Toolpath, RefusesSizesThatMakeNoSense) {
   EXPECT_EQ(code([](ToolpathOptions& o) { o.allowance = -0.1; }), 203);
   EXPECT_EQ(code([](ToolpathOptions& o) { o.most_points = 10; }), 502);
   EXPECT_FALSE(plan(SurfaceModel{}, ball(6.0)));
+}
+
+/// Lengths are those of the program as it is printed: of the chords of its arcs, taken fine.
+TEST(Toolpath, LengthsAreThoseOfThePrintedProgram) {
+  const auto model = test::model_of({bump()});
+  for (const char* unit : {"mm", "cm"}) {
+    auto here = model;
+    here.units = unit;
+    const double scale = std::string(unit) == "cm" ? 10.0 : 1.0;
+    const auto path = plan(here, ball(4.0));
+    ASSERT_TRUE(path) << path.error().what;
+    const auto read = exchange::read_program(path->program.text, 1e-8);
+    ASSERT_TRUE(read);
+    double feed = 0.0, rapid = 0.0;
+    for (const exchange::NcMotion& motion : read->motions) {
+      for (std::size_t i = 1; i < motion.points.size(); ++i) {
+        (motion.rapid ? rapid : feed) += norm(motion.points[i] - motion.points[i - 1]) / scale;
+      }
+    }
+    EXPECT_GT(path->program.arc_blocks, 0u);
+    EXPECT_NEAR(path->report.cutting_length + path->report.plunge_length, feed, 1e-5 * feed)
+        << unit;
+    EXPECT_NEAR(path->report.rapid_length, rapid, 1e-6 * rapid) << unit;
+  }
+}
+
+/// What is advised is not what is there: a ball cutter is not told to be a ball.
+TEST(Toolpath, AdviceFitsTheCutter) {
+  const auto model = test::model_of({bump()});
+  for (const CutterKind kind : {CutterKind::kBall, CutterKind::kFlat}) {
+    ToolpathOptions o = ball(4.0);
+    o.cutter.kind = kind;
+    o.step_over = 3.0;
+    o.scallop = 0.001;
+    o.strategy = ToolpathStrategy::kIsoparametric;
+    const auto path = plan(model, o);
+    ASSERT_TRUE(path) << path.error().what;
+    ASSERT_FALSE(path->not_kept.empty());
+    const bool told = path->not_kept.front().hint.find("ball cutter") != std::string::npos;
+    EXPECT_EQ(told, kind == CutterKind::kFlat) << path->not_kept.front().hint;
+  }
 }
 
 TEST(ToolpathGcode, InchesAndConvertedUnitsAndDecimalsTooFew) {

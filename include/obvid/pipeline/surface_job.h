@@ -190,6 +190,7 @@ struct ReadCurve {
   Units units;
   SpaceCurve curve;
   std::vector<std::string> warnings;
+  double deviation = 0.0;  ///< bound of the curve's distance from what it stands for (clothoids)
 };
 [[nodiscard]] Result<ReadCurve> read_space_curve(const SurfaceInput& input, const CurveReading& how,
                                                  const RunContext& run = {});

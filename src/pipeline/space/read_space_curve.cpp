@@ -26,7 +26,7 @@ Result<ReadCurve> curve_of_contour(const Contour& contour, const Frame& frame, s
     size = std::max(size, norm(end_point(piece) - start_point(contour.pieces.front())));
   auto made = nurbs_of(contour, {true, kFollowing * size});
   OBVID_TRY(made);
-  ReadCurve curve{std::move(name), contour.units, placed(made->curve, frame), {}};
+  ReadCurve curve{std::move(name), contour.units, placed(made->curve, frame), {}, made->deviation};
   if (made->deviation > 0.0) {
     curve.warnings.push_back(
         fmt::format("{}: clothoids are followed by a C2 cubic within {} {}", curve.name,
@@ -70,7 +70,7 @@ Result<ReadCurve> spline_through(const SpaceSeries& series) {
   }
   auto curve = interpolated(points, chord_parameters(points));
   OBVID_TRY(curve);
-  return ReadCurve{series.name, series.units, std::move(*curve), {}};
+  return ReadCurve{series.name, series.units, std::move(*curve), {}, 0.0};
 }
 
 Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how,
@@ -100,8 +100,11 @@ Result<ReadCurve> from_points(const SurfaceInput& input, const CurveReading& how
   flat.rounding = printed.within;
   for (const Vec3& p : series.points) flat.points.push_back(frame.in_plane(p));
   if (flat.points.size() == 2) {
-    return ReadCurve{
-        series.name, series.units, line_between(series.points.front(), series.points.back()), {}};
+    return ReadCurve{series.name,
+                     series.units,
+                     line_between(series.points.front(), series.points.back()),
+                     {},
+                     0.0};
   }
   const Result<Fit> made = fit(flat, how.sections, without_progress(run));
   if (!made && how.plain_when_refused && category(made.error().code) == ErrorCategory::kNoContour) {

@@ -151,7 +151,7 @@ std::optional<std::string> runs_lost(const Skin& skin) {
 std::optional<std::string> fair_remark(const Skin& skin, const std::string& units) {
   if (!skin.fair) return std::nullopt;
   const FairAcrossReport& fair = *skin.fair;
-  const double light = skin.light ? skin.light->moved : 0.0;
+  const double light = skin.light ? skin.light->knots_alone : 0.0;
   std::string text;
   if (!(fair.moved > light)) {
     text = "nothing moved across: ";
@@ -172,7 +172,7 @@ std::optional<std::string> fair_remark(const Skin& skin, const std::string& unit
   if (fair.reach) {
     if (!text.empty()) text += "; ";
     text += fmt::format("sections may move by 1 % of their length, {} {} at most, not by {}",
-                        significant(*fair.reach, 3), units, significant(fair.tolerance, 3));
+                        significant_above(*fair.reach, 3), units, significant(fair.tolerance, 3));
   }
   if (text.empty()) return std::nullopt;
   return text;
@@ -242,8 +242,8 @@ Result<FittedSkin> fit_skin(const std::vector<SpaceSeries>& given, const SkinJob
   }
   if (moved > 0.0) {
     result.warnings.push_back(fmt::format(
-        "the rounding of coordinates decides about some sections: their points may move by {:.2g}",
-        moved));
+        "the rounding of coordinates decides about some sections: their points may move by {}",
+        significant_above(moved, 2)));
   }
   SkinOptions options;
   options.tolerance = result.tolerance;

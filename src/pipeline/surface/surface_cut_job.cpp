@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "obvid/core/internal/figures.h"
@@ -27,9 +30,32 @@ struct Family {
   double low = 0.0, high = 0.0;
 };
 
+/// Places as they are printed: six digits, of those that were given as many as they have, and more
+/// where other places would be called the same.
+std::vector<std::string> labels_of(const std::vector<double>& places, std::size_t given) {
+  constexpr int kDigits = 6, kAllDigits = std::numeric_limits<double>::max_digits10;
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    int digits = kDigits;
+    const auto tells_all = [&] { return std::stod(significant(places[i], digits)) == places[i]; };
+    while (i < given && digits < kAllDigits && !tells_all()) ++digits;
+    out.push_back(significant(places[i], digits));
+  }
+  std::map<std::string, double> called;
+  bool clear = true;
+  for (std::size_t i = 0; i < places.size() && clear; ++i) {
+    clear = called.emplace(out[i], places[i]).first->second == places[i];
+  }
+  if (clear) return out;
+  for (std::size_t i = 0; i < places.size(); ++i) out[i] = significant(places[i], kAllDigits);
+  return out;
+}
+
 Result<std::vector<double>> places_across(const Family& family) {
   std::vector<double> out = family.places.at;
   const double low = family.low, high = family.high;
+  const double rounding =
+      4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));
   if (const auto step = family.places.every) {
     if (!(*step > 0.0)) {
       return error(ErrorCode::kBadOption, "the distance of sections has to be greater than 0");
@@ -45,7 +71,9 @@ Result<std::vector<double>> places_across(const Family& family) {
   }
   if (const auto count = family.places.count) {
     for (std::size_t k = 1; k <= *count; ++k) {
-      out.push_back(low + (high - low) * static_cast<double>(k) / static_cast<double>(*count + 1));
+      const double at =
+          low + (high - low) * static_cast<double>(k) / static_cast<double>(*count + 1);
+      out.push_back(std::abs(at) <= rounding ? 0.0 : at);
     }
   }
   return out;
@@ -80,6 +108,7 @@ Result<std::vector<MadeSection>> asked_sections(const SurfaceCutJob& job, const 
   for (const Family& family : families) {
     const auto places = places_across(family);
     OBVID_TRY(places);
+    const std::vector<std::string> labels = labels_of(*places, family.places.at.size());
     std::size_t number = 0;
     for (const double at : *places) {
       MadeSection one;
@@ -87,7 +116,7 @@ Result<std::vector<MadeSection>> asked_sections(const SurfaceCutJob& job, const 
       one.at = at;
       one.plane = {family.normal, at};
       one.frame = {at * family.normal, family.x, family.y};
-      one.name = fmt::format("{} {}", to_string(family.kind), significant(at, 6));
+      one.name = fmt::format("{} {}", to_string(family.kind), labels[number]);
       one.id = fmt::format("{}-{}", to_string(family.kind), ++number);
       out.push_back(std::move(one));
     }
@@ -192,7 +221,7 @@ Result<void> measure(const SurfaceModel& model, const SurfaceCutJob& job, const 
           fmt::format("the half reaches {} {} beyond y = 0 on either side, as measured; the two "
                       "halves overlap there, and what they have in common counts twice (a whole "
                       "body is measured without --half)",
-                      significant(reach, 3), made.units.text()));
+                      significant_above(reach, 3), made.units.text()));
     }
   }
   auto found = displaced(model, {*job.draught, job.half}, run);

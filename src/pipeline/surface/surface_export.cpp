@@ -128,8 +128,9 @@ Result<std::string> surface_as_brep(SurfaceExport& e, std::vector<std::string>& 
 Result<std::string> surface_as_stl(SurfaceExport& e, std::vector<std::string>& remarks) {
   return surface_in_units(e, remarks, FileFormat::kStl, [&] {
     return of_triangles(e, remarks, [&](Watch& watch) -> Result<std::string> {
-      remarks.push_back(fmt::format("STL holds single precision: another {:.2g} {}",
-                                    single_precision_loss(e.meshes), e.model.units.text()));
+      remarks.push_back(fmt::format("STL holds single precision: another {} {}",
+                                    significant_above(single_precision_loss(e.meshes), 2),
+                                    e.model.units.text()));
       return stl_text(e.model, e.meshes, &watch);
     });
   });

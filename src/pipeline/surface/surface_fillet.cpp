@@ -48,7 +48,8 @@ void add_facts(const std::vector<Fillet>& blends, const std::array<std::string, 
           fmt::format("up to {} {} off it ({}), {} degrees between tangent planes ({}), as "
                       "measured at {} places and beside the worst of them",
                       significant_above(c.distance, 3), unit, place_text(c.distance_at),
-                      significant(c.angle / kOneDegree, 3), place_text(c.angle_at), c.measured));
+                      significant_above(c.angle / kOneDegree, 3), place_text(c.angle_at),
+                      c.measured));
     }
   }
 }

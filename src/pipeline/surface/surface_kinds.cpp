@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <utility>
 
+#include "obvid/core/internal/figures.h"
 #include "obvid/core/units.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/surface/internal/collocation.h"
 #include "obvid/surface_builders/internal/network.h"
 #include "obvid/surface_builders/internal/offset.h"
 
@@ -39,8 +41,35 @@ double size_of_all(const std::vector<ReadCurve>& curves) {
   return bounding_diagonal(curves, [](const ReadCurve& c) { return std::cref(c.curve.points); });
 }
 
-/// What the curves bring to the surface that is made of them. Error E310 where their units differ.
-Result<void> take_over(std::vector<ReadCurve>& curves, MadeSurface& made) {
+double deviation_of(const std::vector<ReadCurve>& curves) {
+  double most = 0.0;
+  for (const ReadCurve& curve : curves) most = std::max(most, curve.deviation);
+  return most;
+}
+
+/// How much larger than the curves' own distances those of what interpolates between them may be:
+/// the largest sum of absolute coefficients of the splines that are 1 at one place, 0 at the
+/// others.
+double spread_across(const std::vector<double>& at) {
+  const auto across = cubic_collocation(at);
+  if (!across) return 1.0;  // the surface was refused before
+  const std::size_t n = at.size();
+  std::vector<Vec3> points(n * n);
+  for (std::size_t i = 0; i < n; ++i) points[i * n + i].x = 1.0;
+  across->matrix.solve_rows(points, n);
+  double most = 1.0;
+  for (std::size_t j = 0; j < n; ++j) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) sum += std::abs(points[j * n + i].x);
+    most = std::max(most, sum);
+  }
+  return most;
+}
+
+/// What the curves bring to the surface that is made of them: their own distance from what they
+/// stand for moves it by as much, times `spread`. Error E310 where their units differ.
+Result<void> take_over(std::vector<ReadCurve>& curves, MadeSurface& made, double spread = 1.0) {
+  made.deviation += spread * deviation_of(curves);
   std::vector<Units> all{made.model.units};
   for (const ReadCurve& curve : curves) all.push_back(curve.units);
   auto units = common_units(all, curves.empty() ? "" : curves.front().name);
@@ -105,10 +134,12 @@ Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance
   const double largest = distance < 0.0 ? found.largest_inwards : found.largest_outwards;
   const std::size_t places = found.folds.size();
   return error(ErrorCode::kSurfaceFolds,
-               fmt::format("the offset by {:g} folds back on itself in {} {}, first at {}",
-                           distance, places, places == 1 ? "place" : "places",
+               fmt::format("the offset by {} folds back on itself in {} {}, first at {}", distance,
+                           places, places == 1 ? "place" : "places",
                            folded_at(patch, found.folds.front())))
-      .hint(fmt::format("up to {:.6g} on this side it does not", largest))
+      .hint(fmt::format("up to {} on this side it does not; near that it may need a larger "
+                        "--tolerance",
+                        significant_below(largest, 6)))
       .value(largest);
 }
 
@@ -203,7 +234,8 @@ Result<MadeSurface> make_kind(const CoonsKind&, const SurfaceJob& job, const Run
   OBVID_TRY(patch);
   auto made = made_of(*patch, "Coons patch", size, job);
   if (!made) return made;
-  OBVID_TRY(take_over(*curves, *made));
+  constexpr double kBordersAndCorners = 3.0;  // two ruled surfaces less that of the corners
+  OBVID_TRY(take_over(*curves, *made, kBordersAndCorners));
   return made;
 }
 
@@ -221,9 +253,12 @@ Result<MadeSurface> make_kind(const GordonKind& kind, const SurfaceJob& job,
   if (!made) return made;
   made->facts.emplace_back("curves",
                            fmt::format("{} and {} across", first->size(), second->size()));
-  for (std::vector<ReadCurve>* curves : {&*second, &*first}) {
-    OBVID_TRY(take_over(*curves, *made));
-  }
+  // through the first ones plus through the second ones less through their crossings, which are as
+  // far off as either
+  const double u = spread_across(net->u_at), v = spread_across(net->v_at);
+  const bool first_off = deviation_of(*first) > deviation_of(*second);
+  OBVID_TRY(take_over(*second, *made, u + (first_off ? 0.0 : u * v)));
+  OBVID_TRY(take_over(*first, *made, v + (first_off ? u * v : 0.0)));
   return made;
 }
 
@@ -250,7 +285,7 @@ Result<MadeSurface> make_kind(const OffsetKind& kind, const SurfaceJob& job,
     patch.surface = std::move(form->surface);
     made.deviation = std::max(made.deviation, form->deviation);
   }
-  made.kind = fmt::format("offset by {:g}", kind.distance);
+  made.kind = fmt::format("offset by {}", kind.distance);
   return made;
 }
 

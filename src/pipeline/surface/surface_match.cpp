@@ -111,7 +111,7 @@ Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job
   made.facts.emplace_back("moved",
                           fmt::format("no point by more than {} {}, up to {} of the way across",
                                       significant_above(matched_patch->moved, 4), unit,
-                                      significant(matched_patch->reach, 4)));
+                                      significant_above(matched_patch->reach, 4)));
   if (by.order > 0) {
     made.facts.emplace_back("pace", fmt::format("{} times the derivative of {}",
                                                 significant(matched_patch->pace, 4), other.name));

@@ -59,7 +59,8 @@ void add_skin_report(const FittedSkin& fitted, JsonText& json) {
   json.pair("matched_by", matching_name(fitted.skin.matching));
   if (const auto& light = fitted.skin.light) {
     json.key("light").begin_object().pair("tolerance", light->tolerance);
-    json.pair("moved", light->moved).pair("control_points", light->points);
+    json.pair("moved", light->moved).pair("knots_alone", light->knots_alone);
+    json.pair("control_points", light->points);
     json.pair("control_points_before", light->points_before).end_object();
   }
   if (const auto& fair = fitted.skin.fair) {

@@ -57,6 +57,7 @@ Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
   const TrimOptions options{job.tolerance.value_or(kTrimTolerance * size_of(made.model)),
                             by.keep_positive};
   const std::size_t cuts = by.planes.size() + (by.contour ? 1 : 0);
+  std::string followed;
   const auto take = [&](const std::string& cut, Result<TrimmedModel> part) -> Result<void> {
     OBVID_TRY(part);
     made.deviation = std::max(made.deviation, part->deviation);
@@ -74,6 +75,10 @@ Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
     made.warnings.insert(made.warnings.end(), curve->warnings.begin(), curve->warnings.end());
     OBVID_TRY(
         take("contour", trimmed(made.model, projected(curve->curve, by.along), options, run)));
+    if (curve->deviation > 0.0) {
+      followed = fmt::format("; the contour is followed within {} {}",
+                             significant_above(curve->deviation, 3), made.model.units.text());
+    }
     made.kind = fmt::format("part {} a contour", by.keep_positive ? "inside" : "outside");
   }
   for (std::size_t i = 0; i < by.planes.size(); ++i) {
@@ -85,9 +90,10 @@ Result<MadeSurface> made_trimmed(const TrimmedBy& by, const SurfaceJob& job,
   const auto sums = sums_of(made.model, run);
   OBVID_TRY(sums);
   const std::string unit = made.model.units.text();
-  made.facts.emplace_back("trims", fmt::format("{}, within {} {} of the cut, as measured",
-                                               counted(sums->trims, "loop", "loops"),
-                                               significant_above(made.deviation, 3), unit));
+  made.facts.emplace_back("trims",
+                          fmt::format("{}, within {} {} of the cut, as measured{}",
+                                      counted(sums->trims, "loop", "loops"),
+                                      significant_above(made.deviation, 3), unit, followed));
   made.facts.emplace_back(
       "area",
       fmt::format("{} {}^2, within {}: the last step of its sum changed {}, the trims' own "

@@ -85,7 +85,7 @@ struct JointReport {
   double curvature = 0.0;  ///< largest step of the normal curvature across the border, as a share
                            ///< of the largest curvature beside it; neither this nor the angle is
                            ///< looked at beside points in which the border ends (poles)
-  int order = 0;                        ///< 0 G0, 1 G1, 2 G2, by the limits named below
+  int order = 0;           ///< 0 G0, 1 G1, 2 G2, by the limits named below
   Vec3 gap_at, angle_at, curvature_at;  ///< where on the first patch each of the three is largest
   std::size_t places = 0;               ///< that were looked at before the extremes were climbed to
 };
@@ -98,8 +98,10 @@ struct SurfaceCheck {
   double size = 0.0;  ///< diagonal of the control points' box, units
   std::vector<PatchReport> patches;
   std::vector<JointReport> joints;
-  std::size_t free_borders = 0;  ///< sides that share their edge with none, points not counted;
-                                 ///< none of trimmed patches
+  // sides of patches that are not trimmed; those that are a point are none of these
+  std::size_t met_borders = 0;    ///< that a joint is at
+  std::size_t apart_borders = 0;  ///< of these, that share their edge with none
+  std::size_t free_borders = 0;   ///< that meet none
 };
 
 struct CheckOptions {

@@ -44,7 +44,8 @@ struct ScatteredSurface {
   double deviation = 0.0, root_mean_square = 0.0;
   std::size_t farthest = 0;  ///< the point that has the largest
   double weight = 0.0;       ///< of the bending against the sum of squares, units^2
-  double bending = 0.0;      ///< integral of f_xx^2 + 2 f_xy^2 + f_yy^2 over the rectangle
+  double bending = 0.0;      ///< integral of f_xx^2 + 2 f_xy^2 + f_yy^2 over the rectangle;
+                             ///< 0 below the rounding of its sum
   EmptyParts empty;
 };
 

@@ -64,8 +64,12 @@ struct SkinOptions {
 
 /// What a light skin gave up, and for what.
 struct LightSkinReport {
-  double tolerance = 0.0;         ///< as it was asked for, units
-  double moved = 0.0;             ///< bound of the distance from the exact skin, units
+  double tolerance = 0.0;  ///< as it was asked for, units
+  /// Bound of the distance of any point of the skin from the exact one, units. That of one that is
+  /// fair besides is not bounded by the tolerance: sections moved, and between them it goes
+  /// farther.
+  double moved = 0.0;
+  double knots_alone = 0.0;  ///< bound of what few knots alone moved any point by; <= tolerance
   std::size_t points_before = 0;  ///< control points of all patches
   std::size_t points = 0;
 };

@@ -27,6 +27,8 @@ struct ToolpathGcode {
   std::size_t blocks = 0;      ///< that move
   std::size_t arc_blocks = 0;  ///< of them G2 and G3
   double minutes = 0.0;        ///< from the first place on, with acceleration
+  // of the blocks as they are printed, from the first place on, units of the path
+  double cutting_length = 0.0, plunge_length = 0.0, rapid_length = 0.0;
 };
 
 /// A program with absolute ends; it holds no tool change; M3 and M5 where the path has a speed of
