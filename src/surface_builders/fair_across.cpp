@@ -29,7 +29,7 @@ struct Along {
 };
 constexpr std::array<Along, 2> kAlong = {Along{16, 2, 1000, 1e4}, Along{24, 2, 300, 1e3}};
 /// Waves beyond the forced ones, of those: few enough to end, and not to try the second.
-constexpr double kFew = 0.01, kFewForMore = 0.06;
+constexpr double kFew = 0.01, kFewForMore = 0.08;
 /// Of the lines: shallow waves that are worth moving sections for, where no high ones are.
 constexpr double kMany = 0.1;
 /// Between the tolerances that are tried: half a decade; and the least of them, of the largest.
@@ -41,7 +41,13 @@ constexpr double kStringShare = 0.87;
 /// Of a section's length: what is left of its shape.
 constexpr double kMostOfLength = 0.01;
 /// Of the section's largest curvature: what may be lost against its run.
-constexpr double kMostAgainstRun = 0.95e-3;
+constexpr double kMostAgainstRun = 0.9e-3;
+/// Of that: a run that lost more gets a row of its own in the next round, which asks for this.
+constexpr double kRowShare = 0.5;
+/// Knots beside a smooth border that stays, where the correction rises as the cube of the distance:
+/// each half as far from it as the one before.
+constexpr std::size_t kKnotsBesideSeam = 2;
+constexpr std::size_t kLinesOfNarrowSpan = 2;
 /// Of a box: where nothing may move, until it is set to 0; and half widths are this at least.
 constexpr double kHeld = 1e-3, kLeastHalf = 1e-9;
 constexpr double kSmoothAlong = 1e-2;
@@ -105,7 +111,7 @@ class Density {
 };
 
 /// The knots of the correction along: simple, at breaks of the surface.
-std::vector<double> knots_along(const std::vector<double>& breaks, std::size_t count) {
+std::vector<double> even_knots(const std::vector<double>& breaks, std::size_t count) {
   std::vector<double> knots(kSkinDegree + 1, breaks.front());
   const std::size_t inner = count > kSkinDegree + 1 ? count - kSkinDegree - 1 : 0;
   if (inner + 2 >= breaks.size()) {
@@ -123,6 +129,63 @@ std::vector<double> knots_along(const std::vector<double>& breaks, std::size_t c
   }
   knots.insert(knots.end(), kSkinDegree + 1, breaks.back());
   return knots;
+}
+
+/// More knots, at breaks, beside borders that stay with their derivatives.
+std::vector<double> with_knots_beside_seams(std::vector<double> knots,
+                                            const std::vector<double>& breaks,
+                                            const FairAcross& how) {
+  const std::vector<double> even = distinct(knots);
+  for (const bool last : {false, true}) {
+    const std::size_t side = last ? 1 : 0;
+    if (!how.fixed[side] || !how.smooth[side]) continue;
+    const double end = last ? even.back() : even.front();
+    double step = last ? *(even.end() - 2) - end : even[1] - end;
+    for (std::size_t k = 0; k < kKnotsBesideSeam; ++k) {
+      step /= 2.0;
+      const auto above = std::lower_bound(breaks.begin() + 1, breaks.end() - 1, end + step);
+      const bool before =
+          above != breaks.begin() + 1 && end + step - *(above - 1) < *above - (end + step);
+      const double chosen = before ? *(above - 1) : *above;
+      const auto at = std::lower_bound(knots.begin(), knots.end(), chosen);
+      if (chosen < breaks.back() && *at != chosen) knots.insert(at, chosen);
+    }
+  }
+  return knots;
+}
+
+/// A stretch of one section where curvature falls against the run of the contour.
+struct RunFall {
+  double from = 0.0, to = 0.0;  ///< parameters: the extreme before, the deepest place behind it
+  int direction = 0;            ///< of the run
+  double by = 0.0;              ///< units of curvature: how deep, or what may be left
+};
+
+/// The deepest fall of each run, of those deeper than `least`.
+std::vector<RunFall> falls_of(const std::vector<double>& wanted, const std::vector<double>& found,
+                              const std::vector<double>& at, double least) {
+  std::vector<RunFall> out;
+  RunFall worst;
+  int direction = 0;
+  std::size_t extreme = 0;
+  const auto finish = [&] {
+    if (worst.by > least) out.push_back(worst);
+    worst = {};
+  };
+  for (std::size_t i = 1; i < wanted.size(); ++i) {
+    const double change = wanted[i] - wanted[i - 1];
+    const int now = change > 0.0 ? 1 : change < 0.0 ? -1 : direction;
+    if (now != direction) {
+      finish();
+      extreme = i - 1;
+      direction = now;
+    }
+    const double fall = direction * (found[extreme] - found[i]);
+    if (fall < 0.0) extreme = i;
+    if (direction != 0 && fall > worst.by) worst = {at[extreme], at[i], direction, fall};
+  }
+  finish();
+  return out;
 }
 
 /// Where curvature along one section is looked at: of the contour, and what it is made of.
@@ -205,20 +268,25 @@ class Difference {
 
 class Correction {
  public:
+  /// `knots`: along, without those beside seams; where the given surface is not that of the stretch
+  /// it has these and those.
   Correction(const SkinStretch& stretch, const NurbsSurface& given, const FairAcross& wanted,
-             const Along& along)
+             const Along& along, const std::vector<double>& knots)
       : stretch_(stretch),
         along_(along),
         given_(given),
         how_(wanted),
         light_(&given != &stretch.surface),
-        knots_(light_ ? given.knots_u : knots_along(stretch.breaks, along.points)),
+        whole_(distinct(knots)),
+        knots_(with_knots_beside_seams(knots, stretch.breaks, wanted)),
         count_(knots_.size() - kSkinDegree - 1),
         degree_(static_cast<std::size_t>(given_.degree_v)),
         at_sections_(bases_across(given_, wanted.v, 2)),
         moved_(wanted.v.size() * count_),
         box_(wanted.v.size(), 1.0),
-        current_(given_) {
+        current_(given_),
+        wished_(given_),
+        falls_(wanted.v.size()) {
     limit_sections();
     place_lines();
     frame_boxes();
@@ -237,7 +305,10 @@ class Correction {
     const auto solution = solved(program, run, from, to);
     OBVID_TRY(solution);
     take(*solution);
-    if (!light_) OBVID_TRY(keep_runs(runs, meter_at, allowed, run));
+    rebuild();
+    wished_ = current_;
+    if (light_) return {};
+    OBVID_TRY(keep_runs(runs, meter_at, allowed, run));
     rebuild();
     return {};
   }
@@ -301,6 +372,7 @@ class Correction {
     for (std::size_t l = 0; l < lines; ++l) {
       line_at_.push_back(density.at((static_cast<double>(l) + 0.5) / static_cast<double>(lines)));
     }
+    if (spans + 1 > whole_.size()) add_lines_of_narrow_spans(breaks);
     for (const double u : line_at_) {
       line_basis_.push_back(basis_at(kSkinDegree, knots_, u, 0));
       lines_.emplace_back(given_, u);
@@ -321,7 +393,31 @@ class Correction {
     for (std::size_t s = 0; s < spans; ++s) {
       along_middle_.push_back(basis_at(kSkinDegree, knots_, (breaks[s] + breaks[s + 1]) / 2.0, 3));
       along_step_.push_back(breaks[s + 1] - breaks[s]);
+      along_weight_.push_back(std::sqrt(along_step_.back()));
     }
+    // a span that is narrow for a seam counts as much as the whole that it was cut from
+    for (std::size_t s = 0; s < spans; ++s) {
+      const auto above =
+          std::upper_bound(whole_.begin() + 1, whole_.end() - 1, (breaks[s] + breaks[s + 1]) / 2.0);
+      const double share = along_step_[s] / (*above - *(above - 1));
+      along_weight_[s] *= share * share * std::sqrt(share);
+    }
+  }
+
+  /// No span without lines: nothing would hold the control points there.
+  void add_lines_of_narrow_spans(const std::vector<double>& breaks) {
+    std::vector<double> more;
+    for (std::size_t s = 0; s + 1 < breaks.size(); ++s) {
+      const auto has = std::upper_bound(line_at_.begin(), line_at_.end(), breaks[s + 1]) -
+                       std::lower_bound(line_at_.begin(), line_at_.end(), breaks[s]);
+      if (static_cast<std::size_t>(has) >= kLinesOfNarrowSpan) continue;
+      for (std::size_t k = 0; k < kLinesOfNarrowSpan; ++k) {
+        const double part = (static_cast<double>(k) + 0.5) / kLinesOfNarrowSpan;
+        more.push_back(breaks[s] + part * (breaks[s + 1] - breaks[s]));
+      }
+    }
+    line_at_.insert(line_at_.end(), more.begin(), more.end());
+    std::sort(line_at_.begin(), line_at_.end());
   }
 
   struct Axes {
@@ -448,8 +544,7 @@ class Correction {
       for (std::size_t s = 0; s < along_middle_.size(); ++s) {
         for (std::size_t c = 0; c < 3; ++c) {
           FormGroup::Form f = along_form(along_middle_[s], 3, c);
-          const double root = std::sqrt(along_step_[s]);
-          for (double& a : f.coefficient) a *= root;
+          for (double& a : f.coefficient) a *= along_weight_[s];
           for (const double a : f.coefficient) square += shares * a * a;
           g.near.push_back(std::move(f));
         }
@@ -485,7 +580,7 @@ class Correction {
     std::vector<double> string;  // sections that may move by less hold it by less
     for (const double box : box_) string.push_back(kStringShare * box * how_.tolerance);
     for (std::size_t l = 0; l < lines_.size(); ++l) {
-      const Isoline now(current_, line_at_[l]);
+      const Isoline now(wished_, line_at_[l]);
       std::vector<Vec3> normal;
       std::vector<double> bend;
       for (const BasisValues& basis : at_places_) {
@@ -614,35 +709,66 @@ class Correction {
     return (h[0] && d.x == 1.0) || (h[1] && d.y == 1.0) || (h[2] && d.z == 1.0);
   }
 
-  void add_runs(std::size_t k, const std::vector<double>& at, const std::vector<BasisValues>& basis,
-                FormGroup& g) const {
-    const SectionCurve& section = stretch_.sections[k];
-    const Frame& frame = section.frame();
-    const SpaceCurve given = isocurve_at_v(given_, how_.v[k]);
-    const SpaceCurve now = isocurve_at_v(current_, how_.v[k]);
-    struct Slope {
-      double kappa;   ///< of the given curve, by the linear form
-      Vec3 by1, by2;  ///< derivatives by those of the curve
-    };
-    std::vector<Slope> slopes;
-    std::vector<double> wanted;
-    double largest = 0.0;
-    for (const double u : at) {
-      const Hermite contour = section.at(u);
-      wanted.push_back(plane_curvature(contour, frame));
-      largest = std::max(largest, std::abs(wanted.back()));
+  /// Curvature of a section as a linear form of the correction, true to first order at what the
+  /// round before wished for.
+  struct RunForm {
+    double kappa;   ///< of the given curve, by the form
+    Vec3 by1, by2;  ///< derivatives by those of the curve
+  };
+  struct RunCurves {
+    SpaceCurve given, now;
+    const Frame& frame;
+    [[nodiscard]] RunForm at(double u) const {
       const SpaceJet a = evaluate(now, u), b = evaluate(given, u);
       const Vec2 d1 = in_plane(frame, a.d1), d2 = in_plane(frame, a.d2);
       const double speed = norm(d1), kappa = curvature_of(d1, d2);
-      if (!(speed > 0.0)) {
-        slopes.push_back({0.0, {}, {}});
-        continue;
-      }
+      if (!(speed > 0.0)) return {0.0, {}, {}};
       const double cube = speed * speed * speed;
       const Vec2 p = (1.0 / cube) * Vec2{d2.y, -d2.x} - (3.0 * kappa / (speed * speed)) * d1;
       const Vec2 r = (1.0 / cube) * Vec2{-d1.y, d1.x};
       const Vec3 by1 = p.x * frame.x + p.y * frame.y, by2 = r.x * frame.x + r.y * frame.y;
-      slopes.push_back({kappa - dot(by1, a.d1 - b.d1) - dot(by2, a.d2 - b.d2), by1, by2});
+      return {kappa - dot(by1, a.d1 - b.d1) - dot(by2, a.d2 - b.d2), by1, by2};
+    }
+  };
+
+  /// Curvature at a place behind another is not to be less by more than `slack`, in the direction
+  /// of the run.
+  void add_run(const RunForm& from, const BasisValues& basis_from, const RunForm& to,
+               const BasisValues& basis_to, int direction, double slack, FormGroup& g) const {
+    FormGroup::Form f;
+    f.first_column = 3 * basis_from.first;
+    f.coefficient.assign(3 * (basis_to.first - basis_from.first + kSkinDegree + 1), 0.0);
+    const double sign = direction;
+    add_basis(basis_to, 1, sign * to.by1, f.first_column, f.coefficient);
+    add_basis(basis_to, 2, sign * to.by2, f.first_column, f.coefficient);
+    add_basis(basis_from, 1, -sign * from.by1, f.first_column, f.coefficient);
+    add_basis(basis_from, 2, -sign * from.by2, f.first_column, f.coefficient);
+    double square = 0.0;
+    for (const double x : f.coefficient) square += x * x;
+    const double length = std::sqrt(square);
+    if (!(length > 0.0)) return;
+    for (double& x : f.coefficient) x /= length;
+    f.wanted = -(sign * (to.kappa - from.kappa) + slack) / (length * how_.tolerance);
+    f.weight = along_.soft_runs;
+    g.at_least.push_back(std::move(f));
+  }
+
+  void add_runs(std::size_t k, const std::vector<double>& at, const std::vector<BasisValues>& basis,
+                FormGroup& g) const {
+    const SectionCurve& section = stretch_.sections[k];
+    const RunCurves curves{isocurve_at_v(given_, how_.v[k]), isocurve_at_v(wished_, how_.v[k]),
+                           section.frame()};
+    std::vector<RunForm> forms;
+    std::vector<double> wanted;
+    double largest = 0.0;
+    for (const double u : at) {
+      wanted.push_back(plane_curvature(section.at(u), section.frame()));
+      largest = std::max(largest, std::abs(wanted.back()));
+      forms.push_back(curves.at(u));
+    }
+    for (const RunFall& fall : falls_[k]) {
+      add_run(curves.at(fall.from), basis_at(kSkinDegree, knots_, fall.from, 2), curves.at(fall.to),
+              basis_at(kSkinDegree, knots_, fall.to, 2), fall.direction, fall.by, g);
     }
     std::vector<int> direction(at.size() - 1, 0);
     constexpr double kNoise = 1e-5;  // of the largest curvature: no run, or circular
@@ -654,23 +780,7 @@ class Correction {
       const bool turns = (i > 0 && direction[i - 1] != direction[i]) ||
                          (i + 2 < at.size() && direction[i + 1] != direction[i]);
       if (direction[i] == 0 || (turns && !light_)) continue;
-      const BasisValues &a = basis[i], &b = basis[i + 1];
-      FormGroup::Form f;
-      f.first_column = 3 * a.first;
-      f.coefficient.assign(3 * (b.first - a.first + kSkinDegree + 1), 0.0);
-      const double sign = direction[i];
-      add_basis(b, 1, sign * slopes[i + 1].by1, f.first_column, f.coefficient);
-      add_basis(b, 2, sign * slopes[i + 1].by2, f.first_column, f.coefficient);
-      add_basis(a, 1, -sign * slopes[i].by1, f.first_column, f.coefficient);
-      add_basis(a, 2, -sign * slopes[i].by2, f.first_column, f.coefficient);
-      double square = 0.0;
-      for (const double x : f.coefficient) square += x * x;
-      const double length = std::sqrt(square);
-      if (!(length > 0.0)) continue;
-      for (double& x : f.coefficient) x /= length;
-      f.wanted = -sign * (slopes[i + 1].kappa - slopes[i].kappa) / (length * how_.tolerance);
-      f.weight = along_.soft_runs;
-      g.at_least.push_back(std::move(f));
+      add_run(forms[i], basis[i], forms[i + 1], basis[i + 1], direction[i], 0.0, g);
     }
   }
 
@@ -693,7 +803,7 @@ class Correction {
   }
 
   /// A section whose curvature goes against its run takes a share of its correction that does not:
-  /// none never does.
+  /// none never does. Where it went so the next round has rows.
   [[nodiscard]] Result<void> keep_runs(const std::vector<RunPlaces>& runs,
                                        const std::vector<double>& meter_at,
                                        const std::vector<double>& allowed, const RunContext& run) {
@@ -721,6 +831,8 @@ class Correction {
         }
         return meter.ripple();
       };
+      if (against(1.0) <= kRowShare * allowed[k]) return;
+      remember_falls(k, runs[k], d1, d2, meter_at, kRowShare * allowed[k]);
       if (against(1.0) <= allowed[k]) return;
       double low = 0.0, high = 1.0;
       for (int step = 0; step < 10; ++step) {
@@ -730,9 +842,22 @@ class Correction {
       for (std::size_t i = 0; i < count_; ++i) {
         moved_[k * count_ + i] = low * moved_[k * count_ + i];
       }
-      constexpr double kLeastShare = 0.2;
-      box_[k] *= std::max(low, kLeastShare);  // the next round knows
     });
+  }
+  void remember_falls(std::size_t k, const RunPlaces& runs, const std::vector<Vec2>& d1,
+                      const std::vector<Vec2>& d2, const std::vector<double>& meter_at,
+                      double share) {
+    std::vector<double> found;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < meter_at.size(); ++i) {
+      found.push_back(curvature_of(runs.d1[i] + d1[i], runs.d2[i] + d2[i]));
+      largest = std::max(largest, std::abs(runs.wanted[i]));
+    }
+    const double least = share * largest;
+    for (RunFall& fall : falls_of(runs.wanted, found, meter_at, least)) {
+      fall.by = least;
+      falls_[k].push_back(fall);
+    }
   }
 
   /// The sum on the knots of the given surface, among which those of the correction are.
@@ -743,14 +868,15 @@ class Correction {
   const NurbsSurface& given_;
   const FairAcross& how_;
   bool light_;  ///< the given surface is not that of the stretch, but has its few knots
-  std::vector<double> knots_;
+  std::vector<double> whole_, knots_;  ///< breaks without those beside seams; all knots
   std::size_t count_, degree_;
   std::vector<BasisValues> at_sections_;
   std::vector<Vec3> moved_;  ///< [section][control point along], shares of the tolerance
   std::vector<double> box_;
   std::vector<bool> still_;
-  NurbsSurface current_;
-  std::vector<double> line_at_, place_, middle_, step_, along_step_;
+  NurbsSurface current_, wished_;  ///< as it is; before sections took shares for their runs
+  std::vector<std::vector<RunFall>> falls_;
+  std::vector<double> line_at_, place_, middle_, step_, along_step_, along_weight_;
   std::vector<BasisValues> line_basis_, at_places_, at_middle_, along_middle_;
   std::vector<Isoline> lines_;
   std::vector<Axes> axes_;
@@ -870,7 +996,8 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
   double begun = 0.0;  // rounds
   for (std::size_t n = 0; n < kAlong.size() && goes_on(); ++n) {
     if (n > 0 && (!high_ones || least.high_ones_few(kFewForMore))) break;
-    Correction correction(stretch, stretch.surface, wanted, kAlong[n]);
+    Correction correction(stretch, stretch.surface, wanted, kAlong[n],
+                          even_knots(stretch.breaks, kAlong[n].points));
     for (std::size_t round = 0; round < kAlong[n].rounds && goes_on(); ++round) {
       const double start = from + (to - from) * begun / kParts;
       begun += 1.0;
@@ -957,18 +1084,25 @@ void take_better(const Waves& waves, LightAndFair&& candidate, std::optional<Wav
 Result<void> improve_light(const SkinStretch& stretch, const FairAcross& wanted, double light,
                            const RunContext& run, double from, double to,
                            std::optional<Waves>& least, LightAndFair& best) {
-  const auto few = lightened({stretch.surface}, light, run, LightWhere::kAlong);
+  auto few = lightened({stretch.surface}, light, run, LightWhere::kAlong);
   OBVID_TRY(few);
-  const NurbsSurface& given = few->surfaces.front();
+  NurbsSurface given = std::move(few->surfaces.front());
   if (given.points.size() >= stretch.surface.points.size()) return {};
   if (work_of(wanted.v.size(), given.count_u()) > kMostLightWork) return {};
+  const std::vector<double> few_knots = given.knots_u;
+  const std::vector<double> knots = with_knots_beside_seams(few_knots, stretch.breaks, wanted);
+  std::vector<double> missing;
+  std::set_difference(knots.begin(), knots.end(), given.knots_u.begin(), given.knots_u.end(),
+                      std::back_inserter(missing));
+  given = with_knots_u(given, missing);
   for (std::size_t n = 0; n < kLightRuns.size(); ++n) {
     if (least && least->high_ones_few(kFewOfLight)) return {};
     const auto part = [&](std::size_t k) {
       return from + (to - from) * static_cast<double>(k) / static_cast<double>(kLightRuns.size());
     };
     // each from the light skin: signs that runs have bent are no good ones
-    Correction correction(stretch, given, wanted, Along{0, 0, kLightRunPlaces, kLightRuns[n]});
+    Correction correction(stretch, given, wanted, Along{0, 0, kLightRunPlaces, kLightRuns[n]},
+                          few_knots);
     OBVID_TRY(correction.improve({}, {}, {}, run, part(n), part(n + 1)));
     const std::vector<double> moved = correction.moved();
     if (*std::max_element(moved.begin(), moved.end()) > wanted.tolerance) continue;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "obvid/geom/internal/directions.h"
@@ -270,6 +271,19 @@ class BallWalker {
           .where(near_text(at_.touch[i].point))
           .hint("take a smaller radius, or the other side")
           .value(1.0 / bend);
+    }
+    // where both normals become one the ball touches both faces in one point, whatever its radius
+    constexpr double kNearlyTangent = 0.4;
+    const double apart = norm(at_.touch[0].inwards - at_.touch[1].inwards);
+    if (apart < kNearlyTangent) {
+      return error(ErrorCode::kSurfaceFolds, what)
+          .where(near_text(at_.centre))
+          .hint(fmt::format(
+              "the faces differ there by an angle of {:.3g} degrees only; where that comes down to "
+              "0 "
+              "they touch each other, and no radius goes on: cut the faces before that place",
+              2.0 * std::asin(apart / 2.0) * 180.0 / std::numbers::pi))
+          .value(at_.radius);
     }
     return error(ErrorCode::kSurfaceFolds, what)
         .where(near_text(at_.centre))

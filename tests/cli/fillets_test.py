@@ -289,6 +289,18 @@ class Fillets(trims_test.Trims):
         for u, v, p in self.blend_points(patches[-1]):
             self.assertGreaterEqual(p[2], p[0] ** 2 - 1e-6)
 
+    def test_equal_cylinders_touch_each_other(self):
+        """Their edge is two ellipses that cross where both have one tangent plane: balls of every radius stop there."""
+        other = tube(1.0, -4.0, 4.0)
+        other["name"], other["points"] = "lying", [[p[2], p[0], p[1]] for p in other["points"]]
+        source = self.work / "in.json"
+        source.write_text(json.dumps(model(tube(1.0, -4.0, 4.0), other)))
+        for r in (0.1, 0.5):
+            told = self.run_it("surface", "fillet", source, "--faces", "tube,lying", "--radius", r, "--sides", "front,front",
+                               "-o", self.work / "no.json", code=4)
+            self.assertIn("no radius goes on: cut the faces before that place", told.stderr)
+            self.assertNotIn("another radius", told.stderr)
+
     def test_step_in_freecad_and_back(self):
         if shutil.which("freecadcmd") is None or not pathlib.Path(PLUGINS, "obvid-cad").exists():
             self.skipTest("FreeCAD or the helper for STEP is not there")

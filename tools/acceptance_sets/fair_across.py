@@ -23,6 +23,7 @@ SHARE = 1e-4  # of the size: EPS
 LINES, PLACES, ALONG = 120, 16, 6  # lines across, places of a span on them, places of a span along
 SECONDS = 10.0
 RUN = 1e-3  # of a section's largest curvature
+TURN = 0.1 * RUN  # the exact skin's curvature turns back by as much on arcs and clothoids of its contours: no run ends there
 BARS = {"Series 60": 0.05, "patrol boat": 0.10, "rotor 37": 0.10, "IEA 15": 0.05}
 LIGHT = {"IEA 15": 1e-4}  # units; of the others EPS
 LIGHT_OF_EPS = 0.3  # of light skins that are fair across
@@ -154,7 +155,8 @@ def forced(surface, u, v, tolerance):
 # ------------------------------------------------------------------- sections
 def against_run(exact, fair, v, size):
     """Largest fall of curvature against the run that the exact section has, share of its largest."""
-    u = places(np.unique(exact.tu), ALONG)
+    breaks = np.unique(exact.tu)
+    u = np.sort(np.r_[breaks, places(breaks, ALONG)])  # runs end at breaks
     worst = 0.0
     points = exact.grid(u, v)
     slopes = [(one.grid(u, v, 1), one.grid(u, v, 2)) for one in (exact, fair)]
@@ -166,17 +168,52 @@ def against_run(exact, fair, v, size):
         wanted, found = (np.cross(a[:, k], b[:, k]) @ normal
                          / np.maximum(np.linalg.norm(a[:, k] - np.outer(a[:, k] @ normal, normal), axis=1), 1e-300) ** 3
                          for a, b in slopes)
-        largest, direction, extreme = np.abs(wanted).max(), 0, found[0]
+        largest = np.abs(wanted).max()
         if largest * size < 1e-6:  # a straight line: its curvature is rounding
             continue
-        for i in range(1, len(u)):
-            change = wanted[i] - wanted[i - 1]
-            now = int(np.sign(change)) if abs(change) > 1e-9 * largest else direction
-            if now != direction:
-                extreme = found[i - 1]
-            direction = now
-            extreme = max(extreme, found[i]) if direction > 0 else min(extreme, found[i])
-            worst = max(worst, abs(extreme - found[i]) / largest if direction else 0.0)
+        worst = max(worst, fall(wanted / largest, found / largest))
+    return worst
+
+
+def turns_of(wanted):
+    """Where the run changes: of each change the places within TURN of its extreme, and the run before: 1 or -1."""
+    out, direction, low, high = [], 0, 0, 0
+    for i, w in enumerate(wanted):
+        if w > wanted[high]:
+            high = i
+        if w < wanted[low]:
+            low = i
+        if direction >= 0 and wanted[high] - w > TURN:  # it falls now
+            if direction:
+                out.append((high, 1))
+            direction, low, high = -1, i, i
+        elif direction <= 0 and w - wanted[low] > TURN:
+            if direction:
+                out.append((low, -1))
+            direction, low, high = 1, i, i
+    flat = []
+    for at, before in out:
+        first, last = at, at
+        while first > 0 and abs(wanted[first - 1] - wanted[at]) <= TURN:
+            first -= 1
+        while last + 1 < len(wanted) and abs(wanted[last + 1] - wanted[at]) <= TURN:
+            last += 1
+        flat.append((first, last, before))
+    return flat, direction
+
+
+def fall(wanted, found):
+    """Largest fall of one against the runs of the other. Where a run ends within TURN of the same value on a stretch
+    (an arc), it ends where that is best for what is judged."""
+    turns, last_run = turns_of(wanted)
+    worst, begun = 0.0, 0
+    for first, last, run in [*turns, (len(wanted) - 1, len(wanted) - 1, last_run)]:
+        first = max(first, begun)
+        end = first + int(np.argmax(run * found[first:last + 1])) if last > first else last
+        part = run * found[begun:end + 1]
+        if run and len(part):
+            worst = max(worst, float((np.maximum.accumulate(part) - part).max()))
+        begun = end
     return worst
 
 
