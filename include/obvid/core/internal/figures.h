@@ -14,13 +14,11 @@ namespace obvid {
 /// The same of a bound above 0: never below it.
 [[nodiscard]] std::string significant_above(double bound, int digits);
 
-<<<<<<< HEAD
 /// A tolerance, as it was typed where that has up to six digits; else six, never below it.
 [[nodiscard]] std::string tolerance_text(double tolerance);
-=======
+
 /// The same of a limit above 0 from above: always below it.
 [[nodiscard]] std::string significant_below(double limit, int digits);
->>>>>>> surf12
 
 /// Digits of a bound that is told beside the figures that it holds for.
 inline constexpr int kDigitsOfBounds = 3;
