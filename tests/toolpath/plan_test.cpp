@@ -165,23 +165,6 @@ TEST(Toolpath, LengthsAreThoseOfThePrintedProgram) {
   }
 }
 
-/// What is advised is not what is there: a ball cutter is not told to be a ball.
-TEST(Toolpath, AdviceFitsTheCutter) {
-  const auto model = test::model_of({bump()});
-  for (const CutterKind kind : {CutterKind::kBall, CutterKind::kFlat}) {
-    ToolpathOptions o = ball(4.0);
-    o.cutter.kind = kind;
-    o.step_over = 3.0;
-    o.scallop = 0.001;
-    o.strategy = ToolpathStrategy::kIsoparametric;
-    const auto path = plan(model, o);
-    ASSERT_TRUE(path) << path.error().what;
-    ASSERT_FALSE(path->not_kept.empty());
-    const bool told = path->not_kept.front().hint.find("ball cutter") != std::string::npos;
-    EXPECT_EQ(told, kind == CutterKind::kFlat) << path->not_kept.front().hint;
-  }
-}
-
 TEST(ToolpathGcode, InchesAndConvertedUnitsAndDecimalsTooFew) {
   auto model = test::model_of({test::plate({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0})});
   ToolpathOptions o = ball(0.25);
