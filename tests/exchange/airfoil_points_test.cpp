@@ -13,10 +13,10 @@ namespace {
 /// flatbacks in tables do.
 std::vector<Vec2> flatback(double last_low) {
   constexpr int kCount = 60;
-  constexpr double kHalfTurn = 3.14159265358979323846;
+  constexpr double kHalf = 3.14159265358979323846;
   std::vector<Vec2> out;
   for (int i = 0; i <= kCount; ++i) {
-    const double t = 0.18 * kHalfTurn + (2.0 - 0.36) * kHalfTurn * i / kCount;
+    const double t = 0.18 * kHalf + (2.0 - 0.36) * kHalf * i / kCount;
     out.push_back({0.55 + 0.55 * std::cos(t), 0.24 * std::sin(t)});
   }
   for (Vec2& p : out) p = {(p.x) / out.front().x, p.y};

@@ -379,6 +379,10 @@ TEST(PictureAxis, WritesNumbersForReading) {
   EXPECT_EQ(readable_number(1500.0, 3), "1500");
   EXPECT_EQ(readable_number(-0.5, 3), "−0.5");
   EXPECT_EQ(readable_number(2e9, 3), "2·10⁹");
+  EXPECT_EQ(readable_bound(2003305.0, 2), "2.1·10⁶");
+  EXPECT_EQ(readable_bound(2e6, 2), "2·10⁶");
+  EXPECT_EQ(readable_bound(9.99e6, 2), "10⁷");
+  EXPECT_EQ(readable_bound(0.0001231, 2), "0.00013");
   EXPECT_EQ(readable_number(1e-9, 3), "10⁻⁹");
   EXPECT_EQ(readable_number(0.0, 3), "0");
 }

@@ -56,14 +56,14 @@ bool ends_where_it_begins(const std::vector<Vec2>& local) {
 /// Of a round edge: the list begins and ends at one point, and two points on each side lie on one
 /// circle with it. 0 where they do not.
 double edge_radius(const std::vector<Vec2>& local) {
-  constexpr double kLargest = 0.05;     // chords
-  constexpr double kSameCircle = 0.01;  // of its radius: printed digits
+  constexpr double kLargestRadius = 0.05;  // chords
+  constexpr double kSameCircle = 0.01;     // of its radius: printed digits
   const std::size_t n = local.size();
   const Vec2 end = local.front();
   if (!ends_where_it_begins(local) || end.x < kMostOfChord) return 0.0;
   const double near = radius_through(local[1], end, local[n - 2]);
   const double far = radius_through(local[2], end, local[n - 3]);
-  const bool is_circle = near < kLargest && std::abs(far - near) <= kSameCircle * near;
+  const bool is_circle = near < kLargestRadius && std::abs(far - near) <= kSameCircle * near;
   // around the edge, not along one side of it
   return is_circle && dot(local[1] - end, local[n - 2] - end) < 0.0 ? near : 0.0;
 }

@@ -128,7 +128,12 @@ double round_down(double value) {
 
 std::string readable_bound(double bound, int digits) {
   constexpr double kLastDigits = 1e-12;  // what rounding may have added is no reason for a digit
-  return readable_number(std::stod(significant_above(bound * (1.0 - kLastDigits), digits)), digits);
+  const double least = bound * (1.0 - kLastDigits);
+  if (least < kPlainTo) {
+    return readable_number(std::stod(significant_above(least, digits)), digits);
+  }
+  const double unit = std::pow(10.0, std::floor(std::log10(least)) - digits + 1);
+  return readable_number(std::ceil(least / unit) * unit, digits);
 }
 
 std::string readable_number(double value, int digits) {
