@@ -23,7 +23,8 @@ MAKERS = (
 SURFACE = "include/obvid/surface/surface.h"
 KINDS = "include/obvid/pipeline/surface_kinds.inc"
 # Lists for readers.
-LISTS = ("include/obvid/obvid.h", "docs/c.md", "docs/surfaces.md", "bindings/python/obvid/surfaces.py")
+LISTS = ("include/obvid/obvid.h", "docs/c.md", "docs/surfaces.md", "bindings/python/obvid/surfaces.py",
+         "apps/cli/surface_options.cpp")
 
 
 @functools.lru_cache(maxsize=None)

@@ -14,15 +14,17 @@ SurfaceJet evaluate_kind(const TranslationSurface& s, double u, double v) {
 }
 
 Result<NurbsForm> nurbs_of(const TranslationSurface& s, double /*tolerance*/) {
-  for (const SpaceCurve* curve : {&s.one, &s.other}) {
-    OBVID_TRY(check(*curve));
-    if (!curve->weights.empty()) {
-      return fail(error(ErrorCode::kUnsupported, "sums of rational curves are not made"));
-    }
-  }
+  for (const SpaceCurve* curve : {&s.one, &s.other}) OBVID_TRY(check(*curve));
+  const auto weight = [](const SpaceCurve& curve, std::size_t i) {
+    return curve.weights.empty() ? 1.0 : curve.weights[i];
+  };
+  const bool rational = !s.one.weights.empty() || !s.other.weights.empty();
   NurbsForm form{{s.one.degree, s.other.degree, s.one.knots, s.other.knots, {}, {}}, 0.0};
-  for (const Vec3& b : s.other.points) {
-    for (const Vec3& a : s.one.points) form.surface.points.push_back(a + b);
+  for (std::size_t j = 0; j < s.other.points.size(); ++j) {
+    for (std::size_t i = 0; i < s.one.points.size(); ++i) {
+      form.surface.points.push_back(s.one.points[i] + s.other.points[j]);
+      if (rational) form.surface.weights.push_back(weight(s.one, i) * weight(s.other, j));
+    }
   }
   return form;
 }
