@@ -154,7 +154,8 @@ class ParallelOf {
                    fmt::format("the tool is larger than a hollow of radius {} there",
                                significant(radius, 4)))
           .where(place_text(start_point(piece)))
-          .hint(fmt::format("a cutter of less than {} fits there", significant(2.0 * radius, 4)))
+          .hint(fmt::format("only a cutter of less than {} can go there",
+                            significant(2.0 * radius, 4)))
           .value(radius);
     }
     links_.push_back({std::move(*beside), false, end_point(piece)});

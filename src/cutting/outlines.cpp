@@ -481,6 +481,10 @@ class TrackMaker {
     if (radius_ == 0.0) return {};
     const double slack = kSmallTurns * options_.tolerance * scale_;
     std::size_t looked = 0;
+    Vec2 worst_at{};
+    Edges::Nearest worst{};
+    worst.room = radius_ - slack;
+    bool fits = true;
     for (const Piece& piece : track.axis.pieces) {
       const auto parts =
           static_cast<std::size_t>(std::max(2.0, std::ceil(length_of(piece) / spacing_)));
@@ -496,18 +500,21 @@ class TrackMaker {
                           out_.all[found.name].name, significant(p.x, 6), significant(p.y, 6)));
           return {};
         }
-        if (found.room >= radius_ - slack) continue;
-        OBVID_TRY(crosses_none(i));
-        return error(ErrorCode::kToolTooLarge,
-                     fmt::format("the tool does not fit: it would cut {} deep into what stays",
-                                 significant(radius_ - found.room, 3)))
-            .where(
-                fmt::format("{}, at {}, {}", track.name, significant(p.x, 6), significant(p.y, 6)))
-            .hint("choose a smaller cutter, or another --side")
-            .value(found.room);
+        if (found.room >= worst.room) continue;
+        fits = false;
+        worst = found;
+        worst_at = p;
       }
     }
-    return {};
+    if (fits) return {};
+    OBVID_TRY(crosses_none(i));
+    return error(ErrorCode::kToolTooLarge,
+                 fmt::format("the tool does not fit: it would cut {} deep into what stays of {}",
+                             significant(radius_ - worst.room, 3), out_.all[worst.name].name))
+        .where(fmt::format("{}, at {}, {}", track.name, significant(worst_at.x, 6),
+                           significant(worst_at.y, 6)))
+        .hint("choose a smaller cutter, or another --side")
+        .value(worst.room);
   }
 
   /// Of what is followed on the line nothing is refused.
