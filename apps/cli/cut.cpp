@@ -106,9 +106,9 @@ Facts cut_facts(const MadeCut& made) {
         "blending",
         fmt::format("the controller may round corners by {} {} more (G64 P): {} of a tolerance "
                     "of {} {} in all",
-                    significant_above(r.blending, kDigitsOfBounds), unit,
+                    tolerance_text(r.blending), unit,
                     significant_above(std::max(r.beyond, r.short_of) + r.blending, kDigitsOfBounds),
-                    significant(made.tolerance, kDigitsOfBounds), unit));
+                    tolerance_text(made.tolerance), unit));
   }
   if (r.left_in_corners > 0.0) {
     facts.add("inner corners", fmt::format("the round tool leaves up to {} {} in them",
