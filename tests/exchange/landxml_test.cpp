@@ -391,7 +391,9 @@ TEST(LandXmlPublicFiles, TheJapaneseAlignmentIsCurvatureContinuous) {
   SKIP_WITHOUT("landxml/j_landxml_sample.xml");
   const auto path = shared_data() / "landxml/j_landxml_sample.xml";
   const Drawing d = read_landxml_text(text_of_file(path));
-  EXPECT_TRUE(d.warnings.empty());
+  for (const std::string& told : d.warnings) {  // of two such equations, and of nothing else
+    EXPECT_EQ(told.find("a station equation (behind "), 0U) << told;
+  }
   const auto& pieces = d.curves[0].pieces;
   ASSERT_EQ(pieces.size(), 18U);
   for (std::size_t i = 1; i < pieces.size(); ++i) {

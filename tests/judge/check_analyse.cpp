@@ -40,7 +40,8 @@ class AnalyseCheck {
     std::vector<GivenPoint> along = input.points, up = input.points;
     for (GivenPoint& p : along) p.point.y = 0.0;
     for (GivenPoint& p : up) p.point.x = 0.0;
-    const Real digit = std::max(rounding_of(along), rounding_of(up));
+    constexpr int kAll = 18;  // of doubles near 1 some are printed with sixteen
+    const Real digit = std::max(rounding_of(along, kAll), rounding_of(up, kAll));
     straight_ = input.placed
                     ? HUGE_VALL
                     : std::max(2.0L * kNothing * size, 2.0L * std::numbers::sqrt2_v<Real> * digit);

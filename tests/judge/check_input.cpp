@@ -12,9 +12,8 @@
 
 namespace judge {
 
-double rounding_of(const std::vector<GivenPoint>& points) {
-  constexpr int kMostDecimals = 15;
-  for (int decimals = 0; decimals < kMostDecimals; ++decimals) {
+double rounding_of(const std::vector<GivenPoint>& points, int most_decimals) {
+  for (int decimals = 0; decimals < most_decimals; ++decimals) {
     const auto shows = [decimals](double x) {
       return std::strtod(fmt::format("{:.{}f}", x, decimals).c_str(), nullptr) == x;
     };

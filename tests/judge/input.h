@@ -63,8 +63,9 @@ Input read_input(const std::string& text, const std::vector<std::string>& option
 /// an even number has two medians. `rounding` of each point. None where it cannot be told.
 std::optional<Ends> reach_of_scatter(const std::vector<Vec>& points, double rounding);
 
-/// Half a unit of the last decimal that any coordinate of the points shows; 0 beyond 15 decimals.
-double rounding_of(const std::vector<GivenPoint>& points);
+/// Half a unit of the last decimal that any coordinate of the points shows; 0 where it is behind
+/// `most_decimals`.
+double rounding_of(const std::vector<GivenPoint>& points, int most_decimals = 15);
 /// What points that were scaled, turned or moved may be off: they are rounded a few times.
 double rounding_of_places(const Input& input);
 
