@@ -895,11 +895,13 @@ std::vector<double> meter_places(const std::vector<double>& breaks) {
   const auto each = std::clamp<std::size_t>(kMostMeterPlaces / spans, 2, kReportSamplesPerSpan);
   std::vector<double> out;
   for (std::size_t s = 0; s < spans; ++s) {
+    out.push_back(breaks[s]);  // where runs end
     for (std::size_t k = 0; k < each; ++k) {
       const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(each);
       out.push_back(breaks[s] + part * (breaks[s + 1] - breaks[s]));
     }
   }
+  out.push_back(breaks.back());
   return out;
 }
 
