@@ -26,8 +26,10 @@ namespace {
 struct Along {
   std::size_t points, rounds, run_places;
   double soft_runs;
+  bool narrows;  ///< less room for sections that rows of runs do not help
 };
-constexpr std::array<Along, 2> kAlong = {Along{16, 2, 1000, 1e4}, Along{24, 2, 300, 1e3}};
+constexpr std::array<Along, 2> kAlong = {Along{16, 2, 1000, 1e4, true},
+                                         Along{24, 2, 300, 1e3, false}};
 /// Waves beyond the forced ones, of those: few enough to end, and not to try the second.
 constexpr double kFew = 0.01, kFewForMore = 0.08;
 /// Of the lines: shallow waves that are worth moving sections for, where no high ones are.
@@ -44,6 +46,9 @@ constexpr double kMostOfLength = 0.01;
 constexpr double kMostAgainstRun = 0.9e-3;
 /// Of that: a run that lost more gets a row of its own in the next round, which asks for this.
 constexpr double kRowShare = 0.5;
+/// Of the section's largest curvature: a fall that rows of first order are no guide for; and the
+/// share of its room that a section keeps in the round after that at least.
+constexpr double kNoGuide = 0.1, kLeastShare = 0.2;
 /// Knots beside a smooth border that stays, where the correction rises as the cube of the distance:
 /// each half as far from it as the one before.
 constexpr std::size_t kKnotsBesideSeam = 2;
@@ -271,14 +276,14 @@ class Correction {
   /// `knots`: along, without those beside seams; where the given surface is not that of the stretch
   /// it has these and those.
   Correction(const SkinStretch& stretch, const NurbsSurface& given, const FairAcross& wanted,
-             const Along& along, const std::vector<double>& knots)
+             const Along& along, const std::vector<double>& knots, bool seams)
       : stretch_(stretch),
         along_(along),
         given_(given),
         how_(wanted),
         light_(&given != &stretch.surface),
         whole_(distinct(knots)),
-        knots_(with_knots_beside_seams(knots, stretch.breaks, wanted)),
+        knots_(seams ? with_knots_beside_seams(knots, stretch.breaks, wanted) : knots),
         count_(knots_.size() - kSkinDegree - 1),
         degree_(static_cast<std::size_t>(given_.degree_v)),
         at_sections_(bases_across(given_, wanted.v, 2)),
@@ -842,6 +847,8 @@ class Correction {
       for (std::size_t i = 0; i < count_; ++i) {
         moved_[k * count_ + i] = low * moved_[k * count_ + i];
       }
+      // so deep a fall that rows of first order are no guide: less room in the next round
+      if (along_.narrows && against(1.0) > kNoGuide) box_[k] *= std::max(low, kLeastShare);
     });
   }
   void remember_falls(std::size_t k, const RunPlaces& runs, const std::vector<Vec2>& d1,
@@ -888,11 +895,13 @@ std::vector<double> meter_places(const std::vector<double>& breaks) {
   const auto each = std::clamp<std::size_t>(kMostMeterPlaces / spans, 2, kReportSamplesPerSpan);
   std::vector<double> out;
   for (std::size_t s = 0; s < spans; ++s) {
+    out.push_back(breaks[s]);  // where runs end
     for (std::size_t k = 0; k < each; ++k) {
       const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(each);
       out.push_back(breaks[s] + part * (breaks[s + 1] - breaks[s]));
     }
   }
+  out.push_back(breaks.back());
   return out;
 }
 
@@ -988,17 +997,27 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
   const auto before = waves_of(stretch, best.surface, wanted, run);
   OBVID_TRY(before);
   Waves least = *before;
-  constexpr double kParts = kAlong[0].rounds + kAlong[1].rounds;
+  constexpr double kParts = 2 * kAlong[0].rounds + kAlong[1].rounds;
   const bool high_ones = !before->high_ones_few();
   const auto goes_on = [&] {
     return high_ones ? !least.high_ones_few() : least.shallow_ones_many();
   };
   double begun = 0.0;  // rounds
-  for (std::size_t n = 0; n < kAlong.size() && goes_on(); ++n) {
-    if (n > 0 && (!high_ones || least.high_ones_few(kFewForMore))) break;
-    Correction correction(stretch, stretch.surface, wanted, kAlong[n],
-                          even_knots(stretch.breaks, kAlong[n].points));
-    for (std::size_t round = 0; round < kAlong[n].rounds && goes_on(); ++round) {
+  struct Try {
+    Along along;
+    bool seams;  ///< with knots beside them
+  };
+  const bool seams = (wanted.fixed[0] && wanted.smooth[0]) || (wanted.fixed[1] && wanted.smooth[1]);
+  std::vector<Try> tries{{kAlong[0], true}, {kAlong[1], true}};
+  if (seams) tries.insert(tries.begin() + 1, {kAlong[0], false});
+  bool taken = false;
+  for (std::size_t n = 0; n < tries.size() && goes_on(); ++n) {
+    const Along& along = tries[n].along;
+    if (!tries[n].seams && taken) continue;
+    if (n + 1 == tries.size() && (!high_ones || least.high_ones_few(kFewForMore))) break;
+    Correction correction(stretch, stretch.surface, wanted, along,
+                          even_knots(stretch.breaks, along.points), tries[n].seams);
+    for (std::size_t round = 0; round < along.rounds && goes_on(); ++round) {
       const double start = from + (to - from) * begun / kParts;
       begun += 1.0;
       OBVID_TRY(correction.improve(kept.runs, kept.at, kept.allowed, run, start,
@@ -1010,6 +1029,7 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
         continue;
       }
       least = *left;
+      taken = true;
       best.surface = correction.surface();
       best.correction = correction.alone();
       best.moved = correction.moved();
@@ -1101,8 +1121,8 @@ Result<void> improve_light(const SkinStretch& stretch, const FairAcross& wanted,
       return from + (to - from) * static_cast<double>(k) / static_cast<double>(kLightRuns.size());
     };
     // each from the light skin: signs that runs have bent are no good ones
-    Correction correction(stretch, given, wanted, Along{0, 0, kLightRunPlaces, kLightRuns[n]},
-                          few_knots);
+    Correction correction(stretch, given, wanted,
+                          Along{0, 0, kLightRunPlaces, kLightRuns[n], false}, few_knots, true);
     OBVID_TRY(correction.improve({}, {}, {}, run, part(n), part(n + 1)));
     const std::vector<double> moved = correction.moved();
     if (*std::max_element(moved.begin(), moved.end()) > wanted.tolerance) continue;

@@ -31,17 +31,19 @@ void add_section_report(const SkinStretch& stretch, const MeasuredSection& measu
   if (section.is_point()) return;
   const SpaceCurve made = isocurve_at_v(stretch.surface, v);
   RippleMeter meter;
+  const auto look = [&](double u) {
+    const SpaceJet jet = evaluate(made, u);
+    const Hermite wanted = section.at(u);
+    report.deviation = std::max(report.deviation, norm(jet.point - wanted.point));
+    meter.add(plane_curvature(wanted, section.frame()),
+              plane_curvature({jet.point, jet.d1, jet.d2}, section.frame()));
+  };
   for (std::size_t i = 0; i + 1 < stretch.breaks.size(); ++i) {
     const double step = (stretch.breaks[i + 1] - stretch.breaks[i]) / samples_per_span;
-    for (int j = 0; j < samples_per_span; ++j) {
-      const double u = stretch.breaks[i] + (j + 0.5) * step;
-      const SpaceJet jet = evaluate(made, u);
-      const Hermite wanted = section.at(u);
-      report.deviation = std::max(report.deviation, norm(jet.point - wanted.point));
-      meter.add(plane_curvature(wanted, section.frame()),
-                plane_curvature({jet.point, jet.d1, jet.d2}, section.frame()));
-    }
+    look(stretch.breaks[i]);  // runs end at breaks: places beside one alone would mix two
+    for (int j = 0; j < samples_per_span; ++j) look(stretch.breaks[i] + (j + 0.5) * step);
   }
+  look(stretch.breaks.back());
   report.ripple = std::max(report.ripple, meter.ripple());
   const double from = section.length_at(0.0).s, to = section.length_at(1.0).s;
   for (std::size_t i = 0; i < measured.point_at.size(); ++i) {
