@@ -368,7 +368,7 @@ class TrackMaker {
     const bool compensated = track.side != CutSide::kOn;
     auto parallel = parallel_of(track.edge, compensated ? radius_ : 0.0);
     if (!parallel) return fail(in_drawing(parallel.error(), track.name));
-    if (const Parallel::Untouched* slot = deepest_slot(*parallel)) {
+    if (const Parallel::Untouched* slot = deepest_slot(*parallel, radius_)) {
       return fail(does_not_enter(track, *slot));
     }
     for (const Parallel::Untouched& one : parallel->untouched) {
@@ -382,11 +382,14 @@ class TrackMaker {
     return {};
   }
 
-  /// Of what a slot or notch keeps the tool out of, more than the tolerance.
-  [[nodiscard]] const Parallel::Untouched* deepest_slot(const Parallel& parallel) const {
+  /// Of what a slot or notch keeps the tool out of, more than the tolerance and than a right-angled
+  /// corner does.
+  [[nodiscard]] const Parallel::Untouched* deepest_slot(const Parallel& parallel,
+                                                        double radius) const {
+    const double most = std::max(within(), (std::numbers::sqrt2 - 1.0) * radius);
     const Parallel::Untouched* out = nullptr;
     for (const Parallel::Untouched& one : parallel.untouched) {
-      if (one.slot && one.left > within() && (!out || one.left > out->left)) out = &one;
+      if (one.slot && one.left > most && (!out || one.left > out->left)) out = &one;
     }
     return out;
   }
@@ -412,7 +415,7 @@ class TrackMaker {
     if (edge.pieces.size() > kMostPieces) return std::nullopt;
     const auto enters = [&](double radius) {
       const auto made = parallel_of(edge, radius);
-      return made && !deepest_slot(*made);
+      return made && !deepest_slot(*made, radius);
     };
     double fits = radius_, wide = radius_;
     for (int k = 0; !enters(fits); ++k) {
