@@ -26,7 +26,10 @@ class AnalyseCheck {
     }
     // the analysis looks at an open series; a repeated first point stays
     for (std::size_t i = 1; i + 1 < p_.size(); ++i) {
-      const Vec a = p_[i] - p_[i - 1], b = p_[i + 1] - p_[i], c = p_[i + 1] - p_[i - 1];
+      // neighbours may be 1e8 times nearer to each other than to the first point
+      const Point before = input.points[i - 1].point, here = input.points[i].point;
+      const Point behind = input.points[i + 1].point;
+      const Vec a = seen(here, before), b = seen(behind, here), c = seen(behind, before);
       const Real shortest = std::min({norm(a), norm(b), norm(c)});
       kappa_.push_back(2.0L * cross(a, b) / (norm(a) * norm(b) * norm(c)));
       rounding_.push_back(32.0L * 0x1p-53L * coordinate_ / (shortest * shortest) +
