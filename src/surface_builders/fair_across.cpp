@@ -273,8 +273,7 @@ class Difference {
 
 class Correction {
  public:
-  /// `knots`: along, without those beside seams; where the given surface is not that of the stretch
-  /// it has these and those.
+  /// `knots`: along; with `seams`, more beside borders that stay with their derivatives.
   Correction(const SkinStretch& stretch, const NurbsSurface& given, const FairAcross& wanted,
              const Along& along, const std::vector<double>& knots, bool seams)
       : stretch_(stretch),
@@ -1104,17 +1103,11 @@ void take_better(const Waves& waves, LightAndFair&& candidate, std::optional<Wav
 Result<void> improve_light(const SkinStretch& stretch, const FairAcross& wanted, double light,
                            const RunContext& run, double from, double to,
                            std::optional<Waves>& least, LightAndFair& best) {
-  auto few = lightened({stretch.surface}, light, run, LightWhere::kAlong);
+  const auto few = lightened({stretch.surface}, light, run, LightWhere::kAlong);
   OBVID_TRY(few);
-  NurbsSurface given = std::move(few->surfaces.front());
+  const NurbsSurface& given = few->surfaces.front();
   if (given.points.size() >= stretch.surface.points.size()) return {};
   if (work_of(wanted.v.size(), given.count_u()) > kMostLightWork) return {};
-  const std::vector<double> few_knots = given.knots_u;
-  const std::vector<double> knots = with_knots_beside_seams(few_knots, stretch.breaks, wanted);
-  std::vector<double> missing;
-  std::set_difference(knots.begin(), knots.end(), given.knots_u.begin(), given.knots_u.end(),
-                      std::back_inserter(missing));
-  given = with_knots_u(given, missing);
   for (std::size_t n = 0; n < kLightRuns.size(); ++n) {
     if (least && least->high_ones_few(kFewOfLight)) return {};
     const auto part = [&](std::size_t k) {
@@ -1122,7 +1115,7 @@ Result<void> improve_light(const SkinStretch& stretch, const FairAcross& wanted,
     };
     // each from the light skin: signs that runs have bent are no good ones
     Correction correction(stretch, given, wanted,
-                          Along{0, 0, kLightRunPlaces, kLightRuns[n], false}, few_knots, true);
+                          Along{0, 0, kLightRunPlaces, kLightRuns[n], false}, given.knots_u, false);
     OBVID_TRY(correction.improve({}, {}, {}, run, part(n), part(n + 1)));
     const std::vector<double> moved = correction.moved();
     if (*std::max_element(moved.begin(), moved.end()) > wanted.tolerance) continue;

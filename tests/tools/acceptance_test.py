@@ -12,11 +12,13 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
+import numpy as np
+
 TOOLS = pathlib.Path(__file__).resolve().parent.parent.parent / "tools"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(TOOLS))
 
-from acceptance_sets import (cases, controller, cutting, geometry, judging, matching, plates, profiles,  # noqa: E402
+from acceptance_sets import (cases, controller, cutting, fair_across, geometry, judging, matching, plates, profiles,  # noqa: E402
                              roads, rounding, running, scans, sections, tracks, transitions)
 from acceptance_sets.controller import Controller  # noqa: E402
 
@@ -255,6 +257,37 @@ class Refusals(unittest.TestCase):
                                 ("points 3 to 5, about 3.0e-01 mm; move them", False),
                                 ("a stretch leaves no room; remove a point", None)):
                 self.assertIs(running.explanation_holds(case, str(program), text), holds)
+
+
+class FallsOfCurvature(unittest.TestCase):
+    """What fair_across calls a fall against the run: of made-up curvatures, whose falls are known."""
+
+    def test_the_deepest_fall_of_a_rising_run(self):
+        wanted = np.linspace(0.0, 1.0, 201)
+        found = wanted.copy()
+        found[100] += 0.015  # the next place is 0.005 higher: 0.010 are lost
+        self.assertEqual(fair_across.fall(wanted, wanted), 0.0)
+        self.assertAlmostEqual(fair_across.fall(wanted, found), 0.010, delta=1e-12)
+
+    def test_a_turn_elsewhere_is_a_fall_by_what_lies_between(self):
+        wanted = np.r_[np.linspace(0.0, 1.0, 101), np.linspace(0.99, 0.0, 100)]
+        found = np.r_[np.linspace(0.0, 1.05, 106), np.linspace(1.04, 0.10, 95)]  # turns 5 places later
+        self.assertAlmostEqual(fair_across.fall(wanted, found), 0.05, delta=1e-12)
+
+    def test_the_noise_of_an_arc_is_no_turn_but_a_wave_on_it_is_a_fall(self):
+        arc = 0.5 + 2e-5 * np.sin(np.arange(100.0))
+        wanted = np.r_[np.linspace(0.0, 0.49, 50), arc, np.linspace(0.51, 1.0, 50)]
+        rising = np.linspace(0.0, 1.0, 200)
+        self.assertEqual(fair_across.fall(wanted, rising), 0.0)
+        waved = rising.copy()
+        waved[100] -= 0.2
+        self.assertAlmostEqual(fair_across.fall(wanted, waved), 0.2 - 1.0 / 199, delta=1e-12)
+
+    def test_a_run_may_end_anywhere_on_a_flat_top(self):
+        wanted = np.r_[np.linspace(0.0, 1.0, 50), np.ones(100), np.linspace(1.0, 0.0, 50)]
+        for top in (60, 100, 140):
+            self.assertEqual(fair_across.fall(wanted, -np.abs(np.arange(200.0) - top)), 0.0)
+        self.assertAlmostEqual(fair_across.fall(wanted, -np.abs(np.arange(200.0) - 40.0)), 9.0)
 
 
 class Judging(unittest.TestCase):
