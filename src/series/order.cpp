@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "obvid/core/internal/figures.h"
+#include "order_by_tree.h"
 #include "outline_tour.h"
 #include "spanning_tree.h"
 
@@ -129,7 +130,7 @@ Result<CurveOrder> order_of_row(const std::vector<Vec2>& points, CurveOrder row)
 
 }  // namespace
 
-Result<CurveOrder> order_along_curve(const std::vector<Vec2>& points) {
+Result<void> check_order_count(const std::vector<Vec2>& points) {
   const std::size_t n = points.size();
   if (n < 3) {
     return error(ErrorCode::kTooFewPoints, "an order needs 3 points at least")
@@ -140,11 +141,21 @@ Result<CurveOrder> order_along_curve(const std::vector<Vec2>& points) {
         .hint(fmt::format("thin them to {}", kMostOrdered))
         .value(static_cast<double>(n));
   }
+  return {};
+}
+
+Result<CurveOrder> order_along_curve(const std::vector<Vec2>& points) {
+  OBVID_TRY(check_order_count(points));
+  return order_by_tree(points, shortest_tree(points));
+}
+
+Result<CurveOrder> order_by_tree(const std::vector<Vec2>& points, const std::vector<Edge>& tree) {
+  const std::size_t n = points.size();
   constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
   std::vector<std::array<std::size_t, 2>> beside(n, {kNobody, kNobody});
   CurveOrder out;
   std::size_t branch = kNobody;
-  for (const auto& [a, b] : shortest_tree(points)) {
+  for (const auto& [a, b] : tree) {
     const double step = norm(points[a] - points[b]);
     if (!(step > 0.0)) {
       return error(ErrorCode::kOutOfOrder, "two points coincide").point(b);

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "obvid/numeric/internal/median.h"
-#include "obvid/series/internal/order.h"
-#include "spanning_tree.h"
+#include "order_by_tree.h"
 
 namespace obvid {
 namespace {
@@ -19,12 +18,13 @@ constexpr double kMostGap = 2.0;  ///< of the longest step: ends that points lie
 
 /// Indices of points none of which is nearer than `apart` to one before it.
 std::vector<std::size_t> thinned(const std::vector<Vec2>& points, double apart) {
-  std::map<std::pair<long long, long long>, std::vector<std::size_t>> cells;
+  using Cell = std::pair<double, double>;  // numbers of cells: integers may not hold them
+  std::map<Cell, std::vector<std::size_t>> cells;
   const auto cell_of = [&](Vec2 p) {
-    return std::pair(std::llround(std::floor((p.x - points.front().x) / apart)),
-                     std::llround(std::floor((p.y - points.front().y) / apart)));
+    return Cell{std::floor((p.x - points.front().x) / apart),
+                std::floor((p.y - points.front().y) / apart)};
   };
-  const auto is_near = [&](Vec2 p, const std::pair<long long, long long>& cell) {
+  const auto is_near = [&](Vec2 p, const Cell& cell) {
     const auto found = cells.find(cell);
     return found != cells.end() &&
            std::any_of(found->second.begin(), found->second.end(),
@@ -34,9 +34,9 @@ std::vector<std::size_t> thinned(const std::vector<Vec2>& points, double apart) 
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto [column, row] = cell_of(points[i]);
     bool near = false;
-    for (long long dx = -1; dx <= 1 && !near; ++dx) {
-      for (long long dy = -1; dy <= 1 && !near; ++dy) {
-        near = is_near(points[i], {column + dx, row + dy});
+    for (const double dx : {-1.0, 0.0, 1.0}) {
+      for (const double dy : {-1.0, 0.0, 1.0}) {
+        near = near || is_near(points[i], {column + dx, row + dy});
       }
     }
     if (near) continue;
@@ -175,10 +175,12 @@ std::optional<CurveOrder> order_at(const std::vector<Vec2>& points, double apart
 }  // namespace
 
 Result<CurveOrder> order_beside_row(const std::vector<Vec2>& points) {
-  auto whole = order_along_curve(points);
+  OBVID_TRY(check_order_count(points));
+  const std::vector<Edge> tree = shortest_tree(points);
+  auto whole = order_by_tree(points, tree);
   if (whole || whole.error().code != ErrorCode::kOutOfOrder) return whole;
   std::vector<double> steps;
-  for (const auto& [a, b] : shortest_tree(points)) steps.push_back(norm(points[a] - points[b]));
+  for (const auto& [a, b] : tree) steps.push_back(norm(points[a] - points[b]));
   const double step = median_of(std::move(steps));
   for (double apart = kNearest; step > 0.0 && apart <= kFarthest; apart *= 2.0) {
     if (auto found = order_at(points, apart * step)) return std::move(*found);

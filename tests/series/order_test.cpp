@@ -221,5 +221,19 @@ TEST(CurveOrder, OfBothSidesOfAThinPlateIsNeverThatOfOneRow) {
   }
 }
 
+/// Cells of the distance that thins them have numbers beyond all integers.
+TEST(CurveOrder, OfACloudWithPointsImmenselyFarOffIsRefusedOrFound) {
+  std::mt19937 random(3);
+  Row list = scattered_ellipse(200, 0.5, random);
+  list.push_back({1e22, 3.0});
+  list.push_back({-1e22, 4.0});
+  const auto found = order_beside_row(list);
+  if (found) {
+    EXPECT_EQ(found->order.size(), list.size());
+  } else {
+    EXPECT_EQ(found.error().code, ErrorCode::kOutOfOrder);
+  }
+}
+
 }  // namespace
 }  // namespace obvid
