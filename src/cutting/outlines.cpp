@@ -14,6 +14,7 @@
 #include "joined_curves.h"
 #include "obvid/contour/arcs/arcs_along.h"
 #include "obvid/core/internal/figures.h"
+#include "obvid/numeric/internal/halving.h"
 
 namespace obvid::cutting {
 namespace {
@@ -423,10 +424,7 @@ class TrackMaker {
       wide = fits;
       fits *= 0.5;
     }
-    for (int k = 0; k < kTimesBisected; ++k) {
-      const double middle = 0.5 * (fits + wide);
-      (enters(middle) ? fits : wide) = middle;
-    }
+    fits = end_of_condition(fits, wide, enters, kTimesBisected).holds;
     constexpr int kDigits = 3;
     const double diameter = 2.0 * fits / scale_;
     const double unit = std::pow(10.0, std::floor(std::log10(diameter)) - (kDigits - 1));

@@ -5,17 +5,12 @@
 #include <cmath>
 #include <variant>
 
+#include "obvid/curve/internal/clothoid.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/numeric/internal/wide.h"
 
 namespace obvid::exchange {
 namespace {
-
-[[nodiscard]] Vec2 chord(const ArcPiece& arc) {
-  const double half = 0.5 * arc.kappa * arc.length;
-  const double share = half == 0.0 ? 1.0 : std::sin(half) / half;
-  return share * arc.length * unit_at(arc.theta0 + half);
-}
 
 /// Both as one, that goes on as the first does.
 [[nodiscard]] ArcPiece together(const ArcPiece& first, const ArcPiece& second) {
@@ -36,7 +31,8 @@ namespace {
   const ArcPiece both = together(first, second);
   const double step = first.theta0 + first.kappa * first.length - second.theta0;
   const double off = norm(first.end - second.start) + std::abs(principal_angle(step)) * length;
-  const double missed = norm(chord(both) - (both.end - both.start));
+  const double missed = norm(clothoid_step(both.theta0, both.kappa, both.kappa, both.length) -
+                             (both.end - both.start));
   const bool bent_alike = 0.5 * std::abs(first.kappa - second.kappa) * length <= kSameCircle;
   const double turn = std::abs(both.kappa) * both.length;
   return bent_alike && std::max(off, missed) <= room &&

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell_judge.h"
-#include "obvid/geom/internal/chord.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "obvid/geom/internal/chord.h"
 
 namespace obvid::mesh {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell_tree.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "obvid/core/internal/parallel.h"
+#include "too_many_triangles.h"
 
 namespace obvid::mesh {
 namespace {
@@ -153,10 +152,7 @@ std::vector<Cell> CellTree::leaves(CellJudge& judge, const Cell& cell) const {
 Result<void> CellTree::append(const std::vector<Cell>& leaves) {
   cells_.insert(cells_.end(), leaves.begin(), leaves.end());
   if (2 * cells_.size() <= options_.most_triangles) return {};
-  return error(ErrorCode::kToleranceNotReached,
-               fmt::format("the surface needs more than {} triangles", options_.most_triangles))
-      .hint("allow a larger chord tolerance or angle")
-      .value(static_cast<double>(options_.most_triangles));
+  return fail(too_many_triangles(options_.most_triangles));
 }
 
 Result<bool> CellTree::improve(const std::vector<bool>& marked, std::vector<CellSeen>& seen) {

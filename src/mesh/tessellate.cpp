@@ -14,6 +14,7 @@
 #include "obvid/core/internal/parallel.h"
 #include "obvid/mesh/mesh.h"
 #include "patch_mesher.h"
+#include "too_many_triangles.h"
 #include "trimmed.h"
 
 namespace obvid {
@@ -155,10 +156,7 @@ class Tessellator {
     }
     mesh.deviation = measured->deviation;
     if (mesh.triangles.size() > options_.most_triangles) {
-      return error(ErrorCode::kToleranceNotReached,
-                   fmt::format("the surface needs more than {} triangles", options_.most_triangles))
-          .hint("allow a larger chord tolerance or angle")
-          .value(static_cast<double>(options_.most_triangles));
+      return fail(mesh::too_many_triangles(options_.most_triangles));
     }
     if (measured->any_bad && may_cut) {
       auto cut = trees_[p].improve(measured->bad, seen_[p]);

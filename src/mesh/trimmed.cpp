@@ -13,6 +13,7 @@
 #include "obvid/geom/internal/chord.h"
 #include "obvid/geom/internal/directions.h"
 #include "obvid/surface/internal/trim.h"
+#include "too_many_triangles.h"
 
 namespace obvid::mesh {
 namespace {
@@ -35,11 +36,7 @@ class TrimmedMesher {
       OBVID_TRY(may_go_on(run));
       build();
       if (mesh_.triangles.size() > options_.most_triangles) {
-        return error(
-                   ErrorCode::kToleranceNotReached,
-                   fmt::format("the surface needs more than {} triangles", options_.most_triangles))
-            .hint("allow a larger chord tolerance or angle")
-            .value(static_cast<double>(options_.most_triangles));
+        return fail(too_many_triangles(options_.most_triangles));
       }
       measure();
       if (mesh_.deviation <= options_.chord_tolerance) return std::move(mesh_);

@@ -113,9 +113,6 @@ std::vector<std::string> words_of(string_view text) {
 void SvgStyleSheet::add(string_view css) {
   const std::string plain = without_comments(css);
   string_view rest = plain;
-  const auto not_understood = [this](string_view what) {
-    if (not_understood_.size() < kMostNotUnderstood) not_understood_.emplace_back(trimmed(what));
-  };
   while (!(rest = trimmed(rest)).empty()) {
     bool mark = false;
     for (const string_view one : {"<!--", "-->"}) {
@@ -128,7 +125,7 @@ void SvgStyleSheet::add(string_view css) {
     const std::size_t open = end_of(rest, at_rule ? "{;" : "{");
     const string_view head = rest.substr(0, open);
     if (open == rest.size() || rest[open] == ';') {
-      if (in_small_letters(head).starts_with("@import") || may_hide(head)) not_understood(head);
+      if (in_small_letters(head).starts_with("@import") || may_hide(head)) pass_by(head);
       rest.remove_prefix(std::min(rest.size(), open + 1));
       continue;
     }
@@ -139,7 +136,7 @@ void SvgStyleSheet::add(string_view css) {
     if (!at_rule && body.find('{') == string_view::npos) {
       add_rule(head, body);
     } else if (may_hide(body)) {
-      not_understood(head);
+      pass_by(head);
     }
   }
 }
@@ -231,10 +228,14 @@ void SvgStyleSheet::add_rule(string_view selectors, string_view body) {
     rule.declarations = declarations;
     if (parse_selector(one, rule)) {
       keep(std::move(rule));
-    } else if (hiding && not_understood_.size() < kMostNotUnderstood) {
-      not_understood_.emplace_back(one);
+    } else if (hiding) {
+      pass_by(one);
     }
   }
+}
+
+void SvgStyleSheet::pass_by(string_view what) {
+  if (not_understood_.size() < kMostNotUnderstood) not_understood_.emplace_back(trimmed(what));
 }
 
 /// Where it is looked for: by the id, a class or the name of the element that it means.

@@ -77,6 +77,7 @@ class SvgStyleSheet {
   static std::vector<Declaration> declarations_of(std::string_view body);
   [[nodiscard]] static bool parse_selector(std::string_view text, Rule& rule);
   void add_rule(std::string_view selectors, std::string_view body);
+  void pass_by(std::string_view what);
   void keep(Rule rule);
   void collect(const std::unordered_map<std::string, std::vector<std::size_t>>& from,
                const std::string& key, pugi::xml_node node, std::vector<std::size_t>& out);

@@ -285,8 +285,7 @@ std::string order_text(const PointSeries& series, const CurveOrder& found) {
   if (found.thinned > 0) {
     text += fmt::format(
         "; it is the row of {} of them that are {} {} or more apart: the others stand beside it, "
-        "and "
-        "neighbours nearer than they scatter may follow each other the wrong way round",
+        "and neighbours nearer than they scatter may follow each other the wrong way round",
         found.thinned, significant(found.apart, 3), unit);
   }
   if (found.is_outline) {

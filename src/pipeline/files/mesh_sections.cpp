@@ -98,24 +98,8 @@ std::string coordinates_text(const std::vector<PlaneRow>& planes) {
   return text;
 }
 
-double along(char axis, Vec3 p) { return axis == 'x' ? p.x : axis == 'y' ? p.y : p.z; }
-
-/// Points that a plane across the axis holds, in its coordinates: those of sections there.
-std::optional<PointSeries> series_across(const std::vector<Vec3>& points, char axis) {
-  const double at = along(axis, points.front());
-  PointSeries out;
-  out.name = plane_name(axis, at);
-  for (const Vec3 p : points) {
-    if (along(axis, p) != at) return std::nullopt;
-    out.points.push_back(axis == 'x'   ? Vec2{p.y, p.z}
-                         : axis == 'y' ? Vec2{p.z, p.x}
-                                       : Vec2{p.x, p.y});
-  }
-  return out;
-}
-
 /// What scanners write: points without triangles. Those of a slice are a series.
-Result<Drawing> series_of_cloud(const std::vector<Vec3>& points, const std::string& path,
+Result<Drawing> series_of_cloud(const TriangleMesh& cloud, const std::string& path,
                                 const std::vector<PlaneRow>& planes) {
   if (!planes.empty()) {
     return error(ErrorCode::kBadOption, "planes cut triangles, and " + path + " has points alone")
@@ -125,9 +109,12 @@ Result<Drawing> series_of_cloud(const std::vector<Vec3>& points, const std::stri
   Drawing out;
   out.name = std::filesystem::path(path).filename().string();
   for (const char axis : {'z', 'x', 'y'}) {
-    auto series = series_across(points, axis);
-    if (!series) continue;
-    out.series.push_back(std::move(*series));
+    const auto at = flat_at(cloud, axis);
+    if (!at) continue;
+    const Frame plane = plane_across(axis, *at);
+    PointSeries& series = out.series.emplace_back();
+    series.name = plane_name(axis, *at);
+    for (const Vec3 p : cloud.points) series.points.push_back(plane.in_plane(p));
     if (std::string told = coordinates_text({PlaneRow{axis}}); !told.empty()) {
       out.warnings.push_back(std::move(told));
     }
@@ -147,8 +134,8 @@ Result<Drawing> sections_of_mesh(std::string_view text, const std::string& path,
                                  const std::vector<PlaneRow>& planes, const RunContext& run) {
   const auto mesh = parse_mesh(text, path);
   if (!mesh && mesh.error().code == ErrorCode::kTooFewPoints) {
-    const auto points = parse_mesh_points(text, path);
-    if (points && !points->empty()) return series_of_cloud(*points, path, planes);
+    auto points = parse_mesh_points(text, path);
+    if (points && !points->empty()) return series_of_cloud({std::move(*points), {}}, path, planes);
   }
   OBVID_TRY(mesh);
   if (planes.empty()) return fail(uncut(*mesh, path));

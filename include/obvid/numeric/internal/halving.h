@@ -11,10 +11,14 @@ struct EndOfCondition {
   [[nodiscard]] double middle() const { return 0.5 * (holds + fails); }
 };
 
+/// More than take places of like size to neighbouring doubles.
+inline constexpr int kHalvingsOfDoubles = 200;
+
 /// Narrows that by halving, down to neighbouring doubles or as often as `most` says.
 template <class Condition>
 [[nodiscard]] EndOfCondition end_of_condition(double holds, double fails,
-                                              const Condition& condition, int most = 200) {
+                                              const Condition& condition,
+                                              int most = kHalvingsOfDoubles) {
   EndOfCondition out{holds, fails};
   for (int k = 0; k < most; ++k) {
     const double middle = out.middle();
