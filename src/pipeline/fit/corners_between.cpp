@@ -88,11 +88,6 @@ class CornersBetween {
     return !given && s_.tolerance[i] > 0.0;
   }
 
-  [[nodiscard]] bool is_unbroken(std::size_t gap) const {
-    const auto& unbroken = s_.taken_back.unbroken;
-    return std::find(unbroken.begin(), unbroken.end(), gap) != unbroken.end();
-  }
-
   /// Points that go on from one, it included, as far as they are free, `most` of them.
   [[nodiscard]] std::size_t room(std::size_t from, bool forward, std::size_t most) const {
     const std::size_t n = s_.points.size();
@@ -186,7 +181,7 @@ class CornersBetween {
 
   [[nodiscard]] std::optional<MetCorner> candidate(std::size_t gap) const {
     const std::size_t after = next(gap);
-    if (!is_free(gap) || !is_free(after) || is_unbroken(gap)) return std::nullopt;
+    if (!is_free(gap) || !is_free(after) || s_.taken_back.is_unbroken(gap)) return std::nullopt;
     if (is_one_across(gap, kMostAcross)) return std::nullopt;
     const std::size_t both = across(gap);
     const std::size_t fewest = both == kAlways ? kFewestOfLine : kSideOfAcross * both;

@@ -66,10 +66,6 @@ struct Prepared {
   [[nodiscard]] std::size_t named(std::size_t i) const {
     return is_between(i) ? after[i - measured()] : i;
   }
-  [[nodiscard]] bool is_loose(std::size_t i) const {
-    const auto& loose = taken_back.loose;
-    return std::find(loose.begin(), loose.end(), i) != loose.end();
-  }
   /// The line or arc that a section is.
   [[nodiscard]] std::optional<WholePiece> whole_of(const Section& section) const {
     for (std::size_t k = 0; k < whole.size(); ++k) {

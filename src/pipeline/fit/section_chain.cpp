@@ -21,6 +21,7 @@
 #include "obvid/fairing/internal/fairing.h"
 #include "obvid/geom/internal/angle.h"
 #include "obvid/geom/internal/circle.h"
+#include "obvid/geom/internal/polygon.h"
 #include "obvid/pipeline/internal/strays_text.h"
 #include "obvid/series/analysis.h"
 #include "obvid/series/internal/outliers.h"
@@ -669,7 +670,7 @@ class SectionChooser {
   [[nodiscard]] std::vector<std::size_t> loose_among(const std::vector<std::size_t>& whole) const {
     std::vector<std::size_t> out;
     for (std::size_t k = 0; k < whole.size(); ++k) {
-      if (series_.is_loose(whole[k])) out.push_back(k);
+      if (series_.taken_back.is_loose(whole[k])) out.push_back(k);
     }
     return out;
   }
@@ -758,12 +759,7 @@ class SectionChooser {
   /// Once around, from the place of the first point, the way the points go.
   [[nodiscard]] FairedSeries around_circle(const LeastSquaresCircle& circle) const {
     const Vec2 from = points_.front() - circle.centre;
-    double twice_area = 0.0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      twice_area +=
-          cross(points_[i] - circle.centre, points_[(i + 1) % points_.size()] - circle.centre);
-    }
-    const double side = std::copysign(1.0, twice_area);
+    const double side = std::copysign(1.0, area_of_polygon(points_));
     const int parts = static_cast<int>(std::ceil(kFullTurn / kMostTurnOfPart));
     FairedSeries out;
     out.primitives = 1;
@@ -846,7 +842,7 @@ class SectionChooser {
   [[nodiscard]] bool is_taken_back(const MeantPiece& meant) const {
     std::size_t loose = 0;
     for (std::size_t i = meant.first; i <= meant.last; ++i) {
-      loose += series_.is_loose(index_[i % index_.size()]) ? 1 : 0;
+      loose += series_.taken_back.is_loose(index_[i % index_.size()]) ? 1 : 0;
     }
     return 2 * loose > meant.last - meant.first;
   }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/shape.h"
-#include "obvid/numeric/internal/small_system.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+
+#include "obvid/numeric/internal/small_system.h"
 
 namespace obvid::pipeline_detail {
 namespace {

@@ -11,10 +11,6 @@
 namespace obvid::pipeline_detail {
 namespace {
 
-bool has_index(const std::vector<std::size_t>& all, std::size_t one) {
-  return std::find(all.begin(), all.end(), one) != all.end();
-}
-
 /// How many points lie between one and a line or arc, the nearer way; 0 on it.
 std::size_t points_away(const LineOrArc& one, std::size_t point, std::size_t points, bool closed) {
   const std::size_t over = (one.to + points - one.from) % points;
@@ -30,7 +26,7 @@ std::size_t points_away(const LineOrArc& one, std::size_t point, std::size_t poi
 bool take_back_corners(const Contour& contour, double angle, TakenBack& out) {
   bool any = false;
   for (const Joint& joint : contour.joints) {
-    if (!joint.after || !joint.leaving || has_index(out.unbroken, *joint.after)) continue;
+    if (!joint.after || !joint.leaving || out.is_unbroken(*joint.after)) continue;
     if (std::abs(turn_between(joint.element.theta, joint.leaving->theta)) >= angle) continue;
     out.unbroken.push_back(*joint.after);
     any = true;
@@ -44,13 +40,13 @@ bool take_back_nearest(const std::vector<LineOrArc>& all, std::size_t point, std
   std::size_t least = points;
   for (const LineOrArc& one : all) {
     const std::size_t away = points_away(one, point, points, closed);
-    if (has_index(out.loose, one.from) || away >= least) continue;
+    if (out.is_loose(one.from) || away >= least) continue;
     nearest = &one;
     least = away;
   }
   if (nearest == nullptr) return false;
   for (std::size_t i = nearest->from;; i = (i + 1) % points) {
-    if (!has_index(out.loose, i)) out.loose.push_back(i);
+    if (!out.is_loose(i)) out.loose.push_back(i);
     if (i == nearest->to) break;
   }
   out.told.push_back(fmt::format(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,6 +17,14 @@ struct TakenBack {
   std::vector<std::size_t> loose;     ///< measured points that lie on no line and no arc
   std::vector<std::size_t> unbroken;  ///< no corner lies between one of these and the next
   std::vector<std::string> told;      ///< of lines and arcs, for the user
+
+  [[nodiscard]] bool is_loose(std::size_t point) const { return contains(loose, point); }
+  [[nodiscard]] bool is_unbroken(std::size_t gap) const { return contains(unbroken, gap); }
+
+ private:
+  [[nodiscard]] static bool contains(const std::vector<std::size_t>& all, std::size_t one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+  }
 };
 
 /// Corners between two points at which the contour turns by less than `angle`, rad, are none: where

@@ -50,7 +50,7 @@ class Laying {
       if (!s_.fixed.empty() && s_.fixed[i].says_how()) return std::nullopt;
       if (k == section.first && begins_at_corner(section)) continue;
       if (k == section.last && ends_at_corner(section)) continue;
-      if (!(s_.reach[i] > 0.0) || s_.is_loose(i)) return std::nullopt;
+      if (!(s_.reach[i] > 0.0) || s_.taken_back.is_loose(i)) return std::nullopt;
       points.at.push_back(s_.points[i]);
       points.reach.push_back(s_.reach[i]);
     }

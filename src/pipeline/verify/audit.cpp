@@ -502,9 +502,9 @@ class Auditor {
            (at.t >= 1.0 - kStep && is_singular_end(piece, 1.0));
   }
 
-  /// The extremum nearest to a sample inside its piece, where the rate of curvature is 0.
   static constexpr int kHalvings = 50;  // to rounding: a piece has parameters of about 1
 
+  /// The extremum nearest to a sample inside its piece, where the rate of curvature is 0.
   [[nodiscard]] Sample refined(Sample at) const {
     const Piece& piece = out_.contour.pieces[at.piece];
     const auto rate = [&](double t) { return curvature_rate(evaluate(piece, t)); };
