@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/curve/internal/curvature_extent.h"
-#include "obvid/numeric/internal/golden.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "obvid/numeric/internal/golden.h"
 
 namespace obvid {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "obvid/region/internal/feasible_data.h"
-#include "obvid/numeric/internal/golden.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "obvid/numeric/internal/golden.h"
 #include "range_middle.h"
 
 namespace obvid {

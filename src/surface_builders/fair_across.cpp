@@ -12,6 +12,7 @@
 #include "across_lines.h"
 #include "banded_program.h"
 #include "obvid/core/internal/parallel.h"
+#include "obvid/numeric/internal/halving.h"
 #include "obvid/surface_builders/internal/lighten.h"
 #include "ripple_meter.h"
 #include "skin_breaks.h"
@@ -835,21 +836,21 @@ class Correction {
         }
         return meter.ripple();
       };
-      if (against(1.0) <= kRowShare * allowed[k]) return;
+      const double whole = against(1.0);
+      if (whole <= kRowShare * allowed[k]) return;
       remember_falls(k, runs[k], d1, d2, meter_at, kRowShare * allowed[k]);
-      if (against(1.0) <= allowed[k]) return;
-      double low = 0.0, high = 1.0;
-      for (int step = 0; step < 10; ++step) {
-        const double middle = (low + high) / 2.0;
-        (against(middle) <= allowed[k] ? low : high) = middle;
-      }
+      if (whole <= allowed[k]) return;
+      constexpr int kHalvingsOfShare = 10;  // to a thousandth of the correction
+      const auto keeps = [&](double part) { return against(part) <= allowed[k]; };
+      const double share = end_of_condition(0.0, 1.0, keeps, kHalvingsOfShare).holds;
       for (std::size_t i = 0; i < count_; ++i) {
-        moved_[k * count_ + i] = low * moved_[k * count_ + i];
+        moved_[k * count_ + i] = share * moved_[k * count_ + i];
       }
       // so deep a fall that rows of first order are no guide: less room in the next round
-      if (along_.narrows && against(1.0) > kNoGuide) box_[k] *= std::max(low, kLeastShare);
+      if (along_.narrows && whole > kNoGuide) box_[k] *= std::max(share, kLeastShare);
     });
   }
+
   void remember_falls(std::size_t k, const RunPlaces& runs, const std::vector<Vec2>& d1,
                       const std::vector<Vec2>& d2, const std::vector<double>& meter_at,
                       double share) {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "obvid/core/units.h"
 #include "obvid/geom/internal/directions.h"
 #include "obvid/surface/internal/topology.h"
 
@@ -282,7 +282,7 @@ class BallWalker {
               "the faces differ there by an angle of {:.3g} degrees only; where that comes down to "
               "0 "
               "they touch each other, and no radius goes on: cut the faces before that place",
-              2.0 * std::asin(apart / 2.0) * 180.0 / std::numbers::pi))
+              angle_between(at_.touch[0].inwards, at_.touch[1].inwards) / kOneDegree))
           .value(at_.radius);
     }
     return error(ErrorCode::kSurfaceFolds, what)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scatter_outliers.h"
-#include "obvid/numeric/internal/median.h"
-#include "obvid/numeric/internal/small_system.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "obvid/numeric/internal/median.h"
+#include "obvid/numeric/internal/small_system.h"
 
 namespace obvid {
 namespace {

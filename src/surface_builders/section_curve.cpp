@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "section_curve.h"
-#include "obvid/numeric/internal/halving.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "obvid/numeric/internal/halving.h"
 
 namespace obvid {
 namespace {

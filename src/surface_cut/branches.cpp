@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "branches.h"
-#include "obvid/geom/internal/chord.h"
-#include "obvid/numeric/internal/halving.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "obvid/geom/internal/chord.h"
+#include "obvid/numeric/internal/halving.h"
 
 namespace obvid {
 namespace {

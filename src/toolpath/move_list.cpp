@@ -14,11 +14,7 @@ double length_of(const std::vector<Vec3>& points) {
 void MoveList::add(ToolMove kind, std::vector<Vec3> points, PassPlane plane) {
   at_ = points.back();
   begun_ = true;
-  ToolpathReport& report = out_.report;
-  if (kind == ToolMove::kPass) ++report.passes;
-  (kind == ToolMove::kRapid    ? report.rapid_length
-   : kind == ToolMove::kPlunge ? report.plunge_length
-                               : report.cutting_length) += length_of(points);
+  if (kind == ToolMove::kPass) ++out_.report.passes;
   out_.moves.push_back({kind, plane, std::move(points)});
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "space/paths.h"
-#include "obvid/geom/internal/chord.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "obvid/geom/internal/chord.h"
 
 namespace obvid::picture {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "space/space_shape.h"
-#include "obvid/numeric/internal/halving.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "obvid/numeric/internal/halving.h"
 
 namespace obvid::pipeline_detail {
 namespace {
