@@ -462,7 +462,8 @@ class Correction {
             off.most(knots_[i], knots_[i + kSkinDegree + 1], axes.direction);
         std::array<double, 3> used{};
         for (std::size_t c = 0; c < 3; ++c) used[c] = most[c] / (how_.tolerance * box_[k]);
-        double rest = 1.0 - 1e-9;
+        constexpr double kRoundings = 1e-9;  // of the square of the tolerance: corners stay inside
+        double rest = 1.0 - kRoundings;
         for (std::size_t c = 1; c < 3; ++c) {
           const double with = used[c] + axes.half[c];
           rest -= with * with;

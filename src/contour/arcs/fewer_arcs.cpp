@@ -26,6 +26,8 @@ constexpr double kSettledSum = 1e-3;  // of the sum: what a step that ends a pow
 constexpr double kDampingFirst = 1e-3, kDampingLeast = 1e-9, kDampingLast = 1e6;
 constexpr double kMostOfPair = 0.3;  // that a node may move along in one step, of a pair
 constexpr double kMostRatio = 4.0;   // of legs
+/// Of whatever unit: sums and pivots of a curve that bends nowhere stay what can be divided by.
+constexpr double kNotNothing = 1e-300;
 /// Of the density: what straight and round places have all the same, so that nodes are apart.
 constexpr double kLeastDensity = 0.02;
 
@@ -77,7 +79,7 @@ class PairFit {
     const double mean =
         std::accumulate(density.begin(), density.end(), 0.0) / static_cast<double>(looks);
     for (std::size_t k = 0; k < looks; ++k) {
-      sum[k + 1] = sum[k] + density[k] + kLeastDensity * mean + 1e-300;
+      sum[k + 1] = sum[k] + density[k] + kLeastDensity * mean + kNotNothing;
     }
     states_.assign(n_ + (along_.closed ? 0 : 1), {});
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -227,7 +229,7 @@ class PairFit {
       while (!better && damping <= kDampingLast) {
         BandedMatrix damped = normal;
         for (std::size_t k = 0; k < size; ++k) {
-          damped.at(k, k) += damping * damped.at(k, k) + 1e-300;
+          damped.at(k, k) += damping * damped.at(k, k) + kNotNothing;
         }
         if (damped.factor()) {
           const std::vector<double> move = damped.solve(right);
