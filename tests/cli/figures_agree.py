@@ -54,6 +54,7 @@ SERIES = [
 ]
 DRAWINGS = [("cad_dxf/*", 3), ("cad_svg/*", 4), ("roads_opendrive/*.xodr", 1), ("landxml/*", 1)]
 # Larger ones are left to --all: the test is for every day. Twice as large where a set has no such file.
+SECONDS_BETWEEN_LINES = 60  # that tell how far a sweep is
 BYTES_OF_A_SMALL_FILE = 2500
 # kind, files (patterns that give one file each), options: sets of matrices belong together
 SURFACES = [("skin", ["hulls_grids/Series60Offset_%s.dat"], []),
@@ -910,6 +911,7 @@ def main():
     start = time.monotonic()
     bad = checks = runs = formed = 0
     slowest = []
+    told = start
 
     def work(job):
         begun = time.monotonic()
@@ -931,6 +933,10 @@ def main():
                 print("DISAGREE " + " ".join([str(job[0]), *(job[1] if len(job) == 3 else [])]), flush=True)
                 for fault in faults:
                     print("    " + (fault if len(fault) < 400 else fault[:400] + " ..."))
+            if time.monotonic() - told >= SECONDS_BETWEEN_LINES:
+                told = time.monotonic()
+                print(f"{len(slowest)} of {len(jobs)} sets of options after {told - start:.0f} s: "
+                      f"{checks} comparisons, {bad} disagree", flush=True)
     swept = len({job[0] for job in jobs})
     print(f"{swept} of {there} files swept ({len(jobs)} sets of options, {runs} runs, {formed} "
           f"contours and curves): {checks} comparisons, {bad} of {len(jobs)} disagree; "

@@ -71,6 +71,33 @@ TEST(FeasibleRange, HeadingsAreGivenInTheFirstTurn) {
   EXPECT_LT(range->greatest, 0.5 * std::numbers::pi);
 }
 
+/// An ellipse of 50 nm at an offset of 20,000 times its size: with continuous slopes not all can be
+/// kept that can be kept without.
+TEST(FeasibleRange, IsThatOfTheContinuityThatWasAskedFor) {
+  PointSeries series;
+  for (const Vec2 p :
+       {Vec2{18380.395211745472, 9723.4389462065756}, Vec2{18380.39521146924, 9723.4389404850863},
+        Vec2{18380.395210448674, 9723.4389338480796}, Vec2{18380.395208314942, 9723.4389262367713},
+        Vec2{18380.395204570461, 9723.4389176611603}, Vec2{18380.395198568542, 9723.4389082616744},
+        Vec2{18380.395189514365, 9723.438898405042}}) {
+    series.points.push_back(p);
+  }
+  FitJob job;
+  job.noise = 2.112e-10;
+  job.continuity = Continuity::kG3;
+  FitJob asked = job;
+  asked.start_kappa = -1.0 / 5.2966101694915253e-05;
+  asked.start_kappas = ValueRange{1.0 / 9.2706720995227131e-06, 1.0 / 7.4755012534441943e-06};
+  const auto refused = fit(series, asked);
+  ASSERT_FALSE(refused);
+  const auto range = feasible_range(series, asked, refused.error());
+  ASSERT_TRUE(range);
+  for (const double value : {range->least, range->greatest}) {
+    job.start_kappa = value;
+    EXPECT_TRUE(fit(series, job)) << value;
+  }
+}
+
 TEST(FeasibleRange, IsNothingWhereNothingIsFixed) {
   FitJob job;
   job.convex = true;

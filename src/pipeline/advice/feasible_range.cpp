@@ -127,7 +127,7 @@ class RangeSearch {
     PointSeries series = series_;
     FitJob job = job_;
     job.measure_against_spirals = false;  // asked for is whether there is one
-    job.continuity = Continuity::kG2;
+    if (job.continuity != Continuity::kG3) job.continuity = Continuity::kG2;  // gives way to it
     const bool heading = given.datum == Datum::kHeading;
     const auto drop = [heading](auto& data) {
       (heading ? data.theta : data.kappa).reset();
