@@ -13,6 +13,8 @@ namespace {
 
 /// Steps of the search for the place where a piece enters the reach of a point.
 constexpr int kEntrySteps = 30;
+/// Places of the first point on a closed contour that are tried.
+constexpr int kMostStarts = 32;
 
 /// A place along the contour, counted on around a closed one.
 struct Along {
@@ -27,10 +29,16 @@ struct Along {
 /// Follows the contour once and meets the points on the way.
 class Passage {
  public:
-  Passage(const Contour& contour, Along from) : contour_(contour), here_(from), last_(from) {
+  /// Of a closed contour so many times around.
+  Passage(const Contour& contour, Along from, std::size_t rounds = 1)
+      : contour_(contour), here_(from), last_(from) {
     const std::size_t n = contour.pieces.size();
-    last_ = contour.closed ? Along{from.piece + n, from.t} : Along{n - 1, 1.0};
+    last_ = contour.closed ? Along{from.piece + rounds * n, from.t} : Along{n - 1, 1.0};
   }
+
+  [[nodiscard]] Along here() const { return here_; }
+  /// From here on once around.
+  void end_around() { last_ = {here_.piece + contour_.pieces.size(), here_.t}; }
 
   /// Goes on to the place, or stays where it is when that is near enough.
   bool meet_at(std::size_t i, Along place) {
@@ -111,6 +119,44 @@ double allowed_distance(const Contour& contour, std::size_t i) {
   return tolerance + kRoundings * (std::abs(p.x) + std::abs(p.y));
 }
 
+namespace {
+
+/// The points that are not met once around from where the first one is.
+std::vector<std::size_t> missed_once_around(const Contour& contour, Along start,
+                                            std::size_t points) {
+  Passage careful(contour, start, contour.closed ? 2 : 1);
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < points; ++i) {
+    if (!careful.meet_first(i)) out.push_back(i);
+    if (i == 0 && contour.closed) careful.end_around();
+  }
+  return out;
+}
+
+/// Whether a closed contour meets all points once around from some place of the first one. Where
+/// the last one is met behind a whole round from there, no place of the first one will do that is
+/// farther before it: the next to try lies a round before the last.
+bool goes_around(const Contour& contour, const Along begin, std::size_t points) {
+  const std::size_t n = contour.pieces.size();
+  Along start = begin;
+  for (int k = 0; k < kMostStarts; ++k) {
+    Passage passage(contour, start, 3);
+    if (!passage.meet_first(0)) return false;
+    const Along first = passage.here();
+    if (Along{begin.piece + n, begin.t} < first) return false;
+    for (std::size_t i = 1; i < points; ++i) {
+      if (!passage.meet_first(i)) return false;
+    }
+    const Along last = passage.here();
+    if (last.piece < n) return true;
+    start = {last.piece - n, last.t};
+    if (!(first < start)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<std::size_t> out_of_order(const Contour& contour, const std::vector<Nearest>& places) {
   if (places.empty() || contour.pieces.empty()) return {};
   const Along first = contour.closed ? Along{places[0].piece, places[0].t} : Along{};
@@ -119,12 +165,9 @@ std::vector<std::size_t> out_of_order(const Contour& contour, const std::vector<
   while (met < places.size() && quick.meet_at(met, counted_on(contour, places[met], first))) ++met;
   if (met == places.size()) return {};
   // the nearest places may stand against the order where tolerances are wide: take the first ones
-  Passage careful(contour, contour.closed ? before_reach(contour, places[0]) : first);
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!careful.meet_first(i)) out.push_back(i);
-  }
-  return out;
+  const Along begin = contour.closed ? before_reach(contour, places[0]) : first;
+  if (contour.closed && goes_around(contour, begin, places.size())) return {};
+  return missed_once_around(contour, begin, places.size());
 }
 
 std::vector<std::size_t> points_out_of_order(const Contour& contour, Watch& watch) {

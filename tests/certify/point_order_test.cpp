@@ -151,5 +151,28 @@ TEST(PointOrder, AContourWithoutPointsPassesNone) {
   EXPECT_FALSE(certificate.through_points) << "the same point five times";
 }
 
+/// Two points change places within their tolerances, so the nearest places do not do; the others
+/// stand in order, the last one beside the first.
+Contour nearly_around(double first, double reach, double last) {
+  Contour contour = closed_circle(points_at({first, 1.5, 1.45, 3.0, 5.0, last}), 0.3);
+  contour.point_tolerance.front() = 10.0 * std::sin(0.5 * reach);  // a chord of the circle
+  contour.point_tolerance.back() = 0.05;
+  return contour;
+}
+
+TEST(PointOrder, OnceAroundAClosedContourEndsWhereTheFirstPointIsMet) {
+  // an arc goes from 0 to 0.785: the first point in it, and the last one before it
+  EXPECT_TRUE(certify(nearly_around(0.5, 0.01, 0.2)).through_points)
+      << certify(nearly_around(0.5, 0.01, 0.2)).reason;
+  EXPECT_FALSE(certify(nearly_around(0.5, 0.01, 0.6)).through_points);
+}
+
+TEST(PointOrder, TheFirstPointMayBeMetLateSoThatTheLastOneIsMetBeforeIt) {
+  // the first one from 0.2 to 0.8, the last one at 0.6
+  EXPECT_TRUE(certify(nearly_around(0.5, 0.3, 0.6)).through_points)
+      << certify(nearly_around(0.5, 0.3, 0.6)).reason;
+  EXPECT_FALSE(certify(nearly_around(0.5, 0.05, 0.6)).through_points);
+}
+
 }  // namespace
 }  // namespace obvid

@@ -149,6 +149,9 @@ class TextCheck {
     for (std::size_t k = 0; k < course_.parts.size(); ++k) {
       const Part& part = course_.parts[k];
       if (name == fmt::format("{}-{}", part.from_point + 1, part.to_point + 1)) return k;
+    }
+    for (std::size_t k = 0; k < course_.parts.size(); ++k) {
+      const Part& part = course_.parts[k];
       // the last chord of a closed series goes on counting
       if (part.to_point == 0 &&
           name == fmt::format("{}-{}", part.from_point + 1, part.from_point + 2)) {
