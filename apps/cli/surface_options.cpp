@@ -168,8 +168,10 @@ struct KindOptions {
     app.add_option("--fair-across", raw.values.fair_across,
                    "Each section may move by this, input units, where lines across then change "
                    "their bending less often; curvature along goes against its run by no more than "
-                   "0.1 % of the section's largest, or as much as before; with --light, which is "
-                   "less, sections move by this all in all [sections stay]")
+                   "0.1 % of the section's largest (where the exact section has lost more, by "
+                   "as much as that, and by 0.1 % against its own run); with --light, which is "
+                   "less, sections move by this "
+                   "all in all [sections stay]")
         ->type_name("EPS");
   }
   void operator()(const RuledKind&) const {

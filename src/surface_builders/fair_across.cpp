@@ -45,6 +45,8 @@ constexpr double kStringShare = 0.87;
 constexpr double kMostOfLength = 0.01;
 /// Of the section's largest curvature: what may be lost against its run.
 constexpr double kMostAgainstRun = 0.9e-3;
+/// Of that curvature: what turns back by less has not turned.
+constexpr double kNoTurn = 1e-4;
 /// Of that: a run that lost more gets a row of its own in the next round, which asks for this.
 constexpr double kRowShare = 0.5;
 /// Of the section's largest curvature: a fall that rows of first order are no guide for; and the
@@ -194,13 +196,27 @@ std::vector<RunFall> falls_of(const std::vector<double>& wanted, const std::vect
   return out;
 }
 
-/// Where curvature along one section is looked at: of the contour, and what it is made of.
+/// Runs that the curvature of a section keeps to, and by how much it may fall against them, of the
+/// largest curvature there.
+struct RunGuide {
+  std::vector<double> run;
+  double allowed = 0.0;
+};
+
+/// Where curvature along one section is looked at: whose runs it keeps to (the contour's, and the
+/// given surface's own where that has lost those), and what it is made of.
 struct RunPlaces {
-  std::vector<double> wanted;
+  std::vector<RunGuide> guides;
   std::vector<Vec2> d1, d2;  ///< of the given surface, in the plane of the section
 };
 
 Vec2 in_plane(const Frame& frame, Vec3 v) { return {dot(v, frame.x), dot(v, frame.y)}; }
+
+double ripple_of(const std::vector<double>& run, const std::vector<double>& found) {
+  RippleMeter meter;
+  for (std::size_t i = 0; i < run.size(); ++i) meter.add(run[i], found[i]);
+  return meter.ripple();
+}
 
 double curvature_of(Vec2 d1, Vec2 d2) {
   const double speed = norm(d1);
@@ -300,8 +316,7 @@ class Correction {
   }
 
   [[nodiscard]] Result<void> improve(const std::vector<RunPlaces>& runs,
-                                     const std::vector<double>& meter_at,
-                                     const std::vector<double>& allowed, const RunContext& run,
+                                     const std::vector<double>& meter_at, const RunContext& run,
                                      double from, double to) {
     BandedProgram program{how_.v.size(), 3 * count_, {}, light_};
     add_aim(program);
@@ -313,7 +328,7 @@ class Correction {
     rebuild();
     wished_ = current_;
     if (light_) return {};
-    OBVID_TRY(keep_runs(runs, meter_at, allowed, run));
+    OBVID_TRY(keep_runs(runs, meter_at, run));
     rebuild();
     return {};
   }
@@ -811,8 +826,7 @@ class Correction {
   /// A section whose curvature goes against its run takes a share of its correction that does not:
   /// none never does. Where it went so the next round has rows.
   [[nodiscard]] Result<void> keep_runs(const std::vector<RunPlaces>& runs,
-                                       const std::vector<double>& meter_at,
-                                       const std::vector<double>& allowed, const RunContext& run) {
+                                       const std::vector<double>& meter_at, const RunContext& run) {
     std::vector<BasisValues> basis;
     for (const double u : meter_at) basis.push_back(basis_at(kSkinDegree, knots_, u, 2));
     return in_parallel(how_.v.size(), run, [&](std::size_t k) {
@@ -829,42 +843,48 @@ class Correction {
         d1.push_back(how_.tolerance * in_plane(frame, first));
         d2.push_back(how_.tolerance * in_plane(frame, second));
       }
+      // 1: as much as is allowed
       const auto against = [&](double part) {
-        RippleMeter meter;
+        std::vector<double> found;
         for (std::size_t i = 0; i < meter_at.size(); ++i) {
-          meter.add(runs[k].wanted[i],
-                    curvature_of(runs[k].d1[i] + part * d1[i], runs[k].d2[i] + part * d2[i]));
+          found.push_back(curvature_of(runs[k].d1[i] + part * d1[i], runs[k].d2[i] + part * d2[i]));
         }
-        return meter.ripple();
+        double worst = 0.0;
+        for (const RunGuide& guide : runs[k].guides) {
+          worst = std::max(worst, ripple_of(guide.run, found) / guide.allowed);
+        }
+        return worst;
       };
       const double whole = against(1.0);
-      if (whole <= kRowShare * allowed[k]) return;
-      remember_falls(k, runs[k], d1, d2, meter_at, kRowShare * allowed[k]);
-      if (whole <= allowed[k]) return;
+      if (whole <= kRowShare) return;
+      remember_falls(k, runs[k], d1, d2, meter_at);
+      if (whole <= 1.0) return;
       constexpr int kHalvingsOfShare = 10;  // to a thousandth of the correction
-      const auto keeps = [&](double part) { return against(part) <= allowed[k]; };
+      const auto keeps = [&](double part) { return against(part) <= 1.0; };
       const double share = end_of_condition(0.0, 1.0, keeps, kHalvingsOfShare).holds;
       for (std::size_t i = 0; i < count_; ++i) {
         moved_[k * count_ + i] = share * moved_[k * count_ + i];
       }
       // so deep a fall that rows of first order are no guide: less room in the next round
-      if (along_.narrows && whole > kNoGuide) box_[k] *= std::max(share, kLeastShare);
+      if (along_.narrows && whole * kMostAgainstRun > kNoGuide)
+        box_[k] *= std::max(share, kLeastShare);
     });
   }
 
   void remember_falls(std::size_t k, const RunPlaces& runs, const std::vector<Vec2>& d1,
-                      const std::vector<Vec2>& d2, const std::vector<double>& meter_at,
-                      double share) {
+                      const std::vector<Vec2>& d2, const std::vector<double>& meter_at) {
     std::vector<double> found;
-    double largest = 0.0;
     for (std::size_t i = 0; i < meter_at.size(); ++i) {
       found.push_back(curvature_of(runs.d1[i] + d1[i], runs.d2[i] + d2[i]));
-      largest = std::max(largest, std::abs(runs.wanted[i]));
     }
-    const double least = share * largest;
-    for (RunFall& fall : falls_of(runs.wanted, found, meter_at, least)) {
-      fall.by = least;
-      falls_[k].push_back(fall);
+    for (const RunGuide& guide : runs.guides) {
+      double largest = 0.0;
+      for (const double kappa : guide.run) largest = std::max(largest, std::abs(kappa));
+      const double least = kRowShare * guide.allowed * largest;
+      for (RunFall& fall : falls_of(guide.run, found, meter_at, least)) {
+        fall.by = least;
+        falls_[k].push_back(fall);
+      }
     }
   }
 
@@ -906,13 +926,44 @@ std::vector<double> meter_places(const std::vector<double>& breaks) {
   return out;
 }
 
+/// Runs of a curvature: as it is where it turns, even between. Where it turns back by no more than
+/// `kNoTurn` of the largest the run goes on.
+std::vector<double> runs_of(const std::vector<double>& kappa) {
+  double largest = 0.0;
+  for (const double one : kappa) largest = std::max(largest, std::abs(one));
+  const double least = kNoTurn * largest;
+  std::vector<std::size_t> turns{0};
+  std::size_t low = 0, high = 0;
+  int direction = 0;
+  for (std::size_t i = 1; i < kappa.size(); ++i) {
+    if (kappa[i] > kappa[high]) high = i;
+    if (kappa[i] < kappa[low]) low = i;
+    const bool falls = direction >= 0 && kappa[high] - kappa[i] > least;
+    const bool rises = direction <= 0 && kappa[i] - kappa[low] > least;
+    if (!falls && !rises) continue;
+    if (direction != 0) turns.push_back(falls ? high : low);
+    direction = falls ? -1 : 1;
+    low = high = i;
+  }
+  turns.push_back(kappa.size() - 1);
+  std::vector<double> out(kappa.size(), kappa.front());
+  for (std::size_t k = 0; k + 1 < turns.size(); ++k) {
+    const std::size_t from = turns[k], to = turns[k + 1];
+    for (std::size_t i = from + 1; i <= to; ++i) {
+      const double part = static_cast<double>(i - from) / static_cast<double>(to - from);
+      out[i] = std::lerp(kappa[from], kappa[to], part);
+    }
+  }
+  return out;
+}
+
 RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
                      const std::vector<double>& at) {
   RunPlaces out;
   const SectionCurve& section = stretch.sections[k];
   if (section.is_point()) return out;
   const SpaceCurve curve = isocurve_at_v(stretch.surface, v);
-  std::vector<double> kappa;
+  std::vector<double> kappa, own;
   double largest = 0.0;
   for (const double u : at) {
     kappa.push_back(plane_curvature(section.at(u), section.frame()));
@@ -920,15 +971,18 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
     const SpaceJet jet = evaluate(curve, u);
     out.d1.push_back(in_plane(section.frame(), jet.d1));
     out.d2.push_back(in_plane(section.frame(), jet.d2));
+    own.push_back(curvature_of(out.d1.back(), out.d2.back()));
   }
   // straight and circular stretches: rounding is no run, the one before goes on
   constexpr double kRoundingOfRuns = 1e-9;
-  out.wanted.push_back(kappa.front());
+  std::vector<double> run{kappa.front()};
   for (std::size_t i = 1; i < kappa.size(); ++i) {
     const double change = kappa[i] - kappa[i - 1];
-    out.wanted.push_back(out.wanted.back() +
-                         (std::abs(change) > kRoundingOfRuns * largest ? change : 0.0));
+    run.push_back(run.back() + (std::abs(change) > kRoundingOfRuns * largest ? change : 0.0));
   }
+  const double lost = ripple_of(run, own);
+  out.guides.push_back({std::move(run), std::max(lost, kMostAgainstRun)});
+  if (lost > kMostAgainstRun) out.guides.push_back({runs_of(own), kMostAgainstRun});
   return out;
 }
 
@@ -967,26 +1021,17 @@ NurbsSurface sum_of(const NurbsSurface& surface, const NurbsSurface& added) {
 
 namespace {
 
-/// What levels have in common: where runs are measured, of the given surface, and what each section
-/// may lose of its run.
+/// What levels have in common: where runs are measured, and the runs there.
 struct GivenRuns {
   std::vector<double> at;
   std::vector<RunPlaces> runs;
-  std::vector<double> allowed;
 };
 
 Result<GivenRuns> given_runs(const SkinStretch& stretch, const std::vector<double>& v,
                              const RunContext& run) {
-  GivenRuns out{meter_places(stretch.breaks), std::vector<RunPlaces>(v.size()),
-                std::vector<double>(v.size())};
-  OBVID_TRY(in_parallel(v.size(), run, [&](std::size_t k) {
-    out.runs[k] = run_places(stretch, k, v[k], out.at);
-    RippleMeter meter;
-    for (std::size_t i = 0; i < out.runs[k].wanted.size(); ++i) {
-      meter.add(out.runs[k].wanted[i], curvature_of(out.runs[k].d1[i], out.runs[k].d2[i]));
-    }
-    out.allowed[k] = std::max(meter.ripple(), kMostAgainstRun);
-  }));
+  GivenRuns out{meter_places(stretch.breaks), std::vector<RunPlaces>(v.size())};
+  OBVID_TRY(in_parallel(
+      v.size(), run, [&](std::size_t k) { out.runs[k] = run_places(stretch, k, v[k], out.at); }));
   return out;
 }
 
@@ -1021,8 +1066,7 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
     for (std::size_t round = 0; round < along.rounds && goes_on(); ++round) {
       const double start = from + (to - from) * begun / kParts;
       begun += 1.0;
-      OBVID_TRY(correction.improve(kept.runs, kept.at, kept.allowed, run, start,
-                                   start + (to - from) / kParts));
+      OBVID_TRY(correction.improve(kept.runs, kept.at, run, start, start + (to - from) / kParts));
       const auto left = waves_of(stretch, correction.surface(), wanted, run);
       OBVID_TRY(left);
       // shallow waves are waves, too
@@ -1118,7 +1162,7 @@ Result<void> improve_light(const SkinStretch& stretch, const FairAcross& wanted,
     // each from the light skin: signs that runs have bent are no good ones
     Correction correction(stretch, given, wanted,
                           Along{0, 0, kLightRunPlaces, kLightRuns[n], false}, given.knots_u, false);
-    OBVID_TRY(correction.improve({}, {}, {}, run, part(n), part(n + 1)));
+    OBVID_TRY(correction.improve({}, {}, run, part(n), part(n + 1)));
     const std::vector<double> moved = correction.moved();
     if (*std::max_element(moved.begin(), moved.end()) > wanted.tolerance) continue;
     const auto waves = waves_of(stretch, correction.surface(), wanted, run);

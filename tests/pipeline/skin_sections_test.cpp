@@ -279,6 +279,95 @@ TEST(SkinSections, FairAcrossLeavesFewChangesBeyondTheForcedOnes) {
   }
 }
 
+/// Breaks of a surface along, and places between them.
+std::vector<double> places_along(const NurbsSurface& s) {
+  constexpr int kPlacesOfSpan = 6;
+  std::vector<double> out;
+  for (std::size_t i = 1; i < s.knots_u.size(); ++i) {
+    const double from = s.knots_u[i - 1], to = s.knots_u[i];
+    if (from == to) continue;
+    out.push_back(from);
+    for (int k = 0; k < kPlacesOfSpan; ++k) {
+      out.push_back(std::lerp(from, to, (k + 0.5) / kPlacesOfSpan));
+    }
+  }
+  return out;
+}
+
+/// Curvature in the plane of a station, along it.
+std::vector<double> station_curvature(const NurbsSurface& s, double v,
+                                      const std::vector<double>& places) {
+  std::vector<double> out;
+  for (const double u : places) {
+    const SurfaceJet jet = evaluate(s, u, v);
+    const double speed = std::hypot(jet.du.y, jet.du.z);
+    out.push_back((jet.du.y * jet.duu.z - jet.du.z * jet.duu.y) / (speed * speed * speed));
+  }
+  return out;
+}
+
+/// Largest fall of one curvature against the runs of another, share of the largest of that. Where
+/// it turns back by a ten thousandth of that or less it has not turned.
+double fall_against(const std::vector<double>& run, const std::vector<double>& found) {
+  double largest = 0.0;
+  for (const double kappa : run) largest = std::max(largest, std::abs(kappa));
+  double worst = 0.0;
+  for (const double sign : {1.0, -1.0}) {
+    // rising stretches of sign * run: from each lowest place to the highest before it falls again
+    std::size_t low = 0, high = 0;
+    const auto judge = [&] {
+      double most = sign * found[low];
+      for (std::size_t i = low; i <= high; ++i) {
+        most = std::max(most, sign * found[i]);
+        worst = std::max(worst, most - sign * found[i]);
+      }
+    };
+    for (std::size_t i = 1; i < run.size(); ++i) {
+      if (sign * run[i] > sign * run[high]) high = i;
+      if (sign * (run[high] - run[i]) > 1e-4 * largest) {
+        if (sign * (run[high] - run[low]) > 1e-4 * largest) judge();
+        low = high = i;
+      } else if (sign * run[i] < sign * run[low]) {
+        low = high = i;
+      }
+    }
+    if (sign * (run[high] - run[low]) > 1e-4 * largest) judge();
+  }
+  return worst / largest;
+}
+
+/// Stations of Gunnerus behind midships: as exact ones they lose up to a tenth of their runs, and
+/// what they have left is not for correction to take.
+TEST(SkinFairAcrossSections, KeepOwnRunsWhereThoseOfTheContourAreLost) {
+  SKIP_WITHOUT("found/files");
+  auto all = read_sections({(shared_data() / "found/files/gunnerus_offsets.csv").string()});
+  ASSERT_TRUE(all) << all.error().what;
+  std::vector<SpaceSeries> stations;
+  for (SpaceSeries& one : *all) {
+    const double x = one.points.front().x;
+    if (x > 0.19 && x < 0.34) stations.push_back(std::move(one));
+  }
+  ASSERT_EQ(stations.size(), 10u);
+  SkinJob job;
+  job.fair_across = 1.5e-4;
+  const auto fair = fit_skin(stations, job);
+  ASSERT_TRUE(fair) << fair.error().what;
+  EXPECT_GT(fair->skin.fair->moved, 0.0);
+  SkinJob same;
+  same.matching = fair->skin.matching;
+  const auto exact = fit_skin(stations, same);
+  ASSERT_TRUE(exact) << exact.error().what;
+  EXPECT_TRUE(runs_lost(exact->skin));
+  const NurbsSurface &before = exact->skin.patches[0].surface,
+                     &after = fair->skin.patches[0].surface;
+  const std::vector<double> places = places_along(before);
+  for (const SkinSectionReport& section : fair->skin.sections) {
+    const auto run = station_curvature(before, section.parameter, places);
+    const auto found = station_curvature(after, section.parameter, places);
+    EXPECT_LE(fall_against(run, found), 1e-3) << section.parameter;
+  }
+}
+
 TEST(SkinSections, NamesTheSectionThatHasNoContourOrTakesThePlainCubic) {
   auto sections = wigley();
   // a bump that no curve of monotone curvature passes

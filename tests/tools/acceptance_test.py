@@ -290,6 +290,23 @@ class FallsOfCurvature(unittest.TestCase):
         self.assertAlmostEqual(fair_across.fall(wanted, -np.abs(np.arange(200.0) - 40.0)), 9.0)
 
 
+class PlanesOfSections(unittest.TestCase):
+    """Stations that are not plane are looked at along the normal that their given points have."""
+
+    def test_matrices_give_each_row_its_own_normal(self):
+        t = np.linspace(0.0, 1.0, 7)
+        rows = [(np.full(7, 2.0), t, t * t), (0.5 * t, t, np.cos(t))]  # x = 2; x = y / 2
+        with tempfile.TemporaryDirectory() as folder:
+            for axis, name in enumerate("xyz"):
+                np.savetxt(pathlib.Path(folder) / f"hull_{name}.dat", [row[axis] for row in rows])
+            first, second = fair_across.given_normals(pathlib.Path(folder) / "hull_x.dat")
+        self.assertAlmostEqual(abs(first[0]), 1.0, delta=1e-12)
+        self.assertAlmostEqual(abs(second @ np.array([2.0, -1.0, 0.0])), np.sqrt(5.0), delta=1e-12)
+
+    def test_other_files_have_none(self):
+        self.assertIsNone(fair_across.given_normals(pathlib.Path("offsets.csv")))
+
+
 class Judging(unittest.TestCase):
     def test_a_step_of_the_size_of_rounding_is_settled_and_a_larger_one_is_not(self):
         leg = {"type": "bezier", "points": [[1, 0], [1.0001, 0], [1.1, 0.001], [1.2, 0.01]],

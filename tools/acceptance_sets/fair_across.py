@@ -153,7 +153,21 @@ def forced(surface, u, v, tolerance):
 
 
 # ------------------------------------------------------------------- sections
-def against_run(exact, fair, v, size):
+def normal_of(points):
+    """Of the plane of least squares."""
+    return np.linalg.svd(points - points.mean(0), full_matrices=False)[2][2]
+
+
+def given_normals(file):
+    """Of the planes that the points of matrices give each section; None where the file is no such matrix. Stations that
+    are not plane look otherwise along other directions, and a curve's own points weigh it otherwise than those given."""
+    if not file.name.endswith("_x.dat"):
+        return None
+    x, y, z = (np.loadtxt(file.with_name(f"{file.name[:-5]}{axis}.dat")) for axis in "xyz")
+    return [normal_of(row) for row in np.stack([x, y, z], axis=-1)]
+
+
+def against_run(exact, fair, v, size, normals=None):
     """Largest fall of curvature against the run that the exact section has, share of its largest."""
     breaks = np.unique(exact.tu)
     u = np.sort(np.r_[breaks, places(breaks, ALONG)])  # runs end at breaks
@@ -164,7 +178,7 @@ def against_run(exact, fair, v, size):
         q = points[:, k]
         if np.ptp(q, axis=0).max() < 1e-6 * size:
             continue
-        normal = np.linalg.svd(q - q.mean(0), full_matrices=False)[2][2]
+        normal = normal_of(q) if normals is None else normals[k]
         wanted, found = (np.cross(a[:, k], b[:, k]) @ normal
                          / np.maximum(np.linalg.norm(a[:, k] - np.outer(a[:, k] @ normal, normal), axis=1), 1e-300) ** 3
                          for a, b in slopes)
@@ -222,12 +236,15 @@ def lines_of(patch):
     return breaks[np.unique(np.linspace(0, len(breaks) - 1, min(LINES, len(breaks))).astype(int))]
 
 
-def judged(exact_patches, fair_patches, v, size, tolerance):
+def judged(exact_patches, fair_patches, v, size, tolerance, files):
     total = dict.fromkeys(("before", "after", "fine_before", "fine_after", "fine_beyond", "forced", "beyond_before",
                            "beyond"), 0)
     moved, run, run_before = 0.0, 0.0, 0.0
-    for one, other in zip(exact_patches, fair_patches):
+    for number, (one, other) in enumerate(zip(exact_patches, fair_patches)):
         exact, fair = Surface(one), Surface(other)
+        normals = given_normals(files[number]) if len(files) == len(exact_patches) else None
+        if normals is not None and len(normals) != len(v):
+            raise ValueError(f"{files[number].name}: {len(normals)} rows for {len(v)} sections")
         breaks = np.unique(exact.tu)
         u = lines_of(one)
         need = forced(exact, u, v, tolerance)
@@ -243,8 +260,8 @@ def judged(exact_patches, fair_patches, v, size, tolerance):
         total["fine_beyond"] += np.maximum(shallow - need, 0).sum()
         dense = places(breaks, ALONG)
         moved = max(moved, np.linalg.norm(exact.grid(dense, v) - fair.grid(dense, v), axis=-1).max())
-        run = max(run, against_run(exact, fair, v, size))
-        run_before = max(run_before, against_run(exact, exact, v, size))
+        run = max(run, against_run(exact, fair, v, size, normals))
+        run_before = max(run_before, against_run(exact, exact, v, size, normals))
     return {**{key: int(n) for key, n in total.items()}, "moved": float(moved), "run": run, "run_before": run_before}
 
 
@@ -326,7 +343,7 @@ def run_case(case, program, work):
                        "forced": told["across"]["forced"], "beyond": told["across"]["beyond"],
                        "ripple": max((s["ripple"] for s in told["sections"]), default=0.0), "valid": valid.get(str(step))}
     patches = [made[kind]["patches"] for kind in ("exact", "fair")]
-    return {**outcome, "tolerance": tolerance, **judged(*patches, v, size, tolerance), "said": said["fair_across"]["moved"],
+    return {**outcome, "tolerance": tolerance, **judged(*patches, v, size, tolerance, case.truth), "said": said["fair_across"]["moved"],
             "program": said["across"], "matched_by": said["matched_by"], "tried": said["fair_across"]["tried"],
             "seconds": made["fair"]["seconds"], "plain": made["exact"]["seconds"], "process_seconds": made["fair"]["wall"], "skins": skins}
 

@@ -145,7 +145,8 @@ struct Skin {
 /// With `fair_across` the skin is corrected within that tolerance: each of its sections stays
 /// within it (proved, `FairAcrossReport::moved`), borders between patches stay as they are, borders
 /// in a coordinate plane stay in it, and curvature along falls against the contour's run by no more
-/// than 1e-3 of the section's largest (as measured in `ripple`), or as much as before. Where no
+/// than 1e-3 of the section's largest (as measured in `ripple`); where the section had lost more of
+/// it before, by no more than then, and against its own run by no more than 1e-3. Where no
 /// correction with less waves is found, the skin stays as it was. With `light` besides, the net has
 /// few control points along and the sections' own across, and the correction its knots.
 ///
