@@ -13,14 +13,23 @@
 namespace judge {
 
 double rounding_of(const std::vector<GivenPoint>& points, int most_decimals) {
-  for (int decimals = 0; decimals < most_decimals; ++decimals) {
+  // from here on numbers are written with an exponent: their last digit may stand before the point
+  constexpr double kWithExponent = 1e16;
+  constexpr int kFewest = -300;
+  const bool any = std::any_of(points.begin(), points.end(), [](const GivenPoint& p) {
+    return std::max(std::abs(p.point.x), std::abs(p.point.y)) >= kWithExponent;
+  });
+  for (int decimals = any ? kFewest : 0; decimals < most_decimals; ++decimals) {
     const auto shows = [decimals](double x) {
-      return std::strtod(fmt::format("{:.{}f}", x, decimals).c_str(), nullptr) == x;
+      if (decimals >= 0 || x == 0.0) {
+        return std::strtod(fmt::format("{:.{}f}", x, std::max(decimals, 0)).c_str(), nullptr) == x;
+      }
+      const int digits = static_cast<int>(std::floor(std::log10(std::abs(x)))) + decimals;
+      return std::abs(x) >= kWithExponent && digits >= 0 &&
+             std::strtod(fmt::format("{:.{}e}", x, digits).c_str(), nullptr) == x;
     };
-    if (std::all_of(points.begin(), points.end(),
-                    [&](const GivenPoint& p) { return shows(p.point.x) && shows(p.point.y); })) {
-      return 0.5 * std::pow(10.0, -decimals);
-    }
+    const auto both = [&](const GivenPoint& p) { return shows(p.point.x) && shows(p.point.y); };
+    if (std::all_of(points.begin(), points.end(), both)) return 0.5 * std::pow(10.0, -decimals);
   }
   return 0.0;
 }

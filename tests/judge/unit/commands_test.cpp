@@ -4,6 +4,7 @@
 
 #include "command_checks.h"
 #include "doctored.h"
+#include "input.h"
 #include "sentences.h"
 
 namespace judge {
@@ -229,6 +230,23 @@ TEST(JudgeSpline2d, FindsFalseSamples) {
   EXPECT_TRUE(judged_row(0.0, slope + 1e-6).has("spline samples.f_x"));
   EXPECT_TRUE(judged_row(1e-6, slope).has("spline samples.f"));
   EXPECT_TRUE(judged_row(0.0, slope).has("spline samples"));  // one of four rows
+}
+
+std::vector<GivenPoint> heights(const std::vector<double>& y) {
+  std::vector<GivenPoint> out;
+  for (const double one : y) {
+    out.emplace_back();
+    out.back().point = {0.0, one};
+  }
+  return out;
+}
+
+TEST(Rounding, OfNumbersIsHalfAUnitOfTheirLastDigit) {
+  EXPECT_DOUBLE_EQ(rounding_of(heights({3.25, 7.5})), 0.005);
+  EXPECT_DOUBLE_EQ(rounding_of(heights({1200.0, 0.0})), 0.5);
+  EXPECT_DOUBLE_EQ(rounding_of(heights({2.4654635870293123e+17, 2.465463587716912e+17})), 5.0);
+  EXPECT_DOUBLE_EQ(rounding_of(heights({2.4654635870293123e+17, 12.5})), 0.05);
+  EXPECT_DOUBLE_EQ(rounding_of(heights({0.0, 0.0})), 0.5);
 }
 
 }  // namespace
