@@ -36,7 +36,6 @@ Result<std::vector<Output>> outputs_of(const ToolpathCommand& command) {
 }
 
 struct Made {
-  SurfaceModel model;
   MadeToolpath job;
   std::vector<std::string> remarks;
   std::vector<std::string> warnings;
@@ -59,15 +58,14 @@ Result<Made> made_from(const ToolpathCommand& command, std::vector<Output>& outp
   bar.tell("reading", 0.0);
   auto model = read_surface(command.input, made.warnings);
   OBVID_TRY(model);
-  made.model = std::move(*model);
-  auto path = make_toolpath(made.model, command.job, bar.progress());
+  auto path = make_toolpath(*model, command.job, bar.progress());
   OBVID_TRY(path);
   made.job = std::move(*path);
   made.warnings.insert(made.warnings.end(), made.job.warnings.begin(), made.job.warnings.end());
   SurfaceExportOptions formats;
   formats.view = command.view;
   formats.lines = drawn(made.job.path);
-  SurfaceExporter exporter(made.model, formats, bar.progress());
+  SurfaceExporter exporter(made.job.surface, formats, bar.progress());
   bar.tell("writing", 1.0);
   for (Output& output : outputs) {
     OBVID_TRY(fill(output, made, exporter));
@@ -186,6 +184,9 @@ std::string toolpath_text(const Made& made, const std::vector<std::string>& file
                                      significant_above(r.unreached_depth, 3), unit,
                                      toolpath_place(r.unreached_place))
                        : ""));
+  }
+  if (made.job.up != UpAxis::kZ) {
+    facts.add("turned", fmt::format("{} of the surface is Z here", to_string(made.job.up)));
   }
   facts.add("program", fmt::format("{} blocks, {} of them arcs; read back and simulated at places "
                                    "{} {} apart and nearer",

@@ -57,6 +57,11 @@ void add_earlier(CLI::App& app, ToolpathCommand& command) {
 void add_passes(CLI::App& app, RawToolpath& raw) {
   const char* group = "Passes";
   ToolpathOptions& plan = raw.command.job.plan;
+  app.add_option("--up", raw.values.up,
+                 "Which axis of the surface points to the spindle: x, y, z, -x, -y or -z; the "
+                 "program has Z there [z]")
+      ->type_name("AXIS")
+      ->group(group);
   app.add_option("--strategy", raw.values.strategy,
                  "zigzag (parallel planes), isoparametric (along the patches' parameters), "
                  "scallop (constant height between passes), z-level (around walls at constant "

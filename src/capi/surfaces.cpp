@@ -192,7 +192,7 @@ int obvid_surface_toolpath(const obvid_surface* surface, const char* options, co
       out = std::make_unique<obvid_files>();
       SurfaceExportOptions formats = request->formats;
       formats.lines = drawn(made->path);
-      SurfaceExporter exporter(surface->model, formats, context);
+      SurfaceExporter exporter(made->surface, formats, context);
       auto texts = files_in_table(&pipeline_detail::FormatRow::toolpath,
                                   [&](FileFormat format) -> Result<std::string> {
                                     if (format == FileFormat::kGcode)

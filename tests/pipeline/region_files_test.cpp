@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <string>
 #include <variant>
 #include <vector>
@@ -14,7 +13,6 @@
 namespace obvid {
 namespace {
 
-constexpr double kOneDegree = std::numbers::pi / 180.0;
 
 /// Three points on the unit circle, 130 degrees apart, and one farther out.
 PointSeries coarse_spiral(double size) {

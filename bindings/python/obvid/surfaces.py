@@ -177,7 +177,7 @@ class Surface:
     def toolpath(self, **options: Any) -> Toolpath:
         """A program for a three-axis mill. Options as of `obvid toolpath`: cutter, diameter, corner_radius,
         strategy, scallop, step_over, angle, along_v, one_way, tolerance, safe_z, allowance, step_down,
-        steep_angle, rest_of, rest_corner, stock, entry, ramp, ramp_height, spindle, feed, plunge_feed, rapid_feed, acceleration,
+        steep_angle, rest_of, rest_corner, up, stock, entry, ramp, ramp_height, spindle, feed, plunge_feed, rapid_feed, acceleration,
         controller, motion."""
         made, report, remarks, failed = self._made(lib.obvid_surface_toolpath, options)
         return Toolpath(made[0][1].decode(), report, remarks, failed)

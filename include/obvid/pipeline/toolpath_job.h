@@ -12,6 +12,16 @@
 
 namespace obvid {
 
+/// Which axis of the surface points to the spindle.
+enum class UpAxis { kX, kY, kZ, kMinusX, kMinusY, kMinusZ };
+
+/// "x", "-z", ...
+[[nodiscard]] const char* to_string(UpAxis up);
+
+/// The surface with that axis along Z, turned by a quarter or half turn about one of its axes:
+/// about Y for X, about X for Y and for Z downwards. Coordinates change signs and places, exactly.
+[[nodiscard]] SurfaceModel turned_up(SurfaceModel model, UpAxis up);
+
 /// A tool path as it is asked for. Lengths in units of the surface; what is not given is so many
 /// millimetres of it.
 struct ToolpathJob {
@@ -24,10 +34,13 @@ struct ToolpathJob {
   std::optional<double> rest_of;        ///< diameter of an earlier cutter [none]
   /// Rounding of its corner, up to half its diameter (a ball) [of this one's kind]
   std::optional<double> rest_corner;
+  UpAxis up = UpAxis::kZ;  ///< lengths and places of the job are those behind the turn
 };
 
 struct MadeToolpath {
   Toolpath path;
+  SurfaceModel surface;               ///< as it lies under the spindle
+  UpAxis up = UpAxis::kZ;             ///< which of its axes that was
   std::vector<std::string> warnings;  ///< those of the path, and a unit that is merely assumed
 };
 

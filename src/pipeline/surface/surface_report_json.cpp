@@ -281,7 +281,7 @@ std::string toolpath_report_json(const MadeToolpath& made, const Written& writte
   JsonText json;
   json.begin_object();
   add_units(json, made.path.units);
-  json.pair("passes", r.passes);
+  json.pair("up", to_string(made.up)).pair("passes", r.passes);
   json.pair("added_passes", r.added_passes).pair("cutting_length", r.cutting_length);
   json.pair("plunge_length", r.plunge_length).pair("rapid_length", r.rapid_length);
   json.pair("minutes", r.minutes).pair("tolerance", made.path.tolerance);

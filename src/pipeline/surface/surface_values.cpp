@@ -383,6 +383,13 @@ Result<void> set_toolpath(const ToolpathValues& typed, ToolpathJob& job) {
             {{"ramp", ToolpathEntry::kRamp}, {"helix", ToolpathEntry::kHelix}}, *typed.entry,
             "--entry", *plan.entry);
       })
+      .and_then([&] {
+        constexpr std::array kAll = {UpAxis::kX,      UpAxis::kY,      UpAxis::kZ,
+                                     UpAxis::kMinusX, UpAxis::kMinusY, UpAxis::kMinusZ};
+        std::map<std::string, UpAxis> names;
+        for (const UpAxis up : kAll) names.emplace(to_string(up), up);
+        return pick<UpAxis>(names, typed.up, "--up", job.up);
+      })
       .and_then([&] { return set_stock(typed.stock, plan); });
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -67,23 +68,54 @@ Result<void> check_effort(const SurfaceModel& model, const ToolpathOptions& plan
       .value(passes);
 }
 
+Vec3 turned(Vec3 p, UpAxis up) {
+  switch (up) {
+    case UpAxis::kX:
+      return {-p.z, p.y, p.x};
+    case UpAxis::kMinusX:
+      return {p.z, p.y, -p.x};
+    case UpAxis::kY:
+      return {p.x, -p.z, p.y};
+    case UpAxis::kMinusY:
+      return {p.x, p.z, -p.y};
+    case UpAxis::kMinusZ:
+      return {p.x, -p.y, -p.z};
+    case UpAxis::kZ:
+      break;
+  }
+  return p;
+}
+
 }  // namespace
 
-Result<MadeToolpath> make_toolpath(const SurfaceModel& model, const ToolpathJob& job,
+const char* to_string(UpAxis up) {
+  constexpr std::array kNames = {"x", "y", "z", "-x", "-y", "-z"};
+  return kNames[static_cast<std::size_t>(up)];
+}
+
+SurfaceModel turned_up(SurfaceModel model, UpAxis up) {
+  for (SurfacePatch& patch : model.patches) {
+    for (Vec3& p : patch.surface.points) p = turned(p, up);
+  }
+  return model;
+}
+
+Result<MadeToolpath> make_toolpath(const SurfaceModel& given, const ToolpathJob& job,
                                    const RunContext& run) {
   if (job.rest_corner && !job.rest_of) {
     return error(ErrorCode::kBadOption, "the earlier cutter has a corner and no diameter")
         .hint("give --rest-of")
         .value(*job.rest_corner);
   }
+  SurfaceModel model = turned_up(given, job.up);
   ToolpathOptions options = options_for(job, model.units);
   if (run.threads != 0) options.threads = run.threads;
   OBVID_TRY(check_effort(model, options));
   auto path = plan(model, options, run);
   OBVID_TRY(path);
-  MadeToolpath made{std::move(*path), {}};
-  if (!model.units.known()) {
-    made.warnings.push_back("nothing says what a unit is: " + model.units.name +
+  MadeToolpath made{std::move(*path), std::move(model), job.up, {}};
+  if (!given.units.known()) {
+    made.warnings.push_back("nothing says what a unit is: " + given.units.name +
                             " assumed; `obvid surface convert --units` states it");
   }
   made.warnings.insert(made.warnings.end(), made.path.warnings.begin(), made.path.warnings.end());

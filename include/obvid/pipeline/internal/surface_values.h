@@ -16,8 +16,8 @@ namespace obvid {
 // Options of surfaces and tool paths as they are typed, read alike for all front ends. Errors: E203
 // with the name of the option as the command line has it.
 
-/// Kinds of surfaces by the words of pipeline/surface_kinds.inc, nothing said of them yet. Error: E201
-/// with the nearest word.
+/// Kinds of surfaces by the words of pipeline/surface_kinds.inc, nothing said of them yet. Error:
+/// E201 with the nearest word.
 [[nodiscard]] Result<SurfaceKind> surface_kind_named(const std::string& name);
 [[nodiscard]] std::vector<std::string> surface_kind_names();
 
@@ -59,6 +59,7 @@ struct SurfaceFormatValues {
 
 struct ToolpathValues {
   std::string cutter = "ball", strategy = "zigzag", controller = "grbl", motion = "arcs";
+  std::string up = "z";              ///< x, y, z, -x, -y, -z
   std::string stock;                 ///< "X0,Y0,Z0,X1,Y1,Z1"
   std::optional<std::string> entry;  ///< ramp, helix
 };
