@@ -140,7 +140,7 @@ void add_import(CLI::App& command, FormatValues& values) {
       .add_option("--curve", values.curve,
                   "Which curve of a drawing (STEP, IGES, BREP, DXF, ...): its number from 1, its "
                   "name, or a word of the name that no other has (a handle, a layer); all: each "
-                  "of them (analyse, fit, convert) [the longest]")
+                  "of them, where a command takes several [the longest]")
       ->type_name("N|NAME|all")
       ->group(group);
   command

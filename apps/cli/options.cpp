@@ -192,9 +192,10 @@ void add_plot(CLI::App& command, FormatValues& values, const std::string& group)
 void add_formats(CLI::App& command, FormatValues& values) {
   const char* group = "Output formats";
   command
-      .add_option("--output-tolerance", values.tolerance,
-                  "Of curves that a format cannot hold exactly, units of the contour [1e-6 of its "
-                  "size; arcs, G-code and SVG drawings 2e-5, G-code no less than 0.002 mm]")
+      .add_option(
+          "--output-tolerance", values.tolerance,
+          "Of curves that a format cannot hold exactly, units of the contour [1e-6 of its "
+          "size; arcs, G-code, SVG drawings and samples 2e-5, G-code no less than 0.002 mm]")
       ->type_name("T")
       ->group(group);
   command
@@ -222,7 +223,7 @@ void add_formats(CLI::App& command, FormatValues& values) {
   command
       .add_option("--decimals", values.decimals,
                   "Of places in G-code, 1 to 6 [the fewest, at least 3, that cost no more than a "
-                  "tenth of the tolerance]")
+                  "tenth of the tolerance; inches: at least 4]")
       ->type_name("N")
       ->group(group);
   command

@@ -626,7 +626,7 @@ Result<std::size_t> chosen_curve(const Drawing& drawing, const CurveChoice& aske
     return error(ErrorCode::kNothingThere, "the file holds no curve and no points").where(path);
   }
   if (asked.all) {
-    return error(ErrorCode::kBadOption, "all curves at once are for analyse, fit and convert")
+    return error(ErrorCode::kBadOption, "all curves at once are not for this command")
         .where("--curve")
         .hint("give the number of one");
   }
