@@ -877,6 +877,15 @@ std::optional<std::string> warn_of_scatter(const Prepared& series, const Units& 
       significant(seen->deviation, 3), units.text(), beyond, n, significant(seen->bound, 3));
 }
 
+/// A corner between two points is named by the one before it.
+Error named_in(const Prepared& series, Error error) {
+  const auto point = static_cast<std::size_t>(std::max<std::ptrdiff_t>(error.index, 0));
+  if (!series.is_between(point)) return error;
+  error.index = static_cast<std::ptrdiff_t>(series.named(point));
+  error.where = fmt::format("after point {}", error.index + 1);
+  return error;
+}
+
 /// What a contour is formed with beyond its job.
 struct FormedWith {
   KeptParts kept{};
@@ -915,7 +924,7 @@ Result<Fit> formed_once(const PointSeries& series, const FitJob& job, const Form
     const double aim = kNarrowedArcs * tolerance * *asked / measured->report.largest_width;
     measured = form_and_measure(*prepared, job, series.units, {aim, *asked}, kept, chains, watch);
   }
-  OBVID_TRY(measured);
+  if (!measured) return fail(named_in(*prepared, measured.error()));
   Formed* formed = &measured->formed;
   OBVID_TRY(has_curvatures(formed->contour));
   Fit out;
