@@ -13,12 +13,13 @@ namespace obvid::picture {
 namespace {
 
 /// Cells of a span; where there are too many nodes fewer, then spans are taken together.
-constexpr std::size_t kCellsOfSpan = 8, kFewestCells = 3, kMostCells = 512;
+constexpr std::size_t kCellsOfSpan = 6, kFewestCells = 3, kMostCells = 512;
 /// Spans shorter than this part of the domain are no spans to single precision.
 constexpr double kShortestSpan = 1e-6;
 /// How far inside its span a node at a break is, part of the span.
 constexpr double kInset = 1e-6;
-constexpr std::size_t kMostNodes = 600'000;
+/// Of all rasters together; more than the spans need only up to the second.
+constexpr std::size_t kMostNodes = 300'000, kMostRefined = 150'000;
 /// Deviations cost a search each: so many nodes at least and, where finer ones are only hoped to
 /// show more, at most.
 constexpr std::size_t kLeastSearches = 10'000, kMostSearches = 60'000;
@@ -38,7 +39,7 @@ RasterSide side_of(const std::vector<double>& knots, Range domain, std::size_t d
     }
   }
   side.breaks.push_back(1.0);
-  side.cells = std::clamp(2 * degree, kCellsOfSpan, kMostCells);
+  side.cells = std::clamp(degree + 1, kCellsOfSpan, kMostCells);
   return side;
 }
 
@@ -312,7 +313,7 @@ Result<std::vector<ValueRaster>> value_rasters(const SurfaceModel& model,
     }
     return {};
   };
-  const std::size_t most = filling.searches() ? kMostSearches : kMostNodes;
+  const std::size_t most = filling.searches() ? kMostSearches : kMostRefined;
   for (std::size_t i = 0; i < rasters.size(); ++i) {
     OBVID_TRY(fill(i));
     const double part = 0.5 * static_cast<double>(i + 1) / static_cast<double>(rasters.size());

@@ -41,8 +41,10 @@ struct ValueRaster {
 };
 
 /// One for each patch: so fine that in nearly all cells the middle is within half a band of colour
-/// of what the nodes say, and that the told extremes of the deviation are met. All together have at
-/// most 600,000 nodes, with a deviation 60,000 unless the spans of the surface need more.
+/// of what the nodes say, and that the told extremes of the deviation are met. A span has six
+/// cells each way or more, up to 300,000 nodes of all patches together; where these are not enough
+/// spans have fewer cells, then neighbours share them. Finer than its spans a raster gets up to
+/// 150,000 nodes, with a deviation 60,000.
 /// Errors: E103.
 [[nodiscard]] Result<std::vector<ValueRaster>> value_rasters(
     const SurfaceModel& model, const std::vector<Mesh>& meshes,
