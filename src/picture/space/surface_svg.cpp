@@ -302,20 +302,23 @@ struct Drawing {
 std::string place_of(const PictureCamera& camera, const LongWay& way, Range shown,
                      const std::string& units) {
   constexpr double kAlong = 0.9;
-  constexpr int kDigits = 3;
+  constexpr int kDigits = 6;
   const double x0 = camera.seen(way.from - camera.centre).x;
   const double x1 = camera.seen(way.to - camera.centre).x;
+  const Vec3 d = way.to - way.from;
+  // a thousandth of the length or finer
+  const double step = std::pow(10.0, std::floor(std::log10(norm(d))) - 3.0);
+  const auto told = [step](double value) {
+    return readable(step * std::round(value / step) + 0.0, kDigits);
+  };
   const auto part = [&](double x) { return std::clamp((x - x0) / (x1 - x0), 0.0, 1.0); };
   const std::size_t k = most_along(way);
-  const Vec3 d = way.to - way.from;
   if (std::abs(coordinate(d, k)) >= kAlong * norm(d)) {
-    const auto at = [&](double x) {
-      return readable(coordinate(way.from + part(x) * d, k), kDigits);
-    };
+    const auto at = [&](double x) { return told(coordinate(way.from + part(x) * d, k)); };
     return fmt::format("{} from {} to {} {}", "xyz"[k], at(shown.from), at(shown.to), units);
   }
   const double left = x0 < x1 ? 0.0 : 1.0;
-  const auto at = [&](double x) { return readable(std::abs(part(x) - left) * norm(d), kDigits); };
+  const auto at = [&](double x) { return told(std::abs(part(x) - left) * norm(d)); };
   return fmt::format("{} to {} {} from the left end", at(shown.from), at(shown.to), units);
 }
 
