@@ -2,6 +2,7 @@
 // Pages of surfaces in a browser: pixels of known shapes, mouse, keys, a lost graphics card.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -60,6 +61,36 @@ TEST_F(SurfacePageInBrowser, TorusIsBlueInsideAndRedOutside) {
   EXPECT_LT(blue.width(), red.width() * 40.0 / 54.0);
   EXPECT_GT(blue.width(), red.width() * 26.0 / 54.0);
   EXPECT_NEAR(blue.left + blue.right, red.left + red.right, 6.0);
+}
+
+TEST_F(SurfacePageInBrowser, RipplesBetweenTheCornersOfTrianglesAreSeen) {
+  PageOptions options;
+  options.deviation = ShownDeviation{};
+  options.deviation->title = "ripples";
+  options.deviation->told = {-0.02, 0.02};
+  options.deviation->of_place = [](Vec3 p) {
+    return 0.02 * std::sin(2.0 * std::numbers::pi * 5.0 * p.x / 100.0);
+  };
+  const std::string p = page(model_of({{"plate", rippled_plate()}}), 1, options);
+  for (const char* mode : {"mean", "deviation"}) {
+    const std::string png =
+        shot(p, std::string("#mode=") + mode + "&view=top&projection=orthographic", "a.png");
+    const Spot blue = spot(png, "blue", kStage), red = spot(png, "red", kStage);
+    ASSERT_GT(blue.width(), 200.0) << mode;
+    // strips in turn over the whole plate, about as much of one as of the other
+    EXPECT_NEAR(blue.width(), red.width(), 0.15 * blue.width()) << mode;
+    EXPECT_NEAR(blue.count, red.count, 0.3 * blue.count) << mode;
+    EXPECT_GT(blue.count, 0.15 * blue.width() * blue.height()) << mode;
+  }
+  // the values of a point that is read off are those of its pixel: a crest, z = 0.02 at x = 2.5
+  const std::string out = after(p, R"(
+    look(0, 90, true);
+    const q = project([2.5, 50, 0].map((x, k) => x - model.centre[k]));
+    readOff(q[0], q[1]);
+    document.documentElement.dataset.point = byId("point").textContent.replace(/["<>]/g, "");
+  )");
+  EXPECT_NE(out.find("k2−0.0064 1/mm"), std::string::npos) << out;
+  EXPECT_NE(out.find("deviation0.01414 mm"), std::string::npos) << out;
 }
 
 TEST_F(SurfacePageInBrowser, EachLookIsAnotherPicture) {

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,21 @@ std::string from_base64(const std::string& text) {
   return out;
 }
 
+/// The raster of values of a patch.
+struct ReadRaster {
+  std::size_t spans[2] = {}, cells[2] = {};
+  std::vector<float> breaks[2], k, off;
+  std::vector<std::int16_t> normals;
+  [[nodiscard]] std::size_t nodes(int side) const { return spans[side] * (cells[side] + 1); }
+  [[nodiscard]] std::size_t nodes() const { return nodes(0) * nodes(1); }
+  /// Part of the domain of a node.
+  [[nodiscard]] double at(int side, std::size_t node) const {
+    const std::size_t span = node / (cells[side] + 1), within = node % (cells[side] + 1);
+    return breaks[side][span] + (breaks[side][span + 1] - breaks[side][span]) *
+                                    static_cast<double>(within) / static_cast<double>(cells[side]);
+  }
+};
+
 /// The numbers of a page as its script reads them (on a little-endian machine).
 struct Read {
   explicit Read(const std::string& page)
@@ -83,6 +99,19 @@ struct Read {
     at += (count * sizeof(T) + 3) / 4 * 4;
     return out;
   }
+  ReadRaster raster(std::size_t patch = 0) {
+    ReadRaster out;
+    const json& sides = header["patches"][patch]["raster"];
+    for (int side = 0; side < 2; ++side) {
+      out.spans[side] = sides[static_cast<std::size_t>(side)][0];
+      out.cells[side] = sides[static_cast<std::size_t>(side)][1];
+      out.breaks[side] = take<float>(out.spans[side] + 1);
+    }
+    out.k = take<float>(2 * out.nodes());
+    out.normals = take<std::int16_t>(2 * out.nodes());
+    if (header["off"] == 1) out.off = take<float>(out.nodes());
+    return out;
+  }
   Vec3 centre() const {
     const auto& c = header["centre"];
     return {c[0], c[1], c[2]};
@@ -95,6 +124,18 @@ struct Read {
 
 Vec3 third(const std::vector<float>& numbers, std::size_t i) {
   return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+}
+
+/// A direction out of the unfolded octahedron.
+Vec3 unfolded(const std::vector<std::int16_t>& folded, std::size_t i) {
+  double x = folded[2 * i] / 32767.0, y = folded[2 * i + 1] / 32767.0;
+  const double z = 1.0 - std::abs(x) - std::abs(y);
+  if (z < 0.0) {
+    const double kept = x;
+    x = (1.0 - std::abs(y)) * (x < 0.0 ? -1.0 : 1.0);
+    y = (1.0 - std::abs(kept)) * (y < 0.0 ? -1.0 : 1.0);
+  }
+  return unit(Vec3{x, y, z});
 }
 
 TEST(SurfacePage, HasTheLookOfTheStudio) {
@@ -121,24 +162,28 @@ TEST(SurfacePage, HoldsTheSphereItWasGiven) {
   const auto points = read.take<float>(3 * n);
   const auto folded = read.take<std::int16_t>(2 * n);
   const auto parameters = read.take<float>(2 * n);
-  const auto curvatures = read.take<float>(2 * n);
+  const auto raster = read.raster();
   const auto corners = read.take<std::uint16_t>(3 * meshes[0].triangles.size());
   EXPECT_EQ(read.at, read.bytes.size());
   for (std::size_t i = 0; i < n; ++i) {
     EXPECT_NEAR(norm(third(points, i)), radius, 1e-5);
-    EXPECT_NEAR(curvatures[2 * i], -1.0 / radius, 1e-6) << "vertex " << i << ", poles too";
-    EXPECT_NEAR(curvatures[2 * i + 1], -1.0 / radius, 1e-6);
     EXPECT_GE(parameters[2 * i], 0.0F);
     EXPECT_LE(parameters[2 * i], 1.0F);
-    // the normal of a sphere is its place: unfold the octahedron
-    double x = folded[2 * i] / 32767.0, y = folded[2 * i + 1] / 32767.0;
-    const double z = 1.0 - std::abs(x) - std::abs(y);
-    if (z < 0.0) {
-      const double kept = x;
-      x = (1.0 - std::abs(y)) * (x < 0.0 ? -1.0 : 1.0);
-      y = (1.0 - std::abs(kept)) * (y < 0.0 ? -1.0 : 1.0);
-    }
-    EXPECT_LT(norm(unit(Vec3{x, y, z}) - third(points, i) / radius), 2e-4) << i;
+    // the normal of a sphere is its place
+    EXPECT_LT(norm(unfolded(folded, i) - third(points, i) / radius), 2e-4) << i;
+  }
+  // two quarters along the half circle, four around, at least six cells in each
+  EXPECT_EQ(raster.spans[0] * raster.spans[1], 8U);
+  EXPECT_GE(raster.cells[0], 6U);
+  EXPECT_GE(raster.cells[1], 6U);
+  const Range us = domain_u(sphere(radius)), vs = domain_v(sphere(radius));
+  for (std::size_t i = 0; i < raster.nodes(); ++i) {
+    EXPECT_NEAR(raster.k[2 * i], -1.0 / radius, 1e-6) << "node " << i << ", poles too";
+    EXPECT_NEAR(raster.k[2 * i + 1], -1.0 / radius, 1e-6);
+    const double u = raster.at(0, i % raster.nodes(0)), v = raster.at(1, i / raster.nodes(0));
+    const Vec3 place = evaluate(sphere(radius), us.at(u), vs.at(v)).point;
+    EXPECT_LT(norm(unfolded(raster.normals, i) - place / radius), 5e-4)
+        << i << ", poles within 1e-4";
   }
   for (std::size_t t = 0; t < meshes[0].triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(corners[3 * t + k], meshes[0].triangles[t][k]);
@@ -164,7 +209,9 @@ TEST(SurfacePage, WritesWideIndicesOnlyWhereTheyAreNeeded) {
     Read read(page_of(model, meshes));
     const std::size_t n = meshes[0].vertices.size();
     const std::size_t bytes = side == 256U ? 4 : 2;
-    EXPECT_EQ(read.bytes.size(), n * 32 + 3 * bytes * meshes[0].triangles.size());
+    (void)read.take<char>(n * 24);
+    (void)read.raster();
+    EXPECT_EQ(read.bytes.size(), read.at + 3 * bytes * meshes[0].triangles.size());
   }
 }
 
@@ -182,6 +229,83 @@ TEST(SurfacePage, CurvatureScalesAreThoseOfClosedForms) {
   const json& k2 = read.header["scales"]["k2"];
   EXPECT_NEAR(k2["low"], -1.0 / small, 1e-9);
   EXPECT_EQ(k2["low"], k2["high"]);
+}
+
+TEST(SurfacePage, ShowsRipplesThatItsTrianglesDoNotMeet) {
+  const auto model = model_of({{"plate", rippled_plate()}});
+  const auto meshes = meshes_of(model, 1);  // two triangles, flat
+  Read read(page_of(model, meshes));
+  (void)read.take<char>(4 * 24);
+  const auto raster = read.raster();
+  ASSERT_EQ(raster.spans[0], 20U);
+  EXPECT_GE(raster.cells[0], 6U);
+  // z = 0.02 - 0.0032 t^2 and its like, t from the middle of each span
+  for (std::size_t i = 0; i < raster.nodes(); ++i) {
+    const double x = 100.0 * raster.at(0, i % raster.nodes(0));
+    const std::size_t span = (i % raster.nodes(0)) / (raster.cells[0] + 1);
+    const double t = x - 5.0 * (static_cast<double>(span) + 0.5);
+    const double slope = 0.0064 * t;
+    const double k = (span % 2 == 0 ? -1.0 : 1.0) * 0.0064 / std::pow(1.0 + slope * slope, 1.5);
+    EXPECT_NEAR(raster.k[2 * i] + raster.k[2 * i + 1], k, 1e-6) << i << " at " << x;
+    const Vec3 normal = unit(Vec3{(span % 2 == 0 ? 1.0 : -1.0) * slope, 0.0, 1.0});
+    EXPECT_LT(norm(unfolded(raster.normals, i) - normal), 3e-4) << i << " at " << x;
+  }
+  const json& mean = read.header["scales"]["mean"];
+  EXPECT_NEAR(mean["least"], -0.0032, 1e-7);
+  EXPECT_NEAR(mean["most"], 0.0032, 1e-7);
+  EXPECT_NEAR(mean["low"], -0.0032, 1e-5);
+  EXPECT_NEAR(mean["high"], 0.0032, 1e-5);
+}
+
+TEST(SurfacePage, ShowsDeviationsFinerThanItsTriangles) {
+  const auto model = model_of({{"plate", rectangle(100, 100)}});
+  for (const double waves : {12.0, 50.0, 64.0}) {
+    const auto off = [waves](double x) {
+      return 0.02 * std::sin(2.0 * std::numbers::pi * waves * x / 100.0);
+    };
+    PageOptions options;
+    options.deviation = ShownDeviation{};
+    options.deviation->title = "ripples";
+    options.deviation->told = {-0.02, 0.02};
+    options.deviation->of_place = [&](Vec3 p) { return off(p.x); };
+    Read read(page_of(model, meshes_of(model, 1), options));
+    (void)read.take<char>(4 * 24);
+    const auto raster = read.raster();
+    double least = 0.0, most = 0.0;
+    for (std::size_t i = 0; i < raster.nodes(); ++i) {
+      const double x = 100.0 * raster.at(0, i % raster.nodes(0));
+      EXPECT_NEAR(raster.off[i], off(x), 1e-6) << i;
+      least = std::min(least, static_cast<double>(raster.off[i]));
+      most = std::max(most, static_cast<double>(raster.off[i]));
+    }
+    EXPECT_NEAR(most, 0.02, 0.001) << waves;
+    EXPECT_NEAR(least, -0.02, 0.001) << waves;
+    const json& scale = read.header["scales"]["deviation"];
+    EXPECT_NEAR(scale["high"], 0.02, 0.001);
+    EXPECT_NEAR(scale["low"], -0.02, 0.001);
+    EXPECT_TRUE(scale["diverging"]);
+    EXPECT_LT(read.bytes.size(), 16U * 61'000U);
+  }
+}
+
+TEST(SurfacePage, OfManySpansStaysSmall) {
+  // 400 x 500 spans: 200,000 control points and more
+  NurbsSurface fine = rectangle(1, 1);
+  fine.points.clear();
+  for (auto [knots, spans] : {std::pair{&fine.knots_u, 400}, {&fine.knots_v, 500}}) {
+    *knots = {0.0};
+    for (int i = 0; i <= spans; ++i) knots->push_back(i);
+    knots->push_back(spans);
+  }
+  for (int j = 0; j <= 500; ++j) {
+    for (int i = 0; i <= 400; ++i) {
+      fine.points.push_back({1.0 * i, 1.0 * j, 0.01 * ((i * 7 + j * 3) % 5)});
+    }
+  }
+  const auto model = model_of({{"fine", fine}});
+  Read read(page_of(model, meshes_of(model, 1)));
+  (void)read.take<char>(4 * 24);
+  EXPECT_LE(read.raster().nodes(), 300'000U);
 }
 
 TEST(SurfacePage, FlatIsZeroAndNotNoise) {
@@ -236,7 +360,9 @@ TEST(SurfacePage, LinesFollowThePatches) {
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0]["count"], 2);
   EXPECT_EQ(lines[1]["role"], "__proto__");
-  read.at = 4 * 32 + 2 * 3 * 2;  // four vertices, two triangles
+  (void)read.take<char>(4 * 24);  // four vertices
+  (void)read.raster();
+  (void)read.take<char>(2 * 3 * 2);  // two triangles
   const auto points = read.take<float>(9);
   EXPECT_EQ(read.at, read.bytes.size());
   EXPECT_EQ(read.centre() + third(points, 1), (Vec3{3, 2, 1}));
@@ -288,7 +414,7 @@ TEST(SurfacePage, IsTheSameEveryTimeAndSaysHowMuchThereIs) {
   EXPECT_NE(
       page.find("100 × 100 × 20 mm · 7\u202F200 triangles, at most 0.013 mm off where measured"),
       std::string::npos);
-  EXPECT_LT(page.size(), 61U * 61U * 32U * 4U / 3U + 7200U * 8U + 60'000U);
+  EXPECT_LT(page.size(), 61U * 61U * 24U * 4U / 3U + 7200U * 8U + 120'000U);
 }
 
 TEST(SurfacePage, RefusesWhatItCannotShow) {

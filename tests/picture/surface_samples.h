@@ -66,6 +66,27 @@ inline NurbsSurface saddle(double half, double scale) {
   return s;
 }
 
+/// Spans of 5 mm along x, parabolas in turn upwards and downwards with the second derivative
+/// 0.0064: z is 0 between them and 0.02 off in the middle of each.
+inline NurbsSurface rippled_plate() {
+  constexpr int kSpans = 20;
+  constexpr double kStep = 5.0, kControl = 0.04;
+  NurbsSurface s = rectangle(1, 1);
+  s.degree_u = 2;
+  s.knots_u = {0.0, 0.0};
+  for (int i = 0; i <= kSpans; ++i) s.knots_u.push_back(i * kStep);
+  s.knots_u.insert(s.knots_u.end(), {kSpans * kStep, kSpans * kStep});
+  s.points.clear();
+  for (const double y : {0.0, 100.0}) {
+    s.points.push_back({0, y, 0});
+    for (int i = 1; i <= kSpans; ++i) {
+      s.points.push_back({(i - 0.5) * kStep, y, i % 2 == 0 ? -kControl : kControl});
+    }
+    s.points.push_back({kSpans * kStep, y, 0});
+  }
+  return s;
+}
+
 /// Triangles over a raster of n x m cells; collapsed cells keep one of theirs or none.
 inline Mesh raster_mesh(const NurbsSurface& surface, std::size_t n, std::size_t m) {
   const Range us = domain_u(surface), vs = domain_v(surface);

@@ -329,6 +329,89 @@ TEST(SurfacePicture, RefusesWhatItCannotDraw) {
   EXPECT_TRUE(surface_svg(model, options)) << "a line without points is no harm";
 }
 
+/// A tube of radius 1 along z from 0 on.
+NurbsSurface tube(double length) { return turned(line_between({1, 0, length}, {1, 0, 0})); }
+
+/// The strips of a picture of a thin body, each an svg of its own: extents of their outlines.
+std::vector<SheetExtent> strips(const DrawnPicture& drawn) {
+  std::vector<SheetExtent> out;
+  for (const auto& strip : drawn.xml.select_nodes("/*/*[local-name()='svg']")) {
+    std::vector<Vec2> all;
+    for (const char* css : {"outline", "border"}) {
+      const auto path =
+          strip.node().select_node((std::string(".//*[@class='") + css + "']").c_str());
+      for (const Vec2 p : corners(path.node().attribute("d").value())) all.push_back(p);
+    }
+    out.emplace_back(all);
+  }
+  return out;
+}
+
+TEST(SurfacePicture, ThinBodiesLieLevelWithTheirPartsLarger) {
+  for (const char* along : {"x", "y", "z"}) {
+    NurbsSurface body = tube(60.0);
+    for (Vec3& p : body.points) {
+      if (*along == 'x') p = {p.z, p.x, p.y};
+      if (*along == 'y') p = {p.y, p.z, p.x};
+    }
+    auto options = picture_with(SurfaceColouring::kShaded,
+                                *along == 'y' ? SurfaceView::kSide : SurfaceView::kFront);
+    const DrawnPicture drawn(picture(model_of({{"tube", body}}), options));
+    const auto sheet = drawn.xml.document_element();
+    EXPECT_EQ(sheet.attribute("width").as_double(), 1260.0);
+    // 30 times as long as wide: four parts
+    const auto found = strips(drawn);
+    ASSERT_EQ(found.size(), 5U) << along;
+    const double wide = 1260.0 - 48.0;
+    EXPECT_NEAR(found[0].size().x, wide, 1.0) << along;
+    EXPECT_NEAR(found[0].size().y, wide / 30.0, 1.0) << along;
+    double heights = 0.0;
+    for (std::size_t k = 1; k < found.size(); ++k) {
+      EXPECT_NEAR(found[k].size().y, 4.0 * wide / 30.0, 1.5) << along << k;
+      // a part, with some of its neighbours in the margins and nothing beyond the sheet
+      EXPECT_GT(found[k].size().x, wide);
+      EXPECT_GT(found[k].low.x, -60.0);
+      EXPECT_LT(found[k].high.x, 1320.0);
+      heights += found[k].size().y;
+    }
+    EXPECT_GT(sheet.attribute("height").as_double(), heights + found[0].size().y);
+    for (const char* place : {"1: ", "2: ", "3: ", "4: "}) EXPECT_TRUE(drawn.says(place)) << place;
+    EXPECT_TRUE(drawn.says(std::string("1: ") + along + " from 0 to 15 mm")) << along;
+    EXPECT_TRUE(drawn.says(std::string("4: ") + along + " from 45 to 60 mm")) << along;
+  }
+}
+
+TEST(SurfacePicture, ThinBodiesThatRunAslantAreToldFromTheirLeftEnd) {
+  NurbsSurface body = tube(60.0);
+  const Vec3 a = unit(Vec3{1, -1, 0}), b = unit(Vec3{1, 1, 0.5}), c = cross(a, b);
+  for (Vec3& p : body.points) p = p.z * a + p.x * b + p.y * c;
+  const DrawnPicture drawn(
+      picture(model_of({{"tube", body}}), picture_with(SurfaceColouring::kMean)));
+  EXPECT_GE(strips(drawn).size(), 4U);
+  EXPECT_TRUE(drawn.says("1: 0 to ")) << "from the left end";
+  EXPECT_TRUE(drawn.says("from the left end"));
+}
+
+TEST(SurfacePicture, LongBodiesGetAWideSheetAndPlatesFromTheirEdgeDoNot) {
+  const DrawnPicture longer(picture(model_of({{"tube", tube(18.0)}}),
+                                    picture_with(SurfaceColouring::kShaded, SurfaceView::kFront)));
+  EXPECT_TRUE(strips(longer).empty());
+  const auto sheet = longer.xml.document_element();
+  EXPECT_EQ(sheet.attribute("width").as_double(), 1260.0);
+  EXPECT_LT(sheet.attribute("height").as_double(), 400.0);
+  const SheetExtent border(corners(longer.path("border")));
+  EXPECT_NEAR(border.size().x, 1212.0, 1.0);
+  for (const auto& [surface, view] : {std::pair{rectangle(60, 60), SurfaceView::kFront},
+                                      {tube(60.0), SurfaceView::kTop},
+                                      {tube(6.0), SurfaceView::kFront}}) {
+    const DrawnPicture other(
+        picture(model_of({{"other", surface}}), picture_with(SurfaceColouring::kShaded, view)));
+    EXPECT_TRUE(strips(other).empty());
+    EXPECT_EQ(other.xml.document_element().attribute("width").as_double(), 900.0);
+    EXPECT_EQ(other.xml.document_element().attribute("height").as_double(), 620.0);
+  }
+}
+
 TEST(SurfacePicture, DegenerateSurfacesAreNoHarm) {
   NurbsSurface line = rectangle(5, 1);
   for (Vec3& p : line.points) p.y = 0.0;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "../common/shared_data.h"
 #include "obvid/io/read_sections.h"
@@ -51,6 +52,44 @@ TEST(SkinSections, FollowsWigleysHull) {
     EXPECT_LE(section.ripple, 1e-6);
   }
   EXPECT_EQ(made->skin.across.found, 0u);
+}
+
+/// Three circles of the radius 10 over each other, twelve points each.
+SurfaceJob tube_job() {
+  SurfaceJob job;
+  for (int k = 0; k < 3; ++k) {
+    SpaceSeries section{"circle " + std::to_string(k), {}};
+    for (int i = 0; i <= 12; ++i) {
+      const double angle = std::numbers::pi * (i % 12) / 6.0;
+      section.points.push_back({10.0 * std::cos(angle), 10.0 * std::sin(angle), 15.0 * k});
+    }
+    job.inputs.push_back(SurfaceInput::of_points(section));
+  }
+  job.kind = SkinKind{};
+  return job;
+}
+
+TEST(SkinSections, AreDrawnAsTheSkinHasThemAndNotAsPolygonsOfTheirPoints) {
+  const auto made = make_surface(tube_job());
+  ASSERT_TRUE(made) << made.error().what;
+  ASSERT_EQ(made->lines.size(), 3U);
+  // a px of a sheet of 1000 px that the tube fills
+  const double px = norm(Vec3{20, 20, 30}) / 1000.0;
+  for (std::size_t s = 0; s < made->lines.size(); ++s) {
+    const auto& points = made->lines[s].points;
+    ASSERT_GT(points.size(), 30U);
+    EXPECT_LT(norm(points.front() - points.back()), 0.1 * px);
+    double turned = 0.0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      for (const Vec3 p : {points[i], 0.5 * (points[i] + points[i + 1])}) {
+        EXPECT_NEAR(std::hypot(p.x, p.y), 10.0, 0.2 * px) << "line " << s << " at " << i;
+        EXPECT_NEAR(p.z, 15.0 * static_cast<double>(s), 0.1 * px);
+      }
+      turned += std::atan2(cross(points[i], points[i + 1]).z,
+                           points[i].x * points[i + 1].x + points[i].y * points[i + 1].y);
+    }
+    EXPECT_NEAR(std::abs(turned), 2.0 * std::numbers::pi, 1e-6) << "all round, once";
+  }
 }
 
 TEST(SkinSections, TakesSectionsWithContinuousSlopes) {

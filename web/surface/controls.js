@@ -153,12 +153,12 @@ function readOff(x, y) {
     redraw();
     return;
   }
-  const point = between(found, found.patch.position, 3), part = between(found, found.patch.uv, 2), k = between(found, found.patch.k, 2);
+  const point = between(found, found.patch.position, 3), part = between(found, found.patch.uv, 2), k = valueAt(found.patch, part, found.patch.k, 2);
   const domain = found.patch.domain, at = part.map((t, i) => domain[2 * i] + t * (domain[2 * i + 1] - domain[2 * i]));
   const one = " 1/" + model.units, rows = [["x, y, z", point.map((t, i) => readable(model.centre[i] + t, 7)).join("  ") + " " + model.units],
     ["u, v", at.map(t => readable(t, 4)).join("  ")], ["k1", readable(k[0], 4) + one], ["k2", readable(k[1], 4) + one],
     ["smallest radius", readable(1 / Math.max(Math.abs(k[0]), Math.abs(k[1])), 4) + " " + model.units]];
-  if (found.patch.off) rows.push(["deviation", readable(between(found, found.patch.off, 1)[0], 4) + " " + model.units]);
+  if (found.patch.off) rows.push(["deviation", readable(valueAt(found.patch, part, found.patch.off, 1)[0], 4) + " " + model.units]);
   state.found = {point};
   const box = byId("point"), list = box.querySelector("dl");
   box.querySelector("h2").textContent = found.patch.name;

@@ -9,7 +9,7 @@ const state = {mode: "shaded", quantity: "gaussian", u: 10, v: 10, stripes: 10, 
 const canvas = byId("view");
 /** Half the angle of view; small, as through a long lens. */
 const tangent = Math.tan(13 * Math.PI / 180);
-let gl = null, surfaceProgram = null, lineProgram = null, dotProgram = null, dotArray = null, paletteTextures = null, pending = false;
+let gl = null, surfaceProgram = null, lineProgram = null, dotProgram = null, dotArray = null, paletteTextures = null, rasterTexture = null, pending = false;
 
 function program(vertex, fragment) {
   const made = gl.createProgram();
@@ -56,12 +56,41 @@ function paletteTexture(stops) {
   return texture;
 }
 
+/** Nodes of all patches one after the other in rows of `rasterWidth`, each followed by its breaks. */
+const rasterWidth = 2048;
+function rasterOfPatches() {
+  const count = patch => patch.k.length / 2 + patch.sides[0].breaks.length + patch.sides[1].breaks.length;
+  const height = Math.ceil(model.patches.reduce((sum, patch) => sum + count(patch), 0) / rasterWidth);
+  const texels = new Uint32Array(4 * rasterWidth * height), reals = new Float32Array(texels.buffer), halves = new Int16Array(texels.buffer);
+  let at = 0;
+  for (const patch of model.patches) {
+    patch.firstNode = at;
+    for (let i = 0; i < patch.k.length / 2; ++i, ++at) {
+      reals[4 * at] = patch.k[2 * i];
+      reals[4 * at + 1] = patch.k[2 * i + 1];
+      halves[8 * at + 4] = patch.nodeNormal[2 * i];
+      halves[8 * at + 5] = patch.nodeNormal[2 * i + 1];
+      if (patch.off) reals[4 * at + 3] = patch.off[i];
+    }
+    for (const side of patch.sides) {
+      side.first = at;
+      for (const part of side.breaks) reals[4 * at++] = part;
+    }
+  }
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32UI, rasterWidth, height, 0, gl.RGBA_INTEGER, gl.UNSIGNED_INT, texels);
+  for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.NEAREST);
+  return texture;
+}
+
 /** Everything that lives in the graphics card; again after it was lost. */
 function upload() {
   surfaceProgram = program(surfaceVertex, surfaceFragment);
   lineProgram = program(lineVertex, lineFragment);
   dotProgram = program(dotVertex, dotFragment);
   paletteTextures = {sequential: paletteTexture(model.palettes.sequential), diverging: paletteTexture(model.palettes.diverging)};
+  rasterTexture = rasterOfPatches();
   for (const patch of model.patches) {
     patch.edges = null;
     patch.array = gl.createVertexArray();
@@ -69,8 +98,6 @@ function upload() {
     attribute(0, patch.position, 3, gl.FLOAT, false);
     attribute(1, patch.normal, 2, gl.SHORT, true);
     attribute(2, patch.uv, 2, gl.FLOAT, false);
-    attribute(3, patch.k, 2, gl.FLOAT, false);
-    if (patch.off) attribute(4, patch.off, 1, gl.FLOAT, false);
     indices(patch.index);
   }
   dotArray = gl.createVertexArray();
@@ -212,12 +239,18 @@ function drawSurfaces(m) {
   gl.uniform2f(at.cells, state.u, state.v);
   gl.uniform2f(at.range, scale.low, scale.high);
   gl.bindTexture(gl.TEXTURE_2D, paletteTextures[scale.diverging ? "diverging" : "sequential"]);
+  gl.uniform1i(at.raster, 1);
+  gl.activeTexture(gl.TEXTURE1);
+  gl.bindTexture(gl.TEXTURE_2D, rasterTexture);
+  gl.activeTexture(gl.TEXTURE0);
   gl.enable(gl.POLYGON_OFFSET_FILL);
   gl.polygonOffset(1, 1);
   model.patches.forEach((patch, i) => {
     if (!patch.shown || !patch.triangles) return;
     gl.uniform1f(at.lit, i === state.lit ? 1 : 0);
     gl.uniform4fv(at.real, patch.borders);
+    gl.uniform1i(at.firstNode, patch.firstNode);
+    patch.sides.forEach((side, k) => gl.uniform3i(k ? at.sideV : at.sideU, side.first, side.breaks.length - 1, side.cells));
     gl.bindVertexArray(patch.array);
     gl.drawElements(gl.TRIANGLES, patch.index.length, indexKind(patch), 0);
   });

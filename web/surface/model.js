@@ -42,8 +42,11 @@ function readPatches(buffer) {
     patch.position = take(Float32Array, 3 * n);
     patch.normal = take(Int16Array, 2 * n);
     patch.uv = take(Float32Array, 2 * n);
-    patch.k = take(Float32Array, 2 * n);
-    if (model.off) patch.off = take(Float32Array, n);
+    const [[spansU, cellsU], [spansV, cellsV]] = patch.raster, nodes = spansU * (cellsU + 1) * spansV * (cellsV + 1);
+    patch.sides = [{breaks: take(Float32Array, spansU + 1), cells: cellsU}, {breaks: take(Float32Array, spansV + 1), cells: cellsV}];
+    patch.k = take(Float32Array, 2 * nodes);
+    patch.nodeNormal = take(Int16Array, 2 * nodes);
+    patch.off = model.off ? take(Float32Array, nodes) : null;
     patch.index = take(n > 65536 ? Uint32Array : Uint16Array, 3 * patch.triangles);
     patch.shown = true;
   }
@@ -127,6 +130,28 @@ function between(found, array, size) {
     for (let k = 0; k < size; ++k) out[k] += found.weights[i] * array[size * v + k];
   });
   return out;
+}
+
+/** Node before a part of the domain, and how far it is to the next one. */
+function nodeOf({breaks, cells}, part) {
+  let low = 0, high = breaks.length - 1;
+  while (high - low > 1) {
+    const middle = low + high >> 1;
+    if (part < breaks[middle]) high = middle;
+    else low = middle;
+  }
+  const s = cells * Math.min(1, Math.max(0, (part - breaks[low]) / (breaks[low + 1] - breaks[low])));
+  const cell = Math.min(Math.floor(s), cells - 1);
+  return [low * (cells + 1) + cell, s - cell];
+}
+
+/** What the nodes of a patch say at parts of its domain, as the pixels have it. */
+function valueAt(patch, part, array, size) {
+  const [[i, f], [j, g]] = patch.sides.map((side, k) => nodeOf(side, part[k]));
+  const row = (patch.sides[0].breaks.length - 1) * (patch.sides[0].cells + 1), first = j * row + i;
+  const value = (node, k) => array[size * node + k];
+  return Array.from({length: size}, (_, k) => (1 - g) * ((1 - f) * value(first, k) + f * value(first + 1, k)) +
+      g * ((1 - f) * value(first + row, k) + f * value(first + row + 1, k)));
 }
 
 const raised = n => String(n).replace("-", "⁻").replace(/\d/g, d => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]);

@@ -79,9 +79,28 @@ void put_indices(Bytes& out, const Mesh& mesh) {
   out.pad();
 }
 
-std::vector<PrincipalCurvatures> put_patch(Bytes& out, const NurbsSurface& surface,
-                                           const Mesh& mesh, Vec3 centre,
-                                           const std::vector<double>& offs) {
+void put_raster(Bytes& out, const ValueRaster& raster) {
+  for (const RasterSide* side : {&raster.u, &raster.v}) {
+    for (const double at : side->breaks) out.real(at);
+  }
+  for (const PrincipalCurvatures k : raster.k) {
+    out.real(k.k1);
+    out.real(k.k2);
+  }
+  constexpr auto kNone = std::numeric_limits<std::int16_t>::min();
+  for (const Vec3 n : raster.normals) {
+    if (norm(n) > 0.0) {
+      put_direction(out, n);
+    } else {
+      out.whole(kNone);
+      out.whole(kNone);
+    }
+  }
+  for (const double off : raster.offs) out.real(off);
+}
+
+void put_patch(Bytes& out, const NurbsSurface& surface, const Mesh& mesh, Vec3 centre,
+               const ValueRaster& raster) {
   for (const MeshVertex& v : mesh.vertices) out.vector(v.point - centre);
   for (const MeshVertex& v : mesh.vertices) put_direction(out, v.normal);
   const Range us = domain_u(surface), vs = domain_v(surface);
@@ -89,50 +108,8 @@ std::vector<PrincipalCurvatures> put_patch(Bytes& out, const NurbsSurface& surfa
     out.real(part_of_range(us, v.u));
     out.real(part_of_range(vs, v.v));
   }
-  std::vector<PrincipalCurvatures> curvatures;
-  curvatures.reserve(mesh.vertices.size());
-  const double size = size_of(surface);
-  for (const MeshVertex& v : mesh.vertices) {
-    curvatures.push_back(principal_at(surface, size, v.u, v.v));
-    out.real(curvatures.back().k1);
-    out.real(curvatures.back().k2);
-  }
-  for (const double off : offs) out.real(off);
+  put_raster(out, raster);
   put_indices(out, mesh);
-  return curvatures;
-}
-
-/// Deviation at each vertex; empty where it is of points alone.
-Result<std::vector<double>> offs_of(const Mesh& mesh,
-                                    const std::optional<ShownDeviation>& deviation,
-                                    const RunContext& run) {
-  if (!deviation || !deviation->of_place) return std::vector<double>{};
-  return offs_at(
-      *deviation, mesh.vertices.size(), [&](std::size_t i) { return mesh.vertices[i].point; }, run);
-}
-
-/// Third of the area of the triangles around each vertex.
-std::vector<double> areas(const Mesh& mesh) {
-  std::vector<double> area(mesh.vertices.size(), 0.0);
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]].point;
-    const double twice = norm(cross(mesh.vertices[t[1]].point - a, mesh.vertices[t[2]].point - a));
-    for (const std::uint32_t v : t) area[v] += twice / 6.0;
-  }
-  return area;
-}
-
-struct Measured {
-  PrincipalCurvatures k;
-  double area = 0.0;
-};
-
-ValueScale scale_of(const std::vector<Measured>& measured, SurfaceColouring colouring,
-                    double size) {
-  std::vector<WeighedValue> values;
-  values.reserve(measured.size());
-  for (const Measured& m : measured) values.push_back({quantity(colouring, m.k), m.area});
-  return value_scale(std::move(values), resolution_of(colouring, size));
 }
 
 void place(PageData& data, const std::vector<Mesh>& meshes, const std::vector<ScenePolyline>& lines,
@@ -162,21 +139,15 @@ Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& m
                            const std::optional<ShownDeviation>& deviation, const RunContext& run) {
   constexpr std::size_t kMostDots = 200'000;
   const auto dots = deviation ? shown_dots(deviation->dots, kMostDots) : std::vector<SceneDot>{};
-  std::vector<WeighedValue> offs;
   PageData data;
   place(data, meshes, lines, dots);
   const double size = norm(data.size);
+  const auto rasters = value_rasters(model, meshes, deviation, run);
+  OBVID_TRY(rasters);
   Bytes out;
-  std::vector<Measured> measured;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const auto own = offs_of(meshes[i], deviation, run);
-    OBVID_TRY(own);
-    const auto k = put_patch(out, model.patches[i].surface, meshes[i], data.centre, *own);
-    const auto area = areas(meshes[i]);
-    for (std::size_t v = 0; v < own->size(); ++v) offs.push_back({(*own)[v], area[v]});
-    for (std::size_t v = 0; v < k.size(); ++v) measured.push_back({k[v], area[v]});
-    const double part = static_cast<double>(i + 1) / static_cast<double>(meshes.size());
-    OBVID_TRY(tell(run, "page", part));
+    put_patch(out, model.patches[i].surface, meshes[i], data.centre, (*rasters)[i]);
+    data.rasters.push_back({(*rasters)[i].u, (*rasters)[i].v});
   }
   for (const ScenePolyline& line : lines) {
     for (const Vec3 p : line.points) out.vector(p - data.centre);
@@ -185,14 +156,13 @@ Result<PageData> page_data(const SurfaceModel& model, const std::vector<Mesh>& m
     data.dots = dots.size();
     for (const SceneDot& dot : dots) out.vector(dot.point - data.centre);
     for (const SceneDot& dot : dots) out.real(dot.value);
-    data.deviation = dots.empty() ? value_scale(std::move(offs),
-                                                resolution_of(SurfaceColouring::kDeviation, size))
-                                  : scale_of_dots(deviation->dots, size);
+    data.deviation =
+        dots.empty() ? scale_of_offs(*rasters, size) : scale_of_dots(deviation->dots, size);
     data.deviation.least = deviation->told.from;
     data.deviation.most = deviation->told.to;
   }
   for (std::size_t q = 0; q < kPageQuantities.size(); ++q) {
-    data.scales[q] = scale_of(measured, kPageQuantities[q], size);
+    data.scales[q] = scale_of(*rasters, kPageQuantities[q], size);
   }
   data.bytes = out.take();
   return data;

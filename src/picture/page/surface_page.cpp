@@ -129,7 +129,14 @@ json scales_json(const picture::PageData& data, const std::optional<ShownDeviati
   return scales;
 }
 
-json patches_json(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
+json raster_json(const std::array<picture::RasterSide, 2>& sides) {
+  json out = json::array();
+  for (const picture::RasterSide& side : sides) out.push_back({side.spans(), side.cells});
+  return out;
+}
+
+json patches_json(const SurfaceModel& model, const std::vector<Mesh>& meshes,
+                  const picture::PageData& data) {
   json patches = json::array();
   const auto real = picture::real_borders(model);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -143,6 +150,7 @@ json patches_json(const SurfaceModel& model, const std::vector<Mesh>& meshes) {
                        {"borders", std::move(borders)},
                        {"vertices", meshes[i].vertices.size()},
                        {"triangles", meshes[i].triangles.size()},
+                       {"raster", raster_json(data.rasters[i])},
                        {"domain", {u.from, u.to, v.from, v.to}}});
   }
   return patches;
@@ -181,7 +189,7 @@ std::string header_json(const SurfaceModel& model, const std::vector<Mesh>& mesh
       {"units", units},
       {"centre", vector_json(data.centre)},
       {"radius", data.radius},
-      {"patches", patches_json(model, meshes)},
+      {"patches", patches_json(model, meshes, data)},
       {"lines", lines_json(options.lines)},
       {"scales", scales_json(data, options.deviation, units)},
       {"off", options.deviation && options.deviation->of_place ? 1 : 0},

@@ -80,7 +80,10 @@ std::vector<DepthBuffer::Seen> DepthBuffer::judge(const std::vector<Quad>& facet
       });
     }
     if (covered == 0) {  // smaller than a pixel, or seen from its edge
-      const bool there = sees(0.25 * (f[0] + f[1] + f[2] + f[3]));
+      const auto [low, high] = std::minmax({f[0].x, f[1].x, f[2].x, f[3].x});
+      const auto [top, bottom] = std::minmax({f[0].y, f[1].y, f[2].y, f[3].y});
+      const bool there =
+          !beside({low, top, 0.0}, {high, bottom, 0.0}) && sees(0.25 * (f[0] + f[1] + f[2] + f[3]));
       seen.push_back(there ? Seen::kPartly : Seen::kHidden);
     } else {
       seen.push_back(owned == covered ? Seen::kWhole : owned > 0 ? Seen::kPartly : Seen::kHidden);
@@ -108,6 +111,13 @@ bool DepthBuffer::wronged(std::size_t facet, Vec2 at) const {
   }
   const std::size_t pixel = static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
   return owner_[pixel] == facet && drawn_[pixel] != facet;
+}
+
+bool DepthBuffer::beside(Vec3 a, Vec3 b) const {
+  const double width = static_cast<double>(width_) / kFine;
+  const double height = static_cast<double>(height_) / kFine;
+  return std::max(a.x, b.x) < 0.0 || std::min(a.x, b.x) > width || std::max(a.y, b.y) < 0.0 ||
+         std::min(a.y, b.y) > height;
 }
 
 bool DepthBuffer::sees(Vec3 p) const {

@@ -29,6 +29,8 @@ class DepthBuffer {
   /// Whether this facet should be seen at a place, and another one was drawn over it: where facets
   /// cross each other no order is right.
   [[nodiscard]] bool wronged(std::size_t facet, Vec2 at) const;
+  /// Whether all between two places lies beside the sheet.
+  [[nodiscard]] bool beside(Vec3 a, Vec3 b) const;
   /// Whether a point on or before a facet can be seen.
   [[nodiscard]] bool sees(Vec3 p) const;
 

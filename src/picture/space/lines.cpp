@@ -60,7 +60,21 @@ void calm(std::vector<Probe>& probes) {
 struct TwoPaths {
   TenthsPath seen, hidden;
 
+  /// Without what lies beside the sheet.
   void add(const std::vector<Vec3>& line, const DepthBuffer& depth, double thin) {
+    std::vector<Vec3> part;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      if (k > 0 && depth.beside(line[k - 1], line[k])) {
+        if (part.size() > 1) add_part(part, depth, thin);
+        part.clear();
+      }
+      part.push_back(line[k]);
+    }
+    if (!part.empty() && !depth.beside(part.front(), part.back())) add_part(part, depth, thin);
+  }
+
+ private:
+  void add_part(const std::vector<Vec3>& line, const DepthBuffer& depth, double thin) {
     std::vector<Probe> probes = probed(line, depth);
     calm(probes);
     for (std::size_t from = 0; from + 1 < probes.size();) {

@@ -71,11 +71,10 @@ std::string axes(const PictureCamera& camera, double height) {
   return out;
 }
 
-std::string scale_bar(const SheetTexts& texts, const PictureCamera& camera, double width,
-                      double height) {
-  const double length = round_down(kSheetScaleBar / camera.scale);
-  const double right = width - kSheetMargin, left = right - length * camera.scale;
-  const double y = height - 26.0;
+/// Its line at y.
+std::string scale_bar(const SheetTexts& texts, double scale, double width, double y) {
+  const double length = round_down(kSheetScaleBar / scale);
+  const double right = width - kSheetMargin, left = right - length * scale;
   return fmt::format(
              "<path class=\"bar\" d=\"M{0:.1f} {1:.1f}v8M{0:.1f} {2:.1f}H{3:.1f}M{3:.1f} "
              "{1:.1f}v8\"/>\n",
@@ -133,14 +132,43 @@ std::string legend(const Colours& colours, const std::string& units, double widt
 
 }  // namespace
 
-std::string sheet_furniture(const SheetTexts& texts, const PictureCamera& camera,
-                            const Colours& colours, const SurfacePictureOptions& options) {
+namespace {
+
+std::string around(const SheetTexts& texts, const PictureCamera& camera, const Colours& colours,
+                   const SurfacePictureOptions& options) {
   std::string out = text_at(kSheetMargin, 32.0, "title", "start", texts.title) +
                     text_at(kSheetMargin, 52.0, "facts", "start", texts.facts) +
-                    axes(camera, options.height) +
-                    scale_bar(texts, camera, options.width, options.height);
+                    axes(camera, options.height);
   if (has_scale(colours.colouring)) {
     out += legend(colours, texts.units, options.width, options.height);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string sheet_furniture(const SheetTexts& texts, const PictureCamera& camera,
+                            const Colours& colours, const SurfacePictureOptions& options) {
+  constexpr double kBarUp = 26.0;  // px
+  return around(texts, camera, colours, options) +
+         scale_bar(texts, camera.scale, options.width, options.height - kBarUp);
+}
+
+std::string sheet_furniture(const SheetTexts& texts, const PictureCamera& camera,
+                            const Colours& colours, const SurfacePictureOptions& options,
+                            double under, const std::vector<SheetPart>& parts) {
+  constexpr double kGap = 3.0, kHook = 5.0, kNumberDown = 20.0, kBarUp = 9.0, kTextUp = 12.0;  // px
+  constexpr double kFactsRow = 52.0;
+  std::string out = around(texts, camera, colours, options) +
+                    scale_bar(texts, camera.scale, options.width, kFactsRow);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const SheetPart& part = parts[i];
+    const std::string number = std::to_string(i + 1);
+    out += fmt::format("<path class=\"bar\" d=\"M{0:.1f} {1:.1f}v{2:.0f}H{3:.1f}v-{2:.0f}\"/>\n",
+                       part.from + kGap, under, kHook, part.to - kGap);
+    out += text_at(0.5 * (part.from + part.to), under + kNumberDown, "name", "middle", number);
+    out += text_at(kSheetMargin, part.top - kTextUp, "name", "start", number + ": " + part.place);
+    out += scale_bar(texts, part.scale, options.width, part.top - kBarUp);
   }
   return out;
 }

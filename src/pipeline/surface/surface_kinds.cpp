@@ -146,15 +146,28 @@ Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance
 }  // namespace
 
 ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
-  constexpr int kChordsPerSpan = 8;
+  constexpr int kFewestChords = 2, kMostChords = 256;  // of a span
+  /// Of the size: a tenth of a px, which pictures round to, on a sheet of 1000 px.
+  constexpr double kDrawnWithin = 1e-4;
+  const double within = kDrawnWithin * bounding_diagonal(curve.points);
   std::vector<double> knots = curve.knots;
   knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
   ScenePolyline line{{}, role};
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    for (int k = 0; k < kChordsPerSpan; ++k) {
-      const double u = knots[i] + (knots[i + 1] - knots[i]) * k / kChordsPerSpan;
-      line.points.push_back(evaluate(curve, u).point);
-    }
+    const auto place = [&](double part) {
+      return evaluate(curve, knots[i] + (knots[i + 1] - knots[i]) * part).point;
+    };
+    const auto bulge = [&](int chords) {
+      double most = 0.0;
+      for (int k = 0; k < chords; ++k) {
+        const Vec3 chord = 0.5 * (place(1.0 * k / chords) + place((k + 1.0) / chords));
+        most = std::max(most, norm(place((k + 0.5) / chords) - chord));
+      }
+      return most;
+    };
+    int chords = kFewestChords;
+    while (chords < kMostChords && bulge(chords) > within) chords *= 2;
+    for (int k = 0; k < chords; ++k) line.points.push_back(place(1.0 * k / chords));
   }
   line.points.push_back(evaluate(curve, knots.back()).point);
   return line;

@@ -49,9 +49,17 @@ IdSpline2dData id_data(const PointGrid& grid, const std::vector<double>& u,
   return data;
 }
 
-std::vector<ScenePolyline> drawn_sections(const std::vector<SpaceSeries>& sections) {
+/// Lines of the skin at its sections: through all patches, one after the other.
+std::vector<ScenePolyline> drawn_sections(const Skin& skin) {
   std::vector<ScenePolyline> lines;
-  for (const SpaceSeries& section : sections) lines.push_back({section.points, "section"});
+  for (const SkinSectionReport& section : skin.sections) {
+    ScenePolyline line{{}, "section"};
+    for (const SurfacePatch& patch : skin.patches) {
+      const ScenePolyline part = drawn(isocurve_at_v(patch.surface, section.parameter));
+      line.points.insert(line.points.end(), part.points.begin(), part.points.end());
+    }
+    lines.push_back(std::move(line));
+  }
   return lines;
 }
 
@@ -151,7 +159,7 @@ Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const
   made.model.name = job.inputs.size() == 1 ? stem : "skin";
   made.model.units = std::move(*unit);
   made.model.patches = fitted->skin.patches;
-  made.lines = drawn_sections(*sections);
+  made.lines = drawn_sections(fitted->skin);
   made.warnings = std::move(assumed);
   made.warnings.insert(made.warnings.end(), fitted->warnings.begin(), fitted->warnings.end());
   made.skin = std::move(*fitted);
