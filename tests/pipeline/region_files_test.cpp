@@ -11,10 +11,10 @@
 #include <variant>
 #include <vector>
 
+#include "obvid/core/units.h"
+
 namespace obvid {
 namespace {
-
-constexpr double kOneDegree = std::numbers::pi / 180.0;
 
 /// Three points on the unit circle, 130 degrees apart, and one farther out.
 PointSeries coarse_spiral(double size) {
