@@ -15,6 +15,15 @@ namespace {
 
 using System = TridiagonalSystem<double, double>;
 
+/// Linear in one unknown that stands apart.
+struct LinearIn {
+  double value = 0.0, by = 0.0;
+};
+LinearIn operator*(double a, const LinearIn& b) { return {a * b.value, a * b.by}; }
+LinearIn operator-(const LinearIn& a, const LinearIn& b) {
+  return {a.value - b.value, a.by - b.by};
+}
+
 /// Length and mean slope of a cell.
 struct Step {
   double h, slope;
@@ -93,6 +102,44 @@ Result<ScalarCubic> global_cubic_by_seconds(std::vector<double> nodes, std::vect
     s.slopes.push_back(i < last ? c.slope - c.h / 6.0 * (2.0 * seconds[i] + seconds[i + 1])
                                 : c.slope + c.h / 6.0 * (seconds[i - 1] + 2.0 * seconds[i]));
   }
+  return checked(std::move(s));
+}
+
+Result<ScalarCubic> periodic_cubic(std::vector<double> nodes, std::vector<double> values) {
+  ScalarCubic s{std::move(nodes), std::move(values), {}};
+  if (!s.values.empty()) s.values.back() = s.values.front();
+  if (auto error = refuse_cubic(s)) return fail(std::move(*error));
+  const std::size_t cells = s.nodes.size() - 1;
+  if (cells == 1) {
+    s.slopes = {0.0, 0.0};
+    return s;
+  }
+  // (14) at each node, around; the last slope stands apart, and all others are linear in it
+  struct Row {
+    double before, here, behind, right;
+  };
+  const auto row = [&](std::size_t i) {
+    const Step a = step(s, (i + cells - 1) % cells), b = step(s, i);
+    return Row{b.h, 2.0 * (a.h + b.h), a.h, 3.0 * (b.h * a.slope + a.h * b.slope)};
+  };
+  const std::size_t last = cells - 1;
+  TridiagonalSystem<double, LinearIn> system(last);
+  for (std::size_t i = 0; i < last; ++i) {
+    const Row r = row(i);
+    const double of_last = (i == 0 ? r.before : 0.0) + (i + 1 == last ? r.behind : 0.0);
+    if (i == 0)
+      system.set_first(r.here, r.behind, {r.right, -of_last});
+    else
+      system.add(i, r.before, r.here, r.behind, {r.right, -of_last});
+  }
+  const std::vector<LinearIn> others = system.solve();
+  const Row r = row(last);
+  const LinearIn before = others.back(), behind = others.front();
+  const double slope = (r.right - r.before * before.value - r.behind * behind.value) /
+                       (r.here + r.before * before.by + r.behind * behind.by);
+  for (const LinearIn& other : others) s.slopes.push_back(other.value + other.by * slope);
+  s.slopes.push_back(slope);
+  s.slopes.push_back(s.slopes.front());
   return checked(std::move(s));
 }
 

@@ -142,14 +142,14 @@ std::vector<double> even_knots(const std::vector<double>& breaks, std::size_t co
 /// More knots, at breaks, beside borders that stay with their derivatives.
 std::vector<double> with_knots_beside_seams(std::vector<double> knots,
                                             const std::vector<double>& breaks,
-                                            const FairAcross& how) {
+                                            const FairAcross& how, std::size_t count) {
   const std::vector<double> even = distinct(knots);
   for (const bool last : {false, true}) {
     const std::size_t side = last ? 1 : 0;
     if (!how.fixed[side] || !how.smooth[side]) continue;
     const double end = last ? even.back() : even.front();
     double step = last ? *(even.end() - 2) - end : even[1] - end;
-    for (std::size_t k = 0; k < kKnotsBesideSeam; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       step /= 2.0;
       const auto above = std::lower_bound(breaks.begin() + 1, breaks.end() - 1, end + step);
       const bool before =
@@ -207,14 +207,16 @@ struct RunGuide {
 /// given surface's own where that has lost those), and what it is made of.
 struct RunPlaces {
   std::vector<RunGuide> guides;
-  std::vector<Vec2> d1, d2;  ///< of the given surface, in the plane of the section
+  std::vector<Vec2> d1, d2;      ///< of the given surface, in the plane of the section
+  std::vector<double> rounding;  ///< of its curvature
 };
 
 Vec2 in_plane(const Frame& frame, Vec3 v) { return {dot(v, frame.x), dot(v, frame.y)}; }
 
-double ripple_of(const std::vector<double>& run, const std::vector<double>& found) {
+double ripple_of(const std::vector<double>& run, const std::vector<double>& found,
+                 const std::vector<double>& rounding) {
   RippleMeter meter;
-  for (std::size_t i = 0; i < run.size(); ++i) meter.add(run[i], found[i]);
+  for (std::size_t i = 0; i < run.size(); ++i) meter.add(run[i], found[i], rounding[i]);
   return meter.ripple();
 }
 
@@ -290,16 +292,16 @@ class Difference {
 
 class Correction {
  public:
-  /// `knots`: along; with `seams`, more beside borders that stay with their derivatives.
+  /// `knots`: along; and `beside` more at each border that stays with its derivatives.
   Correction(const SkinStretch& stretch, const NurbsSurface& given, const FairAcross& wanted,
-             const Along& along, const std::vector<double>& knots, bool seams)
+             const Along& along, const std::vector<double>& knots, std::size_t beside)
       : stretch_(stretch),
         along_(along),
         given_(given),
         how_(wanted),
         light_(&given != &stretch.surface),
         whole_(distinct(knots)),
-        knots_(seams ? with_knots_beside_seams(knots, stretch.breaks, wanted) : knots),
+        knots_(with_knots_beside_seams(knots, stretch.breaks, wanted, beside)),
         count_(knots_.size() - kSkinDegree - 1),
         degree_(static_cast<std::size_t>(given_.degree_v)),
         at_sections_(bases_across(given_, wanted.v, 2)),
@@ -851,7 +853,7 @@ class Correction {
         }
         double worst = 0.0;
         for (const RunGuide& guide : runs[k].guides) {
-          worst = std::max(worst, ripple_of(guide.run, found) / guide.allowed);
+          worst = std::max(worst, ripple_of(guide.run, found, runs[k].rounding) / guide.allowed);
         }
         return worst;
       };
@@ -966,8 +968,11 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
   std::vector<double> kappa, own;
   double largest = 0.0;
   for (const double u : at) {
-    kappa.push_back(plane_curvature(section.at(u), section.frame()));
+    const Hermite wanted = section.at(u);
+    kappa.push_back(plane_curvature(wanted, section.frame()));
     largest = std::max(largest, std::abs(kappa.back()));
+    const auto above = std::upper_bound(stretch.breaks.begin() + 1, stretch.breaks.end() - 1, u);
+    out.rounding.push_back(curvature_rounding(wanted, *above - *(above - 1), section));
     const SpaceJet jet = evaluate(curve, u);
     out.d1.push_back(in_plane(section.frame(), jet.d1));
     out.d2.push_back(in_plane(section.frame(), jet.d2));
@@ -980,7 +985,7 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
     const double change = kappa[i] - kappa[i - 1];
     run.push_back(run.back() + (std::abs(change) > kRoundingOfRuns * largest ? change : 0.0));
   }
-  const double lost = ripple_of(run, own);
+  const double lost = ripple_of(run, own, out.rounding);
   out.guides.push_back({std::move(run), std::max(lost, kMostAgainstRun)});
   if (lost > kMostAgainstRun) out.guides.push_back({runs_of(own), kMostAgainstRun});
   return out;
@@ -1043,7 +1048,7 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
   const auto before = waves_of(stretch, best.surface, wanted, run);
   OBVID_TRY(before);
   Waves least = *before;
-  constexpr double kParts = 2 * kAlong[0].rounds + kAlong[1].rounds;
+  constexpr double kParts = 3 * kAlong[0].rounds + kAlong[1].rounds;
   const bool high_ones = !before->high_ones_few();
   const auto goes_on = [&] {
     return high_ones ? !least.high_ones_few() : least.shallow_ones_many();
@@ -1051,18 +1056,19 @@ Result<bool> improve_within(const SkinStretch& stretch, const FairAcross& wanted
   double begun = 0.0;  // rounds
   struct Try {
     Along along;
-    bool seams;  ///< with knots beside them
+    std::size_t beside;  ///< knots at seams
   };
   const bool seams = (wanted.fixed[0] && wanted.smooth[0]) || (wanted.fixed[1] && wanted.smooth[1]);
-  std::vector<Try> tries{{kAlong[0], true}, {kAlong[1], true}};
-  if (seams) tries.insert(tries.begin() + 1, {kAlong[0], false});
+  std::vector<Try> tries{{kAlong[0], kKnotsBesideSeam}, {kAlong[1], kKnotsBesideSeam}};
+  if (seams) tries.insert(tries.begin() + 1, {{kAlong[0], 1}, {kAlong[0], 0}});
   bool taken = false;
   for (std::size_t n = 0; n < tries.size() && goes_on(); ++n) {
     const Along& along = tries[n].along;
-    if (!tries[n].seams && taken) continue;
-    if (n + 1 == tries.size() && (!high_ones || least.high_ones_few(kFewForMore))) break;
+    if (tries[n].beside == 0 && taken) continue;
+    const bool for_many = tries[n].beside == 1 || n + 1 == tries.size();
+    if (for_many && (!high_ones || least.high_ones_few(kFewForMore))) continue;
     Correction correction(stretch, stretch.surface, wanted, along,
-                          even_knots(stretch.breaks, along.points), tries[n].seams);
+                          even_knots(stretch.breaks, along.points), tries[n].beside);
     for (std::size_t round = 0; round < along.rounds && goes_on(); ++round) {
       const double start = from + (to - from) * begun / kParts;
       begun += 1.0;
@@ -1161,7 +1167,7 @@ Result<void> improve_light(const SkinStretch& stretch, const FairAcross& wanted,
     };
     // each from the light skin: signs that runs have bent are no good ones
     Correction correction(stretch, given, wanted,
-                          Along{0, 0, kLightRunPlaces, kLightRuns[n], false}, given.knots_u, false);
+                          Along{0, 0, kLightRunPlaces, kLightRuns[n], false}, given.knots_u, 0);
     OBVID_TRY(correction.improve({}, {}, run, part(n), part(n + 1)));
     const std::vector<double> moved = correction.moved();
     if (*std::max_element(moved.begin(), moved.end()) > wanted.tolerance) continue;

@@ -12,44 +12,87 @@ namespace {
 /// Slopes at the marks for which the pieces of degree 5 with second derivatives 0 are monotone: the
 /// Bernstein coefficients of a piece's derivative are d0, d0, 5 D - 2 d0 - 2 d1, d1, d1 with the
 /// mean slope D, so d0, d1 <= 5/4 D suffices. Harmonic means inside, as Fritsch and Butland (1984).
-std::vector<double> monotone_slopes(const std::vector<double>& u, const std::vector<double>& s) {
+/// The same at both ends where the curve is a loop.
+std::vector<double> monotone_slopes(const std::vector<double>& u, const std::vector<double>& s,
+                                    bool loop) {
   constexpr double kLargest = 1.25;
   const std::size_t n = u.size();
   std::vector<double> mean(n - 1), slope(n);
   for (std::size_t i = 0; i + 1 < n; ++i) mean[i] = (s[i + 1] - s[i]) / (u[i + 1] - u[i]);
-  slope.front() = mean.front();
-  slope.back() = mean.back();
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double a = mean[i - 1], b = mean[i];
-    if (!(a > 0.0) || !(b > 0.0)) continue;
-    const double before = u[i] - u[i - 1], after = u[i + 1] - u[i];
+  const auto between = [&](std::size_t i, std::size_t j) {  // cells
+    const double a = mean[i], b = mean[j];
+    if (!(a > 0.0) || !(b > 0.0)) return 0.0;
+    const double before = u[i + 1] - u[i], after = u[j + 1] - u[j];
     const double wa = (2.0 * after + before) / (3.0 * (before + after)), wb = 1.0 - wa;
-    slope[i] = std::min(1.0 / (wa / a + wb / b), kLargest * std::min(a, b));
-  }
+    return std::min(1.0 / (wa / a + wb / b), kLargest * std::min(a, b));
+  };
+  slope.front() = loop ? between(n - 2, 0) : mean.front();
+  slope.back() = loop ? slope.front() : mean.back();
+  for (std::size_t i = 1; i + 1 < n; ++i) slope[i] = between(i - 1, i);
   return slope;
 }
 
-/// Heights of the section's points over the plane of its contour, between two arc lengths. Empty
-/// where they are nothing but rounding.
+/// Whether a section goes on smoothly from its end to its start.
+bool closes_smoothly(const MeasuredSection& section) {
+  const Contour& contour = section.section->contour;
+  return contour.closed && !contour.joints.empty() && !contour.joints.front().leaving;
+}
+
+double largest_coordinate_of(const MeasuredSection& section) {
+  double largest = norm(section.section->frame.origin);
+  for (const Vec3& p : section.section->points) largest = std::max(largest, norm(p));
+  return largest;
+}
+
+/// Between which arc lengths of its own a section goes on smoothly around a stretch: its corners
+/// and ends. Beyond the start of one that closes smoothly they are less than 0, or more than its
+/// length.
+Range smooth_around(const MeasuredSection& section, double from, double to) {
+  const double length = section.path->length(), middle = 0.5 * (from + to);
+  std::vector<double> fences = corners_of(section);
+  if (!closes_smoothly(section)) {
+    fences.push_back(0.0);
+    fences.push_back(length);
+  } else {
+    const std::vector<double> own = fences;
+    for (const double s : own) fences.insert(fences.end(), {s - length, s + length});
+  }
+  Range out{-length, 2.0 * length};
+  for (const double s : fences) {
+    if (s <= middle) out.from = std::max(out.from, s);
+    if (s > middle) out.to = std::min(out.to, s);
+  }
+  // a corner between two points has its fence at one of them
+  return {std::min(out.from, from), std::max(out.to, to)};
+}
+
+/// Heights of the section's points over the plane of its contour, between two arc lengths: one
+/// spline for all that goes on smoothly there. Empty where they are nothing but rounding.
 Result<ScalarCubic> heights(const MeasuredSection& section, double from, double to) {
-  std::vector<double> nodes, values;
   const SkinSection& data = *section.section;
-  double largest = 0.0, coordinate = norm(data.frame.origin);
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const double s = section.point_at[i];
-    if (s < from || s > to || (!nodes.empty() && s <= nodes.back())) continue;
-    nodes.push_back(s);
-    values.push_back(data.frame.height(data.points[i]));
-    largest = std::max(largest, std::abs(values.back()));
-    coordinate = std::max(coordinate, norm(data.points[i]));
+  const double length = section.path->length();
+  const bool loop = closes_smoothly(section), periodic = loop && corners_of(section).empty();
+  const Range all = periodic ? Range{0.0, length} : smooth_around(section, from, to);
+  std::vector<double> nodes, values;
+  double largest = 0.0;
+  for (const int turn : {-1, 0, 1}) {  // around a loop whose start is no corner
+    if (turn != 0 && (periodic || !loop)) continue;
+    for (std::size_t i = 0; i < data.points.size(); ++i) {
+      const double s = section.point_at[i] + turn * length;
+      if (s < all.from || s > all.to || (!nodes.empty() && s <= nodes.back())) continue;
+      nodes.push_back(s);
+      values.push_back(data.frame.height(data.points[i]));
+      largest = std::max(largest, std::abs(values.back()));
+    }
   }
   constexpr double kRounding = 4e-16;  // of the coordinates, when they are turned into the plane
-  if (largest <= kRounding * coordinate || nodes.empty()) return ScalarCubic{};
+  if (largest <= kRounding * largest_coordinate_of(section) || nodes.empty()) return ScalarCubic{};
   if (nodes.size() == 1) {  // one height for a stretch without another point: constant
-    nodes.push_back(nodes.front() + section.path->length());
+    nodes.push_back(nodes.front() + length);
     values.push_back(values.front());
   }
-  return global_cubic_by_slopes(std::move(nodes), std::move(values));
+  return periodic ? periodic_cubic(std::move(nodes), std::move(values))
+                  : global_cubic_by_slopes(std::move(nodes), std::move(values));
 }
 
 }  // namespace
@@ -66,7 +109,9 @@ Result<SectionCurve> SectionCurve::make(const MeasuredSection& section,
   curve.path_ = &*section.path;
   curve.u_ = at;
   curve.s_ = marks;
-  curve.slope_ = monotone_slopes(at, marks);
+  const bool whole = marks.front() == 0.0 && marks.back() == section.path->length();
+  curve.slope_ = monotone_slopes(at, marks, whole && closes_smoothly(section));
+  curve.largest_coordinate_ = largest_coordinate_of(section);
   auto height = heights(section, marks.front(), marks.back());
   OBVID_TRY(height);
   curve.height_ = std::move(*height);

@@ -15,6 +15,7 @@
 #include "obvid/core/internal/parallel.h"
 #include "obvid/curve/internal/basis.h"
 #include "obvid/surface/internal/collocation.h"
+#include "obvid/surface/internal/enclosed.h"
 #include "obvid/surface_builders/internal/grid.h"
 #include "obvid/surface_builders/internal/lighten.h"
 #include "ripple_meter.h"
@@ -488,6 +489,7 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     }
     result.patches.push_back({fmt::format("part {}", n + 1), std::move(stretch.surface)});
   }
+  turn_outward(result.patches);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "obvid/core/internal/watch.h"
 
@@ -151,6 +152,15 @@ double plane_curvature(const Hermite& at, const Frame& frame) {
   const Vec2 d2{dot(at.d2, frame.x), dot(at.d2, frame.y)};
   const double speed = norm(d1);
   return speed > 0.0 ? cross(d1, d2) / (speed * speed * speed) : 0.0;
+}
+
+double curvature_rounding(const Hermite& at, double span, const SectionCurve& section) {
+  // second derivatives are 5 * 4 differences p - 2 q + r of coordinates that were rounded
+  constexpr double kOfDegree = 20.0 * 4.0;
+  const double length = norm(at.d1) * span;
+  if (!(length > 0.0)) return 0.0;
+  return kOfDegree * std::numeric_limits<double>::epsilon() * section.largest_coordinate() /
+         (length * length);
 }
 
 Result<std::vector<double>> breaks_for(const std::vector<SectionCurve>& sections,

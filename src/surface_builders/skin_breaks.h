@@ -17,6 +17,11 @@ struct BreakGoals {
 /// Plane curvature of a curve as seen along the normal of a section's plane.
 [[nodiscard]] double plane_curvature(const Hermite& at, const Frame& frame);
 
+/// What rounding makes of the curvature of a skin at a place of a section, `span` parameters of
+/// which are a span of the skin. 0 where the section stands still.
+[[nodiscard]] double curvature_rounding(const Hermite& at, double span,
+                                        const SectionCurve& section);
+
 /// The fewest breaks (found by halving) at which splines of degree 5 that take over two derivatives
 /// of every section follow all of them within the tolerance and keep their curvature: to a tenth of
 /// its change over a span, or `kKept` of itself, and changing one way where it does so on the

@@ -37,17 +37,6 @@ std::vector<double> contour_points_at(const Contour& contour, const ContourPath&
   return at;
 }
 
-/// Arc lengths of the corners inside a section.
-std::vector<double> corners_of(const MeasuredSection& section) {
-  std::vector<double> corners;
-  const std::vector<Joint>& joints = section.section->contour.joints;
-  for (std::size_t k = 1; k < joints.size(); ++k) {
-    const bool end = !section.section->contour.closed && k + 1 == joints.size();
-    if (joints[k].leaving && !end) corners.push_back(section.path->joint(k));
-  }
-  return corners;
-}
-
 /// Number of the point that stands at an arc length.
 std::size_t point_at(const MeasuredSection& section, double s) {
   std::size_t best = 0;
@@ -259,6 +248,16 @@ Result<Matched> by_shape(const std::vector<MeasuredSection>& sections, SkinMatch
 }
 
 }  // namespace
+
+std::vector<double> corners_of(const MeasuredSection& section) {
+  std::vector<double> corners;
+  const std::vector<Joint>& joints = section.section->contour.joints;
+  for (std::size_t k = 1; k < joints.size(); ++k) {
+    const bool end = !section.section->contour.closed && k + 1 == joints.size();
+    if (joints[k].leaving && !end) corners.push_back(section.path->joint(k));
+  }
+  return corners;
+}
 
 Result<MeasuredSection> measured(const SkinSection& section) {
   MeasuredSection result{&section, std::nullopt, {}};

@@ -36,6 +36,9 @@ struct MeasuredSection {
 /// E402 where the contour has a cusp.
 [[nodiscard]] Result<MeasuredSection> measured(const SkinSection& section);
 
+/// Arc lengths of the corners inside a section, which is no point.
+[[nodiscard]] std::vector<double> corners_of(const MeasuredSection& section);
+
 [[nodiscard]] Result<Matched> matched(const std::vector<MeasuredSection>& sections,
                                       SkinMatching matching, const RunContext& run);
 

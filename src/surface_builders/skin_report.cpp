@@ -19,8 +19,10 @@ void add_ripple(const SectionCurve& section, const std::vector<double>& breaks,
     const auto piece = quintic(section.at(breaks[i]), section.at(breaks[i + 1]), length);
     for (int j = 0; j < kReportSamplesPerSpan; ++j) {
       const double part = (j + 0.5) / kReportSamplesPerSpan;
-      meter.add(plane_curvature(section.at(breaks[i] + part * length), section.frame()),
-                plane_curvature(evaluate(piece, part, length), section.frame()));
+      const Hermite wanted = section.at(breaks[i] + part * length);
+      meter.add(plane_curvature(wanted, section.frame()),
+                plane_curvature(evaluate(piece, part, length), section.frame()),
+                curvature_rounding(wanted, length, section));
     }
   }
 }
@@ -31,19 +33,21 @@ void add_section_report(const SkinStretch& stretch, const MeasuredSection& measu
   if (section.is_point()) return;
   const SpaceCurve made = isocurve_at_v(stretch.surface, v);
   RippleMeter meter;
-  const auto look = [&](double u) {
+  const auto look = [&](double u, double span) {
     const SpaceJet jet = evaluate(made, u);
     const Hermite wanted = section.at(u);
     report.deviation = std::max(report.deviation, norm(jet.point - wanted.point));
     meter.add(plane_curvature(wanted, section.frame()),
-              plane_curvature({jet.point, jet.d1, jet.d2}, section.frame()));
+              plane_curvature({jet.point, jet.d1, jet.d2}, section.frame()),
+              curvature_rounding(wanted, span, section));
   };
   for (std::size_t i = 0; i + 1 < stretch.breaks.size(); ++i) {
-    const double step = (stretch.breaks[i + 1] - stretch.breaks[i]) / samples_per_span;
-    look(stretch.breaks[i]);  // runs end at breaks: places beside one alone would mix two
-    for (int j = 0; j < samples_per_span; ++j) look(stretch.breaks[i] + (j + 0.5) * step);
+    const double span = stretch.breaks[i + 1] - stretch.breaks[i];
+    const double step = span / samples_per_span;
+    look(stretch.breaks[i], span);  // runs end at breaks: places beside one alone would mix two
+    for (int j = 0; j < samples_per_span; ++j) look(stretch.breaks[i] + (j + 0.5) * step, span);
+    if (i + 2 == stretch.breaks.size()) look(stretch.breaks.back(), span);
   }
-  look(stretch.breaks.back());
   report.ripple = std::max(report.ripple, meter.ripple());
   const double from = section.length_at(0.0).s, to = section.length_at(1.0).s;
   for (std::size_t i = 0; i < measured.point_at.size(); ++i) {

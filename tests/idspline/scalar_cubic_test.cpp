@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "polynomial.h"
@@ -70,6 +71,48 @@ TEST(ScalarCubic, GlobalSecondDerivativesAreContinuousAndLocalOnesAreNot) {
   EXPECT_LT(jump(*global_cubic_by_slopes(kNodes, wild_values())), 1e-11);
   EXPECT_LT(jump(*global_cubic_by_seconds(kNodes, wild_values())), 1e-11);
   EXPECT_GT(jump(*local_cubic(kNodes, wild_values())), 1.0);
+}
+
+TEST(ScalarCubic, APeriodicOneGoesOnWithTwoDerivativesAtEachNode) {
+  for (std::size_t cells = 1; cells <= 6; ++cells) {
+    const auto end = static_cast<std::ptrdiff_t>(cells) + 1;
+    const std::vector<double> wild = wild_values();
+    const std::vector<double> nodes(kNodes.begin(), kNodes.begin() + end);
+    std::vector<double> values(wild.begin(), wild.begin() + end);
+    values.back() = values.front();
+    const auto s = periodic_cubic(nodes, values);
+    ASSERT_TRUE(s);
+    for (std::size_t i = 0; i < cells; ++i) {
+      const CellPolynomial before = cell(*s, (i + cells - 1) % cells), after = cell(*s, i);
+      const ScalarJet a = evaluate(before, i == 0 ? nodes.back() : nodes[i]),
+                      b = evaluate(after, nodes[i]);
+      EXPECT_NEAR(b.value, values[i], 1e-14);
+      EXPECT_NEAR(a.value, b.value, 1e-13);
+      EXPECT_NEAR(a.d1, b.d1, 1e-12);
+      EXPECT_NEAR(a.d2, b.d2, 1e-11) << cells << " cells, node " << i;
+    }
+  }
+}
+
+TEST(ScalarCubic, APeriodicOneOfASineIsOfFourthOrder) {
+  double error[2] = {};
+  for (const int k : {0, 1}) {
+    const int n = k == 0 ? 16 : 32;
+    std::vector<double> nodes, values;
+    for (int i = 0; i <= n; ++i) {
+      nodes.push_back(2.0 * std::acos(-1.0) * i / n);
+      values.push_back(std::sin(nodes.back()));
+    }
+    const auto s = periodic_cubic(nodes, values);
+    ASSERT_TRUE(s);
+    for (double x = 0.0; x < 6.28; x += 0.01) {
+      error[k] = std::max(error[k], std::abs(evaluate(*s, x).value - std::sin(x)));
+    }
+  }
+  // the fourth derivative times h^4 / 384 and what neighbours add to it (a cubic that meets slopes
+  // exactly has 1 / 384)
+  EXPECT_LT(error[0], 5.0 / 384.0 * std::pow(2.0 * std::acos(-1.0) / 16.0, 4));
+  EXPECT_NEAR(error[0] / error[1], 16.0, 1.0);
 }
 
 TEST(ScalarCubic, RefusesWhatIsNoSpline) {

@@ -10,9 +10,10 @@
 #include <variant>
 #include <vector>
 
+#include "obvid/core/units.h"
+
 namespace obvid {
 namespace {
-
 
 /// Three points on the unit circle, 130 degrees apart, and one farther out.
 PointSeries coarse_spiral(double size) {

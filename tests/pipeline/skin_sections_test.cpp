@@ -292,7 +292,8 @@ TEST(SkinSections, ALightSkinTellsLostRunsWithoutAWarning) {
 }
 
 /// What the issue of skins that are fair across asks for: of the changes that the sections force
-/// within 1e-4 of the size, at most so many more, and runs of curvature kept.
+/// within 1e-4 of the size, at most so many more, and runs of curvature kept. The seam of rotor 37
+/// stays as smooth as it is, with all waves across it.
 TEST(SkinSections, FairAcrossLeavesFewChangesBeyondTheForcedOnes) {
   SKIP_WITHOUT("turbomachinery_nasa");
   struct Body {
@@ -301,7 +302,7 @@ TEST(SkinSections, FairAcrossLeavesFewChangesBeyondTheForcedOnes) {
     double eps, most;
   };
   for (const Body& body : {Body{"hulls_grids/Series60Offset_x.dat", {}, 3.182e-3, 0.05},
-                           Body{"turbomachinery_nasa/rotor37geometry.dat", 1e-4, 9.853e-4, 0.08}}) {
+                           Body{"turbomachinery_nasa/rotor37geometry.dat", 1e-4, 9.853e-4, 0.10}}) {
     const auto sections = read_sections({(shared_data() / body.file).string()});
     ASSERT_TRUE(sections) << body.file;
     SkinJob job;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "obvid/curve/internal/clothoid.h"
+#include "ripple_meter.h"
 #include "skin_shares.h"
 
 namespace obvid {
@@ -237,6 +238,147 @@ TEST(Skin, CarriesHeightsOverThePlaneOfASection) {
     EXPECT_NEAR(p.z, 0.1 * std::cos(2 * std::atan2(p.y, p.x)), 3e-6);
   }
   EXPECT_LT(made->sections[0].from_points, 2e-6);
+}
+
+TEST(Skin, ClosedSectionsWithHeightsGoOnAtTheirSeam) {
+  // circles that wave over their planes: heights a cos 3t + b sin 2t, whose slope at the seam is
+  // not 0; few points, so that ends of an open spline would not meet
+  const std::size_t n = 24;
+  std::vector<SkinSection> sections;
+  for (const double z : {0.0, 1.0, 2.5}) {
+    SkinSection section = section_of(circle(1 + 0.2 * z, n), at_height(z));
+    for (std::size_t i = 0; i < section.points.size(); ++i) {
+      const double t = 2 * kPi * static_cast<double>(i % n) / static_cast<double>(n);
+      section.points[i].z += 0.1 * std::cos(3 * t) + (0.2 - 0.03 * z) * std::sin(2 * t);
+    }
+    sections.push_back(section);
+  }
+  const auto made = skin(sections, {1e-6});
+  ASSERT_TRUE(made) << made.error().what;
+  ASSERT_EQ(made->patches.size(), 1u);
+  const NurbsSurface& s = made->patches[0].surface;
+  for (const double v : {0.0, 0.13, made->sections[1].parameter, 0.71, 1.0}) {
+    const SurfaceJet a = evaluate(s, 0.0, v), b = evaluate(s, 1.0, v);
+    EXPECT_LT(norm(a.point - b.point), 1e-13);
+    EXPECT_LT(norm(a.du - b.du), 1e-11 * norm(a.du)) << v;
+    EXPECT_LT(norm(a.duu - b.duu), 1e-9 * norm(a.duu)) << v;
+  }
+}
+
+TEST(Skin, ASeamAtNoCornerIsSmoothWhereCornersStandElsewhere) {
+  // squares that begin in the middle of a side and wave over their planes: heights of both
+  // stretches that meet there are one spline, from corner to corner
+  std::vector<SkinSection> sections;
+  for (const double z : {0.0, 3.0}) {
+    Contour contour = square(1);
+    contour.points.insert(contour.points.begin(), {0.0, -1.0});
+    const Joint corner = contour.joints.front();
+    for (Joint& joint : contour.joints) joint.source = *joint.source + 1;
+    contour.pieces.front() = LinePiece{{0, -1}, {1, -1}};
+    contour.pieces.push_back(LinePiece{{-1, -1}, {0, -1}});
+    contour.joints.front() = {{{0, -1}, 0.0, 0.0}, 0, {}};
+    contour.joints.push_back(corner);
+    contour.joints.back().source = 1;
+    contour.points = {{0, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+    for (std::size_t i = 0; i < 5; ++i) contour.joints[i].source = i;
+    contour.runs.push_back({4, 4, 0});
+    SkinSection section = section_of(contour, at_height(z));
+    const std::array<double, 5> heights{0.3, 0.1, 0.0, 0.2, -0.3};
+    for (std::size_t i = 0; i < section.points.size(); ++i) section.points[i].z += heights[i % 5];
+    sections.push_back(section);
+  }
+  const auto made = skin(sections, {1e-6});
+  ASSERT_TRUE(made) << made.error().what;
+  ASSERT_EQ(made->patches.size(), 5u);
+  for (const double v : {0.0, 0.4, 1.0}) {
+    const SurfaceJet a = evaluate(made->patches[4].surface, 1.0, v),
+                     b = evaluate(made->patches[0].surface, 0.0, v);
+    EXPECT_LT(norm(a.point - b.point), 1e-13);
+    EXPECT_LT(norm(unit(a.du) - unit(b.du)), 1e-12) << v;
+  }
+}
+
+TEST(Skin, NormalsOfAClosedBodyPointOutOfIt) {
+  // a cone with radius 2 - z / 3, from sections in either direction and order
+  for (const bool clockwise : {false, true}) {
+    for (const bool downwards : {false, true}) {
+      const auto section = [&](double radius, double z) {
+        const Frame seen_from_below{{0, 0, z}, {1, 0, 0}, {0, -1, 0}};
+        return section_of(circle(radius, 12), clockwise ? seen_from_below : at_height(z));
+      };
+      std::vector<SkinSection> sections{section(2, 0), section(1, 3)};
+      if (downwards) std::swap(sections[0], sections[1]);
+      const auto made = skin(sections, {1e-8});
+      ASSERT_TRUE(made);
+      for_each_point(made->patches[0].surface, [](const SurfaceJet& jet) {
+        const Vec3 n = unit(cross(jet.du, jet.dv));
+        const double rho = std::hypot(jet.point.x, jet.point.y);
+        EXPECT_NEAR((n.x * jet.point.x + n.y * jet.point.y) / rho, 3 / std::sqrt(10), 1e-5);
+        EXPECT_NEAR(n.z, 1 / std::sqrt(10), 1e-5);
+      });
+      EXPECT_LE(made->sections[0].deviation, 1e-8);
+    }
+  }
+}
+
+TEST(Skin, NormalsOfAnOpenOneKeepTheirSide) {
+  for (const double side : {1.0, -1.0}) {
+    const Frame up{{0, 0, 0}, {1, 0, 0}, {0, side, 0}}, there{{0, 0, 3}, {1, 0, 0}, {0, side, 0}};
+    const Contour arc = clothoid(0.4, 0.5, 2.0);
+    const auto made = skin({section_of(arc, up), section_of(arc, there)}, {1e-8});
+    ASSERT_TRUE(made);
+    const SurfaceJet jet = evaluate(made->patches[0].surface, 0.0, 0.5);
+    // along the section x along z
+    const Vec3 n = unit(cross(jet.du, jet.dv));
+    EXPECT_NEAR(n.x, side * std::sin(0.3), 1e-9);
+    EXPECT_NEAR(n.y, -std::cos(0.3), 1e-9);
+  }
+}
+
+TEST(Skin, StraightSectionsLoseNoRuns) {
+  // lines whose points are as straight as coordinates of their size can be: curvature of rounding
+  for (const double shift : {0.0, 1.0, 1e6}) {
+    std::vector<SkinSection> sections;
+    for (const double x : {0.0, 3.0, 7.0}) {
+      const Frame frame{{x + shift, shift, shift}, {0, 0.6, 0.8}, {1, 0, 0}};
+      Contour contour;
+      const double rounding = 1e-16 * (1.0 + shift);  // of the places between points 1 apart
+      double theta = 0.0;
+      for (std::size_t i = 0; i < 5; ++i) {
+        const double t = static_cast<double>(i), kappa = rounding * std::sin(7.0 * t + x);
+        contour.points.push_back({t, 0.0});
+        contour.joints.push_back({{{t, 0.0}, theta, kappa}, i, {}});
+        if (i == 4) break;
+        const double next = rounding * std::sin(7.0 * (t + 1.0) + x);
+        contour.pieces.push_back(ClothoidPiece{{t, 0}, {t + 1.0, 0}, 0.0, kappa, next, 1.0});
+        contour.runs.push_back({i, i, next > kappa ? 1 : -1});
+      }
+      sections.push_back(section_of(contour, frame));
+    }
+    const auto made = skin(sections, {1e-5});
+    ASSERT_TRUE(made) << made.error().what;
+    for (const SkinSectionReport& section : made->sections) EXPECT_EQ(section.ripple, 0.0) << shift;
+  }
+}
+
+TEST(RippleMeter, TellsFallsButNotRounding) {
+  // wanted rises from 1 to 2; found is as much but for a dent of 0.1, measured from 1.5
+  for (const double rounding : {0.0, 1e-6}) {
+    RippleMeter dent;
+    for (int i = 0; i <= 100; ++i) {
+      const double wanted = 1.0 + 0.01 * i;
+      dent.add(wanted, i == 51 ? 1.4 : wanted, rounding);
+    }
+    EXPECT_NEAR(dent.ripple(), 0.1 / 2.0, 1e-12);
+  }
+  RippleMeter straight;
+  for (int i = 0; i <= 100; ++i) {
+    straight.add(1e-17 * std::sin(i), 1e-12 * std::sin(3.0 * i), 1e-12);
+  }
+  EXPECT_EQ(straight.ripple(), 0.0);
+  // bent by more than that anywhere, all is measured
+  straight.add(0.0, 1e-11, 1e-12);
+  EXPECT_GT(straight.ripple(), 1e4);
 }
 
 TEST(Skin, CountsTheWavesAcrossThatTheSectionsForce) {

@@ -23,6 +23,7 @@
 #include "borders.h"
 #include "creases.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/surface/internal/enclosed.h"
 #include "splines.h"
 #include "trimmed_faces.h"
 
@@ -169,37 +170,12 @@ class Builder {
   std::vector<TopoDS_Edge> edges_;
 };
 
-/// Volume to the left of the patches' normals, up to the accuracy of a sign: two places a span.
-double volume(const NurbsSurface& surface, Vec3 centre) {
-  const auto places = [](const std::vector<double>& knots, std::vector<double>& widths) {
-    std::vector<double> out;
-    for (std::size_t k = 1; k < knots.size(); ++k) {
-      const double a = knots[k - 1], b = knots[k];
-      for (const double part : {0.25, 0.75}) {
-        if (!(a < b)) continue;
-        out.push_back(a + part * (b - a));
-        widths.push_back(0.5 * (b - a));
-      }
-    }
-    return out;
-  };
-  std::vector<double> du, dv;
-  const std::vector<double> us = places(surface.knots_u, du), vs = places(surface.knots_v, dv);
-  const auto raster = evaluate_raster(surface, us, vs);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < raster.size(); ++i) {
-    const SurfacePoint& p = raster[i];
-    sum += dot(p.point - centre, cross(p.du, p.dv)) * du[i % us.size()] * dv[i / us.size()];
-  }
-  return sum / 3.0;
-}
-
 bool is_inside_out(const std::vector<NurbsSurface>& patches, const Joints& joints,
                    const Joined& group) {
   const Vec3 centre = patches[group.patches.front()].points.front();
   double sum = 0.0;
   for (const std::size_t i : group.patches) {
-    sum += (joints.turned[i] ? -1.0 : 1.0) * volume(patches[i], centre);
+    sum += (joints.turned[i] ? -1.0 : 1.0) * volume_from(patches[i], centre).value;
   }
   return sum < 0.0;
 }

@@ -13,6 +13,7 @@
 #include "obvid/core/units.h"
 #include "obvid/geom/internal/box.h"
 #include "obvid/surface/internal/collocation.h"
+#include "obvid/surface/internal/enclosed.h"
 #include "obvid/surface_builders/internal/network.h"
 #include "obvid/surface_builders/internal/offset.h"
 
@@ -130,6 +131,16 @@ bool crosses_axis(const SpaceCurve& profile, Vec3 point, Vec3 direction) {
   });
 }
 
+/// Whether normals point into what a profile encloses in a whole turn, level ends closed, whatever
+/// part of the turn is made. What is no surface is told where it is made.
+bool is_inward(RevolutionSurface surface) {
+  surface.angle = std::copysign(kFullTurn, surface.angle);
+  const auto whole = to_nurbs(surface, 0.0);
+  if (!whole) return false;
+  const auto volume = enclosed_volume({{"", whole->surface}});
+  return volume && volume->sign() < 0;
+}
+
 Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance) {
   const double largest = distance < 0.0 ? found.largest_inwards : found.largest_outwards;
   const std::size_t places = found.folds.size();
@@ -190,6 +201,7 @@ Result<MadeSurface> made_of(const Surface& surface, const std::string& name, dou
   made.deviation = form->deviation;
   made.model.name = name;
   made.model.patches.push_back({name, std::move(form->surface)});
+  turn_outward(made.model.patches);
   return made;
 }
 
@@ -221,8 +233,9 @@ Result<MadeSurface> make_kind(const RevolveKind& kind, const SurfaceJob& job,
   OBVID_TRY(need(job, 1, 1, "one profile"));
   auto curves = read_curves(job.inputs, job.curves, run);
   OBVID_TRY(curves);
-  const RevolutionSurface surface{curves->front().curve, kind.axis_point, kind.axis_direction,
-                                  kind.angle};
+  RevolutionSurface surface{curves->front().curve, kind.axis_point, kind.axis_direction,
+                            kind.angle};
+  if (is_inward(surface)) surface.profile = reversed(surface.profile);
   const std::string stem = std::filesystem::path(job.inputs.front().name).stem().string();
   auto made = made_of(surface, stem, size_of_all(*curves), job);
   if (!made) return made;

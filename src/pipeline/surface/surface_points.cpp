@@ -8,6 +8,7 @@
 
 #include "obvid/core/internal/figures.h"
 #include "obvid/geom/internal/box.h"
+#include "obvid/surface/internal/enclosed.h"
 #include "obvid/surface_builders/internal/approximate.h"
 #include "surface/surface_inputs.h"
 #include "surface/surface_kinds.h"
@@ -20,6 +21,7 @@ MadeSurface of_one_patch(const PointGrid& grid, NurbsSurface surface) {
   made.model.name = grid.name.empty() ? "surface" : grid.name;
   made.model.units = grid.units;
   made.model.patches.push_back({made.model.name, std::move(surface)});
+  turn_outward(made.model.patches);
   made.facts.emplace_back("grid", fmt::format("{} rows of {} points", grid.count_v, grid.count_u));
   return made;
 }

@@ -41,6 +41,10 @@ struct CubicEnds {
                                                           std::vector<double> values,
                                                           const CubicEnds& ends = {});
 
+/// C2 and periodic: the last node is the first one again, one period on, and has its value.
+[[nodiscard]] Result<ScalarCubic> periodic_cubic(std::vector<double> nodes,
+                                                 std::vector<double> values);
+
 /// Polynomial on cell i.
 [[nodiscard]] CellPolynomial cell(const ScalarCubic& spline, std::size_t i);
 
