@@ -16,8 +16,8 @@ namespace obvid {
 // Options of surfaces and tool paths as they are typed, read alike for all front ends. Errors: E203
 // with the name of the option as the command line has it.
 
-/// Kinds of surfaces by the words of pipeline/surface_kinds.inc, nothing said of them yet. Error: E201
-/// with the nearest word.
+/// Kinds of surfaces by the words of pipeline/surface_kinds.inc, nothing said of them yet. Error:
+/// E201 with the nearest word.
 [[nodiscard]] Result<SurfaceKind> surface_kind_named(const std::string& name);
 [[nodiscard]] std::vector<std::string> surface_kind_names();
 
@@ -39,8 +39,9 @@ struct SurfaceValues {
   std::string faces;           ///< "A,B": names or numbers from 1
   std::string sides = "auto";  ///< or "front,back", ...
   bool whole = false;
-  std::string border, to;   ///< "A:u0": face and side
-  std::string join = "G1";  ///< or "G0", "G2"
+  std::string border, to;        ///< "A:u0": face and side
+  std::string join = "G1";       ///< or "G0", "G2"
+  std::optional<double> within;  ///< units, of a match
 };
 
 /// Into the job, whose kind is known: its own values, and those of all kinds.
