@@ -45,6 +45,7 @@ int run(const SurfaceOptions& options) {
   }
   SurfaceExportOptions formats = options.formats;
   formats.lines = made->lines;
+  formats.beside_longitudinals = made->beside_longitudinals;
   const auto written =
       write_surface(made->model, *outputs, formats, bar.progress(), made->warnings);
   bar.clear();

@@ -178,6 +178,43 @@ Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
   return table;
 }
 
+/// Faces beside trimmed ones.
+Table trim_table(const SurfaceModel& model, const SurfaceCheck& check) {
+  Table table;
+  table.column("face", Table::Align::kLeft);
+  table.column("along", Table::Align::kLeft);
+  table.column("length");
+  table.column("gap");
+  table.column("angle\ndegrees");
+  table.column("order");
+  table.column("gap largest\nat x, y, z", Table::Align::kLeft);
+  table.column("angle largest\nat x, y, z", Table::Align::kLeft);
+  std::vector<double> worst;
+  for (const TrimJointReport& j : check.trim_joints) worst.push_back(j.angle);
+  std::size_t before = 0;
+  for (const std::size_t i : rows_worth_showing(worst)) {
+    if (i > before) table.gap();
+    before = i + 1;
+    const TrimJointReport& j = check.trim_joints[i];
+    table.row({model.patches[j.patch[0]].name,
+               j.patch[0] == j.patch[1] ? "its own seam" : model.patches[j.patch[1]].name,
+               significant(j.length, 4), significant(j.gap, 3),
+               significant(j.angle / kOneDegree, 3), j.order > 0 ? "G1" : "G0",
+               coordinates_text(j.gap_at), coordinates_text(j.angle_at)});
+  }
+  return table;
+}
+
+/// "36 mm, 12 mm of them free, most around (1, 2, 3)".
+std::string trimmed_borders_text(const TrimmedBorders& borders, const std::string& units) {
+  std::string text = fmt::format("{} {}", significant(borders.length, 4), units);
+  text += borders.free > 0.0
+              ? fmt::format(", {} {} of them along no other face (longest stretch around {})",
+                            significant(borders.free, 4), units, coordinates_text(borders.free_at))
+              : std::string(", all along other faces");
+  return text + ", as sampled";
+}
+
 Result<std::vector<Output>> pictures_of(const SurfaceCheckOptions& options) {
   std::vector<std::string> inputs{options.input};
   if (options.job.against) inputs.push_back(options.job.against->name);
@@ -210,9 +247,13 @@ std::string surface_check_text(const SurfaceModel& model, const CheckedSurface& 
   std::string text = patch_table(check).text() + "\n" + extreme_table(check).text() + "\n" +
                      line_table(check).text() + "\n";
   if (!check.joints.empty()) text += joint_table(model, check).text() + "\n";
+  if (!check.trim_joints.empty()) text += trim_table(model, check).text() + "\n";
   Facts facts;
   facts.add("size", significant(check.size) + " " + model.units.text());
   facts.add("borders", borders_text(check));
+  if (is_trimmed(model)) {
+    facts.add("of trims", trimmed_borders_text(check.trimmed_borders, model.units.text()));
+  }
   if (const auto& deviation = checked.deviation) {
     const std::string units = model.units.text();
     facts.add("against", fmt::format("{}: {}", deviation->against,

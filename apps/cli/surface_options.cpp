@@ -98,7 +98,9 @@ void add_pictures(CLI::App& app, RawSurface& raw) {
          "shaded, isolines, gaussian, mean, k1, k2, zebra, isophotes or reflection [shaded]")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--view", raw.formats.view, "iso, front, top, side, back or bottom [iso]")
+  app.add_option("--view", raw.formats.view,
+                 "iso, front, top, side, back, bottom, or longitudinals: graphs of the curvature "
+                 "along ten lines u = const, of a picture alone [iso]")
       ->type_name("NAME")
       ->group(group);
 }
@@ -118,10 +120,9 @@ void add_contours(CLI::App& app, RawSurface& raw) {
       ->type_name("DEG")
       ->group(group);
   app.add_flag("--no-corners", raw.typed.no_corners, "Search no corners")->group(group);
-  app.add_option(
-         "--continuity", raw.typed.continuity,
-         "The curvature is continuous (G2), or its slope too, where a contour has one (G3) [G3 "
-         "wherever it costs no vertex]")
+  app.add_option("--continuity", raw.typed.continuity,
+                 "The curvature is continuous (G2), or its slope too, where a contour has one (G3) "
+                 "[G2]")
       ->type_name("NAME")
       ->group(group);
   app.add_flag("--plain", raw.make.job.curves.plain_when_refused,
@@ -276,6 +277,10 @@ struct KindOptions {
     app.add_option("--join", raw.values.join,
                    "G0 position, G1 tangent planes, or G2 curvature [G1]")
         ->type_name("NAME");
+    app.add_option("--within", raw.values.within,
+                   "Refuse where the patch would move farther than this, input units, by a bound "
+                   "[no limit]")
+        ->type_name("D");
     app.add_option("--tolerance", raw.values.tolerance,
                    "Largest gap that may be left, input units [1e-7 of the size]")
         ->type_name("T");
@@ -344,7 +349,10 @@ void add_check(CLI::App& app, RawSurface& raw) {
                   "Of pictures and pages: deviation, gaussian, mean, k1, k2, zebra, isophotes, "
                   "reflection, shaded or isolines [deviation with --against, else gaussian]")
       ->type_name("NAME");
-  check.add_option("--view", raw.formats.view, "iso, front, top, side, back or bottom [iso]")
+  check
+      .add_option("--view", raw.formats.view,
+                  "iso, front, top, side, back, bottom, or longitudinals: graphs of the curvature "
+                  "along ten lines u = const, of a picture alone [iso]")
       ->type_name("NAME");
   check.add_flag("--csv", raw.check.csv, "Table of patches as CSV on standard output");
   check.add_flag("--json", raw.check.json, "JSON on standard output instead of the tables");

@@ -41,8 +41,9 @@ struct obvid_space {
 
 struct obvid_surface {
   obvid::SurfaceModel model;
-  std::string source;  ///< its only input, as it was named
-  std::vector<obvid::ScenePolyline> lines;  ///< inputs, drawn on pages and pictures
+  std::string source;                              ///< its only input, as it was named
+  std::vector<obvid::ScenePolyline> lines;         ///< inputs, drawn on pages and pictures
+  obvid::ShownLongitudinals beside_longitudinals;  ///< of pictures of longitudinals
   std::vector<std::string> warnings;
 };
 

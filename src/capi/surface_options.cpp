@@ -69,7 +69,8 @@ std::map<std::string, Setter> setters_of(SurfaceWritten& w, SurfaceRequest& out,
                 {"whole", flag(s.whole)},
                 {"border", text(s.border)},
                 {"to", text(s.to)},
-                {"join", text(s.join)}});
+                {"join", text(s.join)},
+                {"within", number(s.within)}});
   }
   if (known.formats) {
     SurfaceFormatValues& f = w.formats;
@@ -141,6 +142,7 @@ Result<void> check_written(SurfaceWritten& w, const SurfaceKnown& known, Surface
     OBVID_TRY(set_surface(w.surface, out.make));
     OBVID_TRY(set_values(w.typed, out.make.curves.sections));
   }
+  if (known.toolpath) OBVID_TRY(view_named(w.formats.view));  // a view of the paths
   OBVID_TRY(set_surface_formats(w.formats, out.formats));
   OBVID_TRY(set_surface_check(w.check, out.check));
   if (known.cut) OBVID_TRY(set_surface_cut(w.cut, out.cut));

@@ -92,6 +92,7 @@ int obvid_surface_make(const char* kind, const obvid_input* const* inputs, size_
       out->model = std::move(made->model);
       if (count == 1 && crossing == 0) out->source = inputs[0]->name;
       out->lines = std::move(made->lines);
+      out->beside_longitudinals = std::move(made->beside_longitudinals);
       out->warnings = std::move(made->warnings);
       *surface = out.release();
     }
@@ -127,6 +128,7 @@ int obvid_surface_check_file(const obvid_surface* surface, const char* options, 
     const auto checked = check_surface(surface->model, request->check, context);
     OBVID_TRY(checked);
     request->formats.lines = surface->lines;
+    request->formats.beside_longitudinals = surface->beside_longitudinals;
     show_findings(*checked, request->formats);
     SurfaceExporter exporter(surface->model, request->formats, context);
     auto out = std::make_unique<obvid_files>();
@@ -155,6 +157,7 @@ int obvid_surface_export(const obvid_surface* surface, const char* ending, const
     }
     OBVID_TRY(can_write_surfaces(*format));
     request->formats.lines = surface->lines;
+    request->formats.beside_longitudinals = surface->beside_longitudinals;
     const RunContext context = context_of(run);
     OBVID_TRY(may_go_on(context));
     auto out = std::make_unique<obvid_files>();

@@ -9,6 +9,7 @@
 
 #include "check_joints.h"
 #include "check_lines.h"
+#include "check_trims.h"
 #include "climb.h"
 #include "obvid/numeric/internal/gauss.h"
 #include "obvid/surface/internal/topology.h"
@@ -371,6 +372,10 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
                [&](const JointReport& joint) {
                  return !trimmed(joint.patch[0]) && !trimmed(joint.patch[1]);
                });
+  auto trims = trim_joints_of(model, topology, meeting, result.size, run);
+  OBVID_TRY(trims);
+  result.trim_joints = std::move(trims->joints);
+  result.trimmed_borders = trims->borders;
   std::vector<std::array<bool, 4>> met(model.patches.size());
   for (const JointReport& joint : result.joints) {
     for (const std::size_t k : {0u, 1u}) met[joint.patch[k]][joint.side[k]] = true;
@@ -382,6 +387,8 @@ Result<SurfaceCheck> check_surface(const SurfaceModel& model, const CheckOptions
       if (met[use.patch][use.side]) {
         ++result.met_borders;
         if (alone) ++result.apart_borders;
+      } else if (trims->along[use.patch][use.side]) {
+        ++result.met_borders;
       } else if (alone) {
         ++result.free_borders;
       }

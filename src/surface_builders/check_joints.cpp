@@ -105,11 +105,6 @@ struct AtJoint {
   Vec3 point;
 };
 
-/// Nearer to a point in which a border ends (a pole, an apex) than where du x dv is this part of
-/// the largest one on it curvature may have no bound, and its step and the angle between tangent
-/// planes are those of rounding: they are left out.
-constexpr double kBesidePoint = 1e-3;
-
 /// Of du x dv, on the side where it is less.
 double lesser_area(const SurfaceJet& a, const SurfaceJet& b) {
   return std::min(norm(cross(a.du, a.dv)), norm(cross(b.du, b.dv)));

@@ -114,7 +114,9 @@ class Trimmed {
 
   /// The nearest place of the trims, where that is nearer.
   void nearest(Vec3 p, std::uint32_t patch, Found& best) const {
-    for (const Piece& piece : pieces_) keep(piece, piece.t.at(0.5), p, patch, best);
+    for (const Piece& piece : pieces_) {
+      if (square_from(piece.box, p) < best.square) keep(piece, piece.t.at(0.5), p, patch, best);
+    }
     for (const Piece& piece : pieces_) {
       if (square_from(piece.box, p) < best.square) keep(piece, least_on(piece, p), p, patch, best);
     }

@@ -461,6 +461,7 @@ Result<Skin> skin(const std::vector<SkinSection>& given, const SkinOptions& opti
     result.fair.emplace().tolerance = *options.fair_across;
     result.fair->tried = std::move(trials);
     if (options.light) result.light.emplace().tolerance = *options.light;
+    for (const SkinStretch& stretch : stretches) result.exact.push_back(stretch.surface);
     auto least = fair_across(stretches, fine, *v, *across, run, *result.fair, result.light);
     OBVID_TRY(least);
     forced = std::move(*least);

@@ -75,6 +75,30 @@ class Fillets(trims_test.Trims):
             for v in SHARES:
                 yield u, v, at_surface(blend, u, v)
 
+    def test_check_measures_along_the_trims(self):
+        """Tangent to both plates, and a plate that was lowered by 0.01 is found again."""
+        patches, _, out = self.filleted(corner(math.pi / 2), "--faces", "floor,wall", "--radius", "0.5")
+        told = json.loads(self.run_it("surface", "check", out, "--json").stdout)
+        self.assertEqual([(j["patches"], j["order"]) for j in told["trim_joints"]], [([0, 2], 1), ([1, 2], 1)])
+        for joint in told["trim_joints"]:
+            self.assertLess(joint["gap"], 1e-8)
+            self.assertLess(joint["angle"], 1e-8)
+            self.assertAlmostEqual(joint["length"], 4.0, places=9)
+        self.assertEqual(told["free_borders"], 2)
+        self.assertAlmostEqual(told["trimmed_borders"]["free"], 18.0, places=9)
+        self.assertFalse([text for text in told["warnings"] if "not compared" in text])
+        whole = json.loads(out.read_text())
+        floor = whole["patches"][0]
+        floor["points"] = [[x, y, z - 0.01] for x, y, z in floor["points"]]
+        out.write_text(json.dumps(whole))
+        told = json.loads(self.run_it("surface", "check", out, "--meeting", "0.1", "--json").stdout)
+        self.assertEqual([j["patches"] for j in told["trim_joints"]], [[0, 2], [1, 2]])
+        self.assertAlmostEqual(told["trim_joints"][0]["gap"], 0.01, places=7)
+        text = self.run_it("surface", "check", out).stdout
+        self.assertRegex(text, r"wall +blend of floor and wall +4\.000 +")
+        self.assertNotRegex(text, r"floor +blend of floor and wall +4\.000 +")
+        self.assertIn("of trims  26.00 mm, 22.00 mm of them along no other face", text)
+
     def test_two_plates_give_a_cylinder(self):
         for angle, units in ((math.pi / 2, ((1.0, (0, 0, 0)), (1e-6, (0, 0, 0)), (1e6, (3e6, 0, 0)), (1.0, (0, 1e6, 0)))),
                              (2.0, ((1e-6, (0, 0, 0)),)), (0.8, ((1e6, (3e6, 0, 0)),))):

@@ -400,5 +400,119 @@ TEST(CheckSurface, ClimbsASecondHillWhoseTopLiesBetweenThePlaces) {
   }
 }
 
+/// A plate a..b, a..d (second corner along u, third along v), cut off by lines of its parameters.
+SurfacePatch cut_plate(const char* name, Vec3 a, Vec3 b, Vec3 c, std::vector<Vec2> corners) {
+  NurbsSurface s;
+  s.degree_u = s.degree_v = 1;
+  s.knots_u = s.knots_v = {0, 0, 1, 1};
+  s.points = {a, b, c, b + c - a};
+  TrimLoop loop;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    loop.curves.push_back(parameter_line(corners[k], corners[(k + 1) % corners.size()]));
+  }
+  return {name, s, {loop}};
+}
+
+/// Floor and wall of 3 x 4 that begin at 0.5 from their corner, and a quarter of a cylinder.
+SurfaceModel rounded_corner(double lowered) {
+  const std::vector<Vec2> from_sixth{{0.5 / 3, 0}, {1, 0}, {1, 1}, {0.5 / 3, 1}};
+  const Vec3 down{0, 0, -lowered};
+  const NurbsSurface blend =
+      nurbs(cylinder_over(arc_about({0.5, 0, 0}, {0.5, 0, 0.5}, {0, 1, 0}, kPi / 2), {0, 4, 0}));
+  return {"s",
+          "mm",
+          {cut_plate("floor", down, Vec3{3, 0, 0} + down, Vec3{0, 4, 0} + down, from_sixth),
+           cut_plate("wall", {0, 0, 0}, {0, 0, 3}, {0, 4, 0}, from_sixth),
+           {"blend", blend}}};
+}
+
+TEST(CheckSurface, TrimmedFacesMeetTheirBlendWithoutAGapOrAnAngle) {
+  const SurfaceCheck found = checked(rounded_corner(0.0));
+  EXPECT_TRUE(found.joints.empty());
+  ASSERT_EQ(found.trim_joints.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const TrimJointReport& j = found.trim_joints[k];
+    EXPECT_EQ(j.patch, (std::array<std::size_t, 2>{k, 2}));
+    EXPECT_LT(j.gap, 1e-8);
+    EXPECT_LT(j.angle, 1e-8);
+    EXPECT_EQ(j.order, 1);
+    EXPECT_NEAR(j.length, 4.0, 1e-12);
+    EXPECT_GE(j.places, 2 * 64u);
+  }
+  // each face has three sides of its own: 2.5 + 4 + 2.5
+  EXPECT_NEAR(found.trimmed_borders.length, 2 * 13.0, 1e-12);
+  EXPECT_NEAR(found.trimmed_borders.free, 2 * 9.0, 1e-12);
+  EXPECT_NEAR(found.trimmed_borders.longest_free, 4.0, 1e-12);
+  EXPECT_EQ(found.met_borders, 2u);  // of the blend: its ends are free
+  EXPECT_EQ(found.free_borders, 2u);
+}
+
+TEST(CheckSurface, AGapBesideATrimIsFoundAndMeasured) {
+  const SurfaceModel apart = rounded_corner(0.01);
+  const SurfaceCheck narrow = checked(apart);  // farther apart than what meets
+  ASSERT_EQ(narrow.trim_joints.size(), 1u);
+  EXPECT_EQ(narrow.trim_joints[0].patch, (std::array<std::size_t, 2>{1, 2}));
+  EXPECT_NEAR(narrow.trimmed_borders.free, 13.0 + 9.0, 1e-12);
+  EXPECT_EQ(narrow.free_borders, 3u);
+  for (const double meeting : {0.02, 0.3}) {  // the latter above the step from place to place
+    const SurfaceCheck found = checked(apart, {65, meeting});
+    ASSERT_EQ(found.trim_joints.size(), 2u) << meeting;
+    const TrimJointReport& j = found.trim_joints[0];
+    EXPECT_EQ(j.patch, (std::array<std::size_t, 2>{0, 2}));
+    EXPECT_NEAR(j.gap, 0.01, 1e-8) << meeting;
+    EXPECT_NEAR(norm(j.gap_at - Vec3{0.5, j.gap_at.y, j.gap_at.z}), 0.0, 1e-12);
+    EXPECT_LT(j.angle, 1e-6);
+    EXPECT_NEAR(j.length, 4.0, 1e-12) << meeting;
+  }
+}
+
+TEST(CheckSurface, TrimmedFacesThatMeetInACornerMeetAtItsAngle) {
+  // three sides of a cube, each cut out of a larger plate
+  const std::vector<Vec2> quarter{{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+  const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2};
+  const SurfaceCheck found =
+      checked({"s",
+               "mm",
+               {cut_plate("xy", {}, x, y, quarter), cut_plate("yz", {}, y, z, quarter),
+                cut_plate("zx", {}, z, x, quarter)}});
+  ASSERT_EQ(found.trim_joints.size(), 3u);
+  for (const TrimJointReport& j : found.trim_joints) {
+    EXPECT_LT(j.gap, 1e-9);
+    EXPECT_NEAR(j.angle, kPi / 2, 1e-12);
+    EXPECT_EQ(j.order, 0);
+    EXPECT_NEAR(j.length, 1.0, 1e-12);  // not the borders that leave the corner
+  }
+  EXPECT_NEAR(found.trimmed_borders.free, 3 * 2.0, 1e-12);
+}
+
+TEST(CheckSurface, ATrimThatGoesOnFromFaceToFaceIsMetAllAlong) {
+  const std::vector<Vec2> lower{{0, 0}, {1, 0}, {1, 0.5}, {0, 0.5}};
+  const auto plate = [](double from, double to) {
+    return nurbs(cylinder_over(line_between({from, 1, 0}, {to, 1, 0}), {0, 0, 1}));
+  };
+  const SurfaceCheck found = checked({"s",
+                                      "mm",
+                                      {cut_plate("floor", {}, {3, 0, 0}, {0, 2, 0}, lower),
+                                       {"left", plate(0, 1.234)},
+                                       {"right", plate(1.234, 3)}}});
+  ASSERT_EQ(found.trim_joints.size(), 2u);
+  EXPECT_NEAR(found.trim_joints[0].length, 1.234, 1e-12);  // by the wall's own border
+  EXPECT_NEAR(found.trim_joints[1].length, 3 - 1.234, 1e-12);
+  EXPECT_NEAR(found.trimmed_borders.free, 1 + 3 + 1, 1e-12);
+}
+
+TEST(CheckSurface, AClosedFaceWithTrimsMeetsItselfAtItsSeam) {
+  SurfacePatch zone{"zone", sphere_zone()};
+  zone.trims = {outline_of(zone.surface)};
+  const SurfaceCheck found = checked({"s", "mm", {zone}});
+  ASSERT_EQ(found.trim_joints.size(), 1u);
+  const TrimJointReport& j = found.trim_joints[0];
+  EXPECT_EQ(j.patch, (std::array<std::size_t, 2>{0, 0}));
+  EXPECT_LT(j.gap, 1e-12);
+  EXPECT_LT(j.angle, 1e-12);
+  EXPECT_NEAR(j.length, 2 * 2 * kPi / 3, 1e-3);  // of chords
+  EXPECT_NEAR(found.trimmed_borders.free, 2 * 2 * kPi * 2 * std::cos(kPi / 3), 1e-2);
+}
+
 }  // namespace
 }  // namespace obvid

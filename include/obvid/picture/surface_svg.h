@@ -68,6 +68,12 @@ struct ShownDeviation {
   Range told;  ///< least and greatest deviation, as the report has them
 };
 
+/// What stands beside a surface in the graphs of its longitudinals.
+struct ShownLongitudinals {
+  std::vector<NurbsSurface> before{};  ///< of each patch: the exact skin, where that is another
+  std::vector<double> sections{};      ///< parameters v; empty: knots are marked
+};
+
 struct SurfacePictureOptions {
   std::string title;  ///< empty: the name of the model
   SurfaceColouring colouring = SurfaceColouring::kShaded;

@@ -26,6 +26,8 @@ struct SurfaceExportOptions {
   double angle = 0.0;                     ///< rad, between normals along an edge [15 degrees]
   SurfaceColouring colouring = SurfaceColouring::kShaded;
   SurfaceView view = SurfaceView::kIso;
+  bool longitudinals = false;  ///< pictures have graphs of curvature in place of a view
+  ShownLongitudinals beside_longitudinals{};
   std::vector<ScenePolyline> lines;         ///< drawn on page and picture
   std::optional<ShownDeviation> deviation;  ///< likewise
   std::optional<CurvatureExtremes>

@@ -121,6 +121,7 @@ struct FaceBorder {
 struct MatchKind {
   FaceBorder border{}, to{};
   int order = 1;
+  std::optional<double> within{};  ///< units: no control point moves farther [as far as it takes]
 };
 /// A surface as it is.
 struct ConvertKind {};
@@ -165,6 +166,7 @@ struct MadeSurface {
   std::optional<ScatteredSurface> scatter;                 ///< its surface is in the model
   std::vector<std::pair<std::string, std::string>> facts;  ///< name and value, for the report
   std::vector<ScenePolyline> lines;                        ///< inputs, to be drawn with it
+  ShownLongitudinals beside_longitudinals;                 ///< likewise
   std::vector<std::string> warnings;
 };
 

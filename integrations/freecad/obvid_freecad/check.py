@@ -116,7 +116,7 @@ def surface_findings(values):
         )
         text = f"{patch['name']}: C{min(inner, patch_most(patch))} inside, smallest radius {radius},"
         out.append(Finding(inner >= 1, f"{text} {monotone} parameter lines monotone"))
-    for joint in values["joints"]:
+    for joint in values["joints"] + values["trim_joints"]:
         out.append(joint_finding(joint))
     return out
 

@@ -105,8 +105,7 @@ Result<CheckedSurface> check_surface(const SurfaceModel& model, const SurfaceChe
   if (is_trimmed(model)) {
     out.warnings.push_back(
         "trimmed patches: areas and ranges of curvature are those inside the trims; lines of "
-        "constant "
-        "parameters run over whole patches, borders of trimmed ones are not compared");
+        "constant parameters run over whole patches");
   }
   if (!job.against) return out;
   auto deviation =

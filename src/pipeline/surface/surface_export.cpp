@@ -14,6 +14,7 @@
 #include "obvid/exchange/internal/mesh/files.h"
 #include "obvid/io/surface_json.h"
 #include "obvid/pipeline/internal/surface_report_json.h"
+#include "surface/longitudinals.h"
 
 namespace obvid {
 namespace pipeline_detail {
@@ -165,6 +166,10 @@ Result<std::string> surface_as_page(SurfaceExport& e, std::vector<std::string>& 
 }
 
 Result<std::string> surface_as_svg(SurfaceExport& e, std::vector<std::string>&) {
+  if (e.options.longitudinals) {
+    return longitudinals_of(e.model, e.options.beside_longitudinals, e.run)
+        .map([](const LongitudinalsPicture& picture) { return longitudinals_svg(picture); });
+  }
   if (is_curvature(e.options.colouring)) OBVID_TRY(e.find_extremes_once());
   return surface_svg(e.model, looks_of<SurfacePictureOptions>(e), e.run);
 }

@@ -330,7 +330,7 @@ Result<MadeSurface> make_kind(const FilletKind& kind, const SurfaceJob& job,
 
 Result<MadeSurface> make_kind(const MatchKind& kind, const SurfaceJob& job, const RunContext& run) {
   OBVID_TRY(need(job, 1, 1, "one model"));
-  return made_matched({kind.border, kind.to, kind.order}, job, run);
+  return made_matched({kind.border, kind.to, kind.order, kind.within}, job, run);
 }
 
 Result<MadeSurface> make_kind(const ConvertKind&, const SurfaceJob& job, const RunContext& run) {

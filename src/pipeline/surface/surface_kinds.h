@@ -69,6 +69,7 @@ struct MatchedBorders {
   const FaceBorder& border;
   const FaceBorder& to;
   int order;
+  std::optional<double> within;
 };
 /// A model with a patch that was matched to another.
 [[nodiscard]] Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job,

@@ -85,6 +85,17 @@ Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job
     if (error.where.empty()) error.where = patch.name;
     return fail(std::move(error));
   }
+  const std::string unit = made.model.units.text();
+  if (by.within && matched_patch->moved > *by.within) {
+    return error(ErrorCode::kToleranceNotReached,
+                 fmt::format("the patch would move by up to {} {}, {} more than {}",
+                             significant_above(matched_patch->moved, 4), unit,
+                             significant_above(matched_patch->moved - *by.within, 4),
+                             significant(*by.within, 6)))
+        .where(patch.name)
+        .hint("allow more (--within), ask for less (--join), or match the border that lies nearer")
+        .value(matched_patch->moved);
+  }
   const Topology before = topology_of(made.model);
   patch.surface = std::move(matched_patch->surface);
   for (std::string& one : lost_joints(made.model, before, *at)) {
@@ -93,7 +104,6 @@ Result<MadeSurface> made_matched(const MatchedBorders& by, const SurfaceJob& job
   const auto joint = measured_joint(patch, by.border.side, other, by.to.side, run);
   OBVID_TRY(joint);
   const double tolerance = job.tolerance.value_or(kSameBorder * size_of(made.model));
-  const std::string unit = made.model.units.text();
   if (joint->gap > tolerance) {
     return error(ErrorCode::kToleranceNotReached,
                  fmt::format("after matching the borders are {} {} apart",

@@ -164,6 +164,10 @@ Result<MadeSurface> make_kind(const SkinKind& kind, const SurfaceJob& job, const
   made.lines = drawn_sections(fitted->skin);
   made.warnings = std::move(assumed);
   made.warnings.insert(made.warnings.end(), fitted->warnings.begin(), fitted->warnings.end());
+  made.beside_longitudinals.before = std::move(fitted->skin.exact);
+  for (const SkinSectionReport& section : fitted->skin.sections) {
+    made.beside_longitudinals.sections.push_back(section.parameter);
+  }
   made.skin = std::move(*fitted);
   return made;
 }

@@ -163,6 +163,30 @@ void add_deviation(JsonText& json, const char* name, const Deviation& found, boo
   json.end_object();
 }
 
+/// What lies along borders of trimmed patches; how much of these is free, where there are any.
+void add_trim_joints(const SurfaceModel& model, const SurfaceCheck& check, JsonText& json) {
+  json.key("trim_joints").begin_array();
+  for (const TrimJointReport& j : check.trim_joints) {
+    json.begin_object();
+    json.key("patches").begin_array().value(j.patch[0]).value(j.patch[1]).end_array();
+    json.pair("gap", j.gap).pair("angle", j.angle).pair("order", j.order);
+    json.pair("length", j.length).pair("places", j.places);
+    add_coordinates(json, "gap_at", j.gap_at);
+    add_coordinates(json, "angle_at", j.angle_at).end_object();
+  }
+  json.end_array();
+  if (!is_trimmed(model)) return;
+  const TrimmedBorders& borders = check.trimmed_borders;
+  json.key("trimmed_borders").begin_object().pair("length", borders.length);
+  json.pair("free", borders.free).pair("longest_free", borders.longest_free);
+  if (borders.free > 0.0) {
+    add_coordinates(json, "free_at", borders.free_at);
+  } else {
+    json.key("free_at").null();
+  }
+  json.end_object();
+}
+
 /// Found at a place, and what is nowhere exceeded; where nothing was found there is no place.
 void add_measured(JsonText& json, const char* name, const ToolpathReport::Measured& measured) {
   json.key(name).begin_object().pair("found", measured.found).pair("most", measured.most);
@@ -236,7 +260,9 @@ std::string surface_check_json(const SurfaceModel& model, const CheckedSurface& 
     add_coordinates(json, "angle_at", j.angle_at);
     add_coordinates(json, "curvature_at", j.curvature_at).end_object();
   }
-  json.end_array().pair("free_borders", check.free_borders);
+  json.end_array();
+  add_trim_joints(model, check, json);
+  json.pair("free_borders", check.free_borders);
   if (const auto& deviation = checked.deviation) {
     json.key("deviation").begin_object().pair("against", deviation->against);
     json.pair("of", deviation->points ? "points" : "surface");

@@ -293,8 +293,8 @@ Result<void> set_kind(const SurfaceValues& raw, MatchKind& kind) {
   OBVID_TRY(to);
   const auto order = value_named<int>({{"G0", 0}, {"G1", 1}, {"G2", 2}}, raw.join, "--join");
   OBVID_TRY(order);
-  kind = {*border, *to, *order};
-  return {};
+  kind = {*border, *to, *order, raw.within};
+  return positive(raw.within, "--within");
 }
 
 template <class Value>
@@ -347,8 +347,14 @@ Result<void> set_surface_formats(const SurfaceFormatValues& typed, SurfaceExport
                            "isophotes, reflection, deviation"));
   }
   formats.colouring = *colouring;
+  formats.longitudinals = typed.view == "longitudinals";
+  if (formats.longitudinals) return {};
   const auto view = view_named(typed.view);
-  OBVID_TRY(view);
+  if (!view) {
+    Error error = view.error();
+    error.hint += ", longitudinals";
+    return fail(std::move(error));
+  }
   formats.view = *view;
   return {};
 }

@@ -39,8 +39,9 @@ struct SurfaceValues {
   std::string faces;           ///< "A,B": names or numbers from 1
   std::string sides = "auto";  ///< or "front,back", ...
   bool whole = false;
-  std::string border, to;   ///< "A:u0": face and side
-  std::string join = "G1";  ///< or "G0", "G2"
+  std::string border, to;        ///< "A:u0": face and side
+  std::string join = "G1";       ///< or "G0", "G2"
+  std::optional<double> within;  ///< units, of a match
 };
 
 /// Into the job, whose kind is known: its own values, and those of all kinds.

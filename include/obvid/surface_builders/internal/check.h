@@ -90,6 +90,27 @@ struct JointReport {
   std::size_t places = 0;               ///< that were looked at before the extremes were climbed to
 };
 
+/// Two faces that run along each other, one or both of them trimmed; or one trimmed face twice, at
+/// the seam where it is closed.
+struct TrimJointReport {
+  std::array<std::size_t, 2> patch{};
+  double gap = 0.0;        ///< largest distance of a border from the other face, units
+  double angle = 0.0;      ///< largest angle between the tangent planes there, rad; not looked at
+                           ///< beside points in which a border ends
+  int order = 0;           ///< 0 G0, 1 G1 or more, by the limit named below
+  Vec3 gap_at, angle_at;   ///< where on a border each of the two is largest
+  double length = 0.0;     ///< of the border they have in common, units, by its places
+  std::size_t places = 0;  ///< that were looked at before the extremes were climbed to
+};
+
+/// Borders of all trimmed patches together.
+struct TrimmedBorders {
+  double length = 0.0;        ///< units, by their places
+  double free = 0.0;          ///< of this, what runs along no face
+  double longest_free = 0.0;  ///< the longest stretch of that
+  Vec3 free_at;               ///< its middle, where there is one
+};
+
 /// Up to these a border counts as smooth.
 inline constexpr double kSmoothAngle = 1e-3;      ///< rad
 inline constexpr double kSmoothCurvature = 1e-2;  ///< share
@@ -97,9 +118,11 @@ inline constexpr double kSmoothCurvature = 1e-2;  ///< share
 struct SurfaceCheck {
   double size = 0.0;  ///< diagonal of the control points' box, units
   std::vector<PatchReport> patches;
-  std::vector<JointReport> joints;
+  std::vector<JointReport> joints;           ///< of patches that are not trimmed
+  std::vector<TrimJointReport> trim_joints;  ///< in the order of the patches
+  TrimmedBorders trimmed_borders;            ///< all 0 where no patch is trimmed
   // sides of patches that are not trimmed; those that are a point are none of these
-  std::size_t met_borders = 0;    ///< that a joint is at
+  std::size_t met_borders = 0;    ///< that a joint is at, or trimmed faces from end to end
   std::size_t apart_borders = 0;  ///< of these, that share their edge with none
   std::size_t free_borders = 0;   ///< that meet none
 };
@@ -122,7 +145,14 @@ inline constexpr double kMeeting = 1e-5;
 /// that their mean plane gives; steps below 1e-6 of a line's largest curvature are rounding.
 /// Of trimmed patches area and ranges of curvature are those of what is there (a raster of the
 /// whole patch, its places outside left out; climbing stays inside; all 0 where no place of it is
-/// inside); lines run over the whole patch; borders are not compared.
+/// inside); lines run over the whole patch. Each of their trims is looked at, and each side of an
+/// untrimmed patch beside a trimmed one, at 64 places or more, four or more in every span: where
+/// two places one after the other lie within `meeting` of another face, and the distance changes by
+/// no more than half of the step and the nearest place goes on by at least that (a border that
+/// leaves a corner does not run along what is there),
+/// gap and angle are measured at the nearest place of that face and climbed to from the best. The
+/// distance of a place is as exact as `NearestOnModel`; between places gap and angle are as
+/// sampled. Of a face that is closed its trims along the seam are compared with each other.
 [[nodiscard]] Result<SurfaceCheck> check_surface(const SurfaceModel& model,
                                                  const CheckOptions& options = {},
                                                  const RunContext& run = {});

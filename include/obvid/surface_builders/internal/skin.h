@@ -121,6 +121,7 @@ struct FairAcrossReport {
 struct Skin {
   std::vector<SurfacePatch> patches;  ///< from corner to corner of the sections; u runs along the
                                       ///< sections, v across them, neighbours share their border
+  std::vector<NurbsSurface> exact{};  ///< of each patch, where it was made fair across
   std::vector<SkinSectionReport> sections;
   AcrossReport across;
   /// Then `sections` and `across` are those of the light one, whose isolines are its own knots.
