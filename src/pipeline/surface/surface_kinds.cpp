@@ -157,7 +157,7 @@ Error folds(const SurfacePatch& patch, const OffsetCheck& found, double distance
 }  // namespace
 
 ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
-  constexpr int kFewestChords = 2, kMostChords = 256;  // of a span
+  constexpr int kFewestChordsOfSpan = 2, kMostChordsOfSpan = 256;  // of a span
   /// Of the size: a tenth of a px, which pictures round to, on a sheet of 1000 px.
   constexpr double kDrawnWithin = 1e-4;
   const double within = kDrawnWithin * bounding_diagonal(curve.points);
@@ -176,8 +176,8 @@ ScenePolyline drawn(const SpaceCurve& curve, const char* role) {
       }
       return most;
     };
-    int chords = kFewestChords;
-    while (chords < kMostChords && bulge(chords) > within) chords *= 2;
+    int chords = kFewestChordsOfSpan;
+    while (chords < kMostChordsOfSpan && bulge(chords) > within) chords *= 2;
     for (int k = 0; k < chords; ++k) line.points.push_back(place(1.0 * k / chords));
   }
   line.points.push_back(evaluate(curve, knots.back()).point);
