@@ -419,6 +419,21 @@ class Matches(Fillets):
             self.run_it("surface", "match", source, "--border", border, "--to", to, "-o", self.work / "no.json", code=code)
         self.assertFalse((self.work / "no.json").exists())
 
+    def test_a_match_moves_no_farther_than_it_may(self):
+        """A plate beside another, 0.25 lower: its border moves up by as much, and nothing farther."""
+        left = plate("left", (0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0))
+        right = plate("right", (1, 0, -0.25), (2, 0, -0.25), (1, 1, -0.25), (2, 1, -0.25))
+        source, out = self.work / "in.json", self.work / "out.json"
+        source.write_text(json.dumps(model(left, right)))
+        how = ("surface", "match", source, "--border", "right:u0", "--to", "left:u1", "--join", "G0", "-o", out)
+        refused = self.run_it(*how, "--within", "0.2", code=5)
+        self.assertIn("would move by up to 0.2500", refused.stderr)
+        self.assertIn("0.05", refused.stderr)
+        self.assertFalse(out.exists())
+        self.run_it(*how, "--within", "0.2501")
+        self.assertTrue(out.exists())
+        self.run_it(*how, "--within", "0", code=2)
+
 
 for name in dir(Fillets):
     if name.startswith("test_") and name not in Matches.__dict__:

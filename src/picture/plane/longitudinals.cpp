@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "obvid/core/internal/figures.h"
+#include "obvid/curve/internal/basis.h"
 #include "plane/axis.h"
 #include "plane/canvas.h"
 #include "plane/frame.h"
@@ -26,17 +27,19 @@ constexpr double kSampleLength = 26.0;  // of the legend
 constexpr double kShownShare = 0.98;
 constexpr double kRoomBeyond = 1.15;
 
-/// The largest of what is shown, by size.
-double shown_curvature(const Longitudinal& line) {
-  std::vector<double> all;
-  for (const double k : line.now.k) all.push_back(std::abs(k));
-  if (line.before) {
-    for (const double k : line.before->k) all.push_back(std::abs(k));
-  }
-  if (all.empty()) return 0.0;
-  const auto at = static_cast<std::ptrdiff_t>(kShownShare * static_cast<double>(all.size() - 1));
-  std::nth_element(all.begin(), all.begin() + at, all.end());
-  return all[static_cast<std::size_t>(at)] * kRoomBeyond;
+/// What is shown of the curvatures, and 0.
+Range shown_curvatures(const Longitudinal& line) {
+  std::vector<double> all = line.now.k;
+  if (line.before) all.insert(all.end(), line.before->k.begin(), line.before->k.end());
+  if (all.empty()) return {-1.0, 1.0};
+  std::vector<double> sizes(all.size());
+  std::transform(all.begin(), all.end(), sizes.begin(), [](double k) { return std::abs(k); });
+  const auto at = static_cast<std::ptrdiff_t>(kShownShare * static_cast<double>(sizes.size() - 1));
+  std::nth_element(sizes.begin(), sizes.begin() + at, sizes.end());
+  const double most = sizes[static_cast<std::size_t>(at)] * kRoomBeyond;
+  const auto [low, high] = std::minmax_element(all.begin(), all.end());
+  const Range out{std::clamp(*low, -most, 0.0), std::clamp(*high, 0.0, most)};
+  return out.length() > 0.0 ? out : Range{-1.0, 1.0};
 }
 
 bool leaves_the_plot(const Longitudinal& line, const PictureAxis& y) {
@@ -68,8 +71,8 @@ std::string name_of_line(const Longitudinal& line, bool cut) {
 
 void draw_longitudinal_plot(PictureCanvas& canvas, const Longitudinal& line, PictureFrame frame,
                             bool last) {
-  const double most = shown_curvature(line);
-  frame.y = round_axis(most > 0.0 ? -most : -1.0, most > 0.0 ? most : 1.0, 4);
+  const Range shown = shown_curvatures(line);
+  frame.y = round_axis(shown.from, shown.to, 4);
   canvas.label({kPictureMargin, frame.top - 12.0}, "start", "small",
                name_of_line(line, leaves_the_plot(line, frame.y)));
   const std::string power = power_prefix(frame.y.exponent);
