@@ -930,7 +930,7 @@ std::vector<double> meter_places(const std::vector<double>& breaks) {
 
 /// Runs of a curvature: as it is where it turns, even between. Where it turns back by no more than
 /// `kNoTurn` of the largest the run goes on.
-std::vector<double> runs_of(const std::vector<double>& kappa) {
+std::vector<double> runs_between_turns(const std::vector<double>& kappa) {
   double largest = 0.0;
   for (const double one : kappa) largest = std::max(largest, std::abs(one));
   const double least = kNoTurn * largest;
@@ -987,7 +987,7 @@ RunPlaces run_places(const SkinStretch& stretch, std::size_t k, double v,
   }
   const double lost = ripple_of(run, own, out.rounding);
   out.guides.push_back({std::move(run), std::max(lost, kMostAgainstRun)});
-  if (lost > kMostAgainstRun) out.guides.push_back({runs_of(own), kMostAgainstRun});
+  if (lost > kMostAgainstRun) out.guides.push_back({runs_between_turns(own), kMostAgainstRun});
   return out;
 }
 
