@@ -288,6 +288,25 @@ TEST(SurfacePage, ShowsDeviationsFinerThanItsTriangles) {
   }
 }
 
+TEST(SurfacePage, ScalesAreThoseOfWhatIsInsideTheTrims) {
+  // of a plate of 100 x 100 with the deviation x the half up to x = 50 is there
+  auto model = model_of({{"plate", rectangle(100, 100)}});
+  model.patches[0].trims.emplace_back();
+  auto meshes = meshes_of(model, 1);
+  for (MeshVertex& v : meshes[0].vertices) {
+    v.point.x *= 0.5;
+    v.u *= 0.5;
+  }
+  PageOptions options;
+  options.deviation = ShownDeviation{};
+  options.deviation->told = {0.0, 50.0};
+  options.deviation->of_place = [](Vec3 p) { return p.x; };
+  const Read read(page_of(model, meshes, options));
+  const json& scale = read.header["scales"]["deviation"];
+  EXPECT_NEAR(scale["high"], 49.0, 0.6);  // 98 % of the area
+  EXPECT_NEAR(scale["low"], 1.0, 0.6);
+}
+
 TEST(SurfacePage, OfManySpansStaysSmall) {
   // 400 x 500 spans: 200,000 control points and more
   NurbsSurface fine = rectangle(1, 1);
