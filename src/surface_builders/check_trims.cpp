@@ -28,6 +28,9 @@ constexpr std::size_t kLeastPlaces = 64, kPlacesInSpan = 4;
 /// nearest place goes on by less than that, does not run along it, however near it still is: at a
 /// corner every border is near to the faces beside it.
 constexpr double kLeaves = 0.5;
+/// Angles that change by no more, rad, are those of planes along a straight border, but for
+/// rounding.
+constexpr double kFlatAngle = 1e-9;
 
 /// A curve in the plane of a patch's parameters that bounds what of it is there.
 struct BorderCurve {
@@ -183,11 +186,11 @@ struct AlongPair {
 };
 
 /// Where a figure is largest: climbed to from the places at which it is, within the steps that run
-/// along.
+/// along, unless it changes by no more than `flat` from place to place.
 AtTrim largest_of(double AtTrim::*figure, const std::vector<AtTrim>& there,
-                  const std::vector<bool>& along, const std::vector<double>& t,
+                  const std::vector<bool>& along, const std::vector<double>& t, double flat,
                   const std::function<AtTrim(double)>& measure) {
-  constexpr std::size_t kClimbs = 3;
+  constexpr std::size_t kClimbs = 2;
   constexpr double kFoundTo = 1e-4;  // of what is looked through; of the rise its square
   std::vector<std::size_t> best;
   for (std::size_t i = 0; i < there.size(); ++i) {
@@ -201,6 +204,7 @@ AtTrim largest_of(double AtTrim::*figure, const std::vector<AtTrim>& there,
   out.gap = 0.0;
   if (best.empty()) return out;
   out = there[best.front()];
+  if (!(out.*figure - there[best.back()].*figure > flat)) return out;  // the same all along
   best.resize(std::min(best.size(), kClimbs));
   for (const std::size_t i : best) {
     const Range around{i > 0 && along[i - 1] ? t[i - 1] : t[i],
@@ -219,7 +223,7 @@ AtTrim largest_of(double AtTrim::*figure, const std::vector<AtTrim>& there,
 }
 
 AlongPair along_pair(const Borders& borders, const BorderPair& pair, const Box3& box,
-                     double nearness) {
+                     double nearness, double size) {
   const BorderCurve& border = *pair.border;
   std::vector<AtTrim> there(border.t.size());
   AtTrim last;
@@ -253,8 +257,8 @@ AlongPair along_pair(const Borders& borders, const BorderPair& pair, const Box3&
   const auto measure = [&](double t) {
     return no_angle_beside_points(pair.beside.measured(borders, border, t));
   };
-  out.gap = largest_of(&AtTrim::gap, there, out.along, border.t, measure);
-  out.angle = largest_of(&AtTrim::angle, there, out.along, border.t, measure);
+  out.gap = largest_of(&AtTrim::gap, there, out.along, border.t, kSameBorder * size, measure);
+  out.angle = largest_of(&AtTrim::angle, there, out.along, border.t, kFlatAngle, measure);
   return out;
 }
 
@@ -360,7 +364,7 @@ Result<TrimJoints> trim_joints_of(const SurfaceModel& model, const Topology& sam
   }
   std::vector<AlongPair> found(pairs.size());
   OBVID_TRY(in_parallel(pairs.size(), run, [&](std::size_t k) {
-    found[k] = along_pair(borders, pairs[k], boxes[pairs[k].beside.patch()], nearness);
+    found[k] = along_pair(borders, pairs[k], boxes[pairs[k].beside.patch()], nearness, size);
   }));
   PairsOfFaces joints;
   std::size_t k = 0;

@@ -149,9 +149,10 @@ inline constexpr double kMeeting = 1e-5;
 /// untrimmed patch beside a trimmed one, at 64 places or more, four or more in every span: where
 /// two places one after the other lie within `meeting` of another face, and the distance changes by
 /// no more than half of the step and the nearest place goes on by at least that (a border that
-/// leaves a corner does not run along what is there),
-/// gap and angle are measured at the nearest place of that face and climbed to from the best. The
-/// distance of a place is as exact as `NearestOnModel`; between places gap and angle are as
+/// leaves a corner does not run along what is there), gap and angle are measured at the nearest
+/// place of that face and climbed to from the two best, unless they are the same all along (to
+/// `kSameBorder` of the size, 1e-9 rad). The distance of a place is as exact as that of
+/// `NearestOnModel`; between places gap and angle are as
 /// sampled. Of a face that is closed its trims along the seam are compared with each other.
 [[nodiscard]] Result<SurfaceCheck> check_surface(const SurfaceModel& model,
                                                  const CheckOptions& options = {},
