@@ -49,17 +49,23 @@ class ArcBuilder {
   }
 
  private:
+  static constexpr const char* kLargerTolerance = "choose a larger --tolerance";
+
+  /// Named by the point before the piece.
+  [[nodiscard]] tl::unexpected<Error> beside(Error error, std::size_t piece,
+                                             const char* hint) const {
+    return at_point(std::move(error), spirals_, static_cast<std::ptrdiff_t>(piece), hint);
+  }
+
   Result<void> add(std::size_t i, const RationalBezier& spiral, int direction) {
     const Vec2 anchor = spirals_.joints[i].element.point;
     // seen from its own start, so that arcs keep all digits of its shape
     const Piece local = moved(spiral, -anchor);
     const std::vector<double> steps = fewest_elements(local, direction, tolerance_);
     if (steps.back() < 1.0) {
-      return error(ErrorCode::kToleranceNotReached, "the tolerance asks for too many arcs")
-          .where("piece " + std::to_string(i))
-          .hint("choose a larger --tolerance")
-          .point(i)
-          .value(tolerance_);
+      return beside(error(ErrorCode::kToleranceNotReached, "the tolerance asks for too many arcs")
+                        .value(tolerance_),
+                    i, kLargerTolerance);
     }
     Element from = spirals_.joints[i].element, last = spirals_.joints[i + 1].element;
     from.point = {0.0, 0.0};
@@ -71,20 +77,16 @@ class ArcBuilder {
       const bool ends = end_given_ && i + 1 == spirals_.pieces.size() && j + 1 == steps.size();
       const auto k = choose_arcs(chord_frame(from, to), direction, begins, ends);
       if (!k) {
-        return error(ErrorCode::kRoundingDecides,
-                     "the rounding of the coordinates decides which arcs join two elements")
-            .where("piece " + std::to_string(i))
-            .hint("give coordinates relative to a nearer origin, or fewer points")
-            .point(i)
-            .value(norm(to.point - from.point));
+        return beside(error(ErrorCode::kRoundingDecides,
+                            "the rounding of the coordinates decides which arcs join two elements")
+                          .value(norm(to.point - from.point)),
+                      i, "give coordinates relative to a nearer origin, or fewer points");
       }
       if (!add_pair(from, to, *k, anchor, direction)) {
-        return error(ErrorCode::kRoundingDecides,
-                     "two elements of the contour are too close for arcs between them")
-            .where("piece " + std::to_string(i))
-            .hint("choose a larger --tolerance")
-            .point(i)
-            .value(norm(to.point - from.point));
+        return beside(error(ErrorCode::kRoundingDecides,
+                            "two elements of the contour are too close for arcs between them")
+                          .value(norm(to.point - from.point)),
+                      i, kLargerTolerance);
       }
       if (j + 1 < steps.size()) {
         contour_.joints.push_back({{to.point + anchor, to.theta, to.kappa}, std::nullopt});

@@ -880,7 +880,8 @@ std::optional<std::string> warn_of_scatter(const Prepared& series, const Units& 
 /// A corner between two points is named by the one before it.
 Error named_in(const Prepared& series, Error error) {
   const auto point = static_cast<std::size_t>(std::max<std::ptrdiff_t>(error.index, 0));
-  if (!series.is_between(point)) return error;
+  const bool known = point < series.points.size();  // of what a chain has more, there is no name
+  if (!known || !series.is_between(point)) return error;
   error.index = static_cast<std::ptrdiff_t>(series.named(point));
   error.where = fmt::format("after point {}", error.index + 1);
   return error;
