@@ -74,17 +74,13 @@ std::string joints_table(const std::vector<CurveAudit>& audits) {
   table.column_if_told("least\nradius");
   std::vector<double> vertices;
   for (const CurveAudit& a : audits) vertices.push_back(a.vertices);
-  std::size_t before = 0;
-  const std::vector<std::size_t> shown = rows_worth_showing(vertices);
-  for (const std::size_t i : shown) {
-    if (i > before) table.gap();
-    before = i + 1;
+  const std::size_t shown = add_rows_worth_showing(vertices, table, [&](std::size_t i) {
     const CurveAudit& a = audits[i];
     table.row({std::to_string(i + 1), std::to_string(figures_of(a).pieces),
                audit_continuity(a.continuity), count_text(a, a.vertices),
                count_text(a, a.visible_vertices), count_text(a, a.inflections), least_radius(a)});
-  }
-  return table.text() + shown_note(shown.size(), audits.size(), "least fair", "curves") +
+  });
+  return table.text() + shown_note(shown, audits.size(), "least fair", "curves") +
          uncounted_text(audits);
 }
 
@@ -107,18 +103,14 @@ std::string place_table(const CurveAudit& a) {
   table.column_if_told("size", Table::Align::kLeft);
   std::vector<double> weight;
   for (const AuditPlace& place : a.places) weight.push_back(place.size);
-  const std::vector<std::size_t> shown = rows_worth_showing(weight);
-  std::size_t before = 0;
-  for (const std::size_t i : shown) {
-    if (i > before) table.gap();
-    before = i + 1;
+  const std::size_t shown = add_rows_worth_showing(weight, table, [&](std::size_t i) {
     const AuditPlace& place = a.places[i];
     table.row({coordinate(a.station.value_or(0.0) + place.s, a.length), to_string(place.kind),
                coordinate(place.point.x, a.length), coordinate(place.point.y, a.length),
                radius_text(place.kappa_before), radius_text(place.kappa_after),
                size_text(place, a.contour.units.text())});
-  }
-  return table.text() + shown_note(shown.size(), a.places.size(), "largest", "places");
+  });
+  return table.text() + shown_note(shown, a.places.size(), "largest", "places");
 }
 
 /// Every curve, then every series of points: whoever asks for one has to see its number.

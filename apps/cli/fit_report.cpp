@@ -51,17 +51,14 @@ Table fit_segments(const Fit& fit) {
   for (const SegmentReport& segment : fit.report.segments) width.push_back(segment.width);
   const std::vector<EndCurvatures> curvatures = end_curvatures(contour);
   const double within = straight_within(contour);
-  std::size_t before = 0;
-  for (const std::size_t i : rows_worth_showing(width)) {
-    if (i > before) table.gap();
-    before = i + 1;
+  add_rows_worth_showing(width, table, [&](std::size_t i) {
     const SegmentReport& segment = fit.report.segments[i];
     table.row({points_of_segment(segment), significant(segment.chord),
                significant(segment.points_only_error, 4), significant(segment.width, 4),
                std::to_string(segment.inserted), pieces_text(curvatures[i]),
                radius_over(curvatures[i].start, segment.chord, within),
                radius_over(curvatures[i].end, segment.chord, within)});
-  }
+  });
   return table;
 }
 
@@ -92,19 +89,15 @@ std::string lines_and_arcs_text(const Contour& contour) {
   table.column("farthest\npoint");
   std::vector<double> off;
   for (const LineOrArc& one : all) off.push_back(one.off);
-  std::optional<std::size_t> before;
-  const std::vector<std::size_t> shown = rows_worth_showing(off);
-  for (const std::size_t i : shown) {
-    if (before && i > *before + 1) table.gap();
-    before = i;
+  const std::size_t shown = add_rows_worth_showing(off, table, [&](std::size_t i) {
     const LineOrArc& one = all[i];
     const bool line = one.kappa == 0.0;
     table.row({points_on_text(one), radius_text(one.kappa),
                line ? "-" : centre_text(one.centre.x, one),
                line ? "-" : centre_text(one.centre.y, one), significant(one.heading_deg()),
                significant(one.length), significant(one.off, 4)});
-  }
-  return table.text() + shown_note(shown.size(), all.size(), "farthest", "lines and arcs") + "\n";
+  });
+  return table.text() + shown_note(shown, all.size(), "farthest", "lines and arcs") + "\n";
 }
 
 Facts summary(const Fit& fit, const Written& written) {

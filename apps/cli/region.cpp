@@ -89,21 +89,18 @@ Table region_points(const RegionPart& part, double size) {
   for (std::size_t i = 0; i < part.rows.size(); ++i) {
     value[part.rows[i].from] = part.rows[i].width.value_or(0.0);
   }
-  std::size_t before = 0;
-  for (const std::size_t i : rows_worth_showing(value)) {
-    if (i > before) table.gap();
-    before = i + 1;
+  add_rows_worth_showing(value, table, [&](std::size_t i) {
     const RegionPoint& p = part.points[i];
     const bool first_again = i > 0 && i + 1 == part.points.size() && p.inserted == 0 &&
                              p.number == part.points.front().number;
-    if (first_again) break;
+    if (first_again) return;
     const RadiusRange radius = radius_range(p.curvatures);
     const auto headings = heading_range(p);
     table.row({region_point_name(p), coordinate(p.point.x, size), coordinate(p.point.y, size),
                p.adjacent_kappa ? radius_text(*p.adjacent_kappa) : "-",
                degrees_text(principal_degrees(p.theta)), headings[0], headings[1], radius.least,
                radius.greatest, heading_came_by(p)});
-  }
+  });
   return table;
 }
 
@@ -114,10 +111,7 @@ Table region_segments(const RegionPart& part) {
                            "width\ndelta", "\nH", "\nHt", "\nDelta", "\nDelta t", "\nf"}) {
     table.column(head);
   }
-  std::size_t before = 0;
-  for (const std::size_t i : rows_worth_showing(widths(part))) {
-    if (i > before) table.gap();
-    before = i + 1;
+  add_rows_worth_showing(widths(part), table, [&](std::size_t i) {
     const RegionRow& row = part.rows[i];
     table.row({region_segment_name(part, row), significant(row.chord),
                measured(row.points_only_error), significant(row.to_apex),
@@ -125,7 +119,7 @@ Table region_segments(const RegionPart& part) {
                measured(row.width), measured(row.apex_height, kHeightDigits),
                measured(row.tangent_height, kHeightDigits), measured(row.apex_gap, kHeightDigits),
                measured(row.tangent_gap, kHeightDigits), measured(row.spline_distance)});
-  }
+  });
   return table;
 }
 

@@ -48,19 +48,16 @@ Table point_table(const PointSeries& series, const Analysis& analysis) {
   table.column("chord to\nthe next");
   table.column("curvature\nalong it", Table::Align::kLeft);
   table.column("points-only\nerror");
-  std::size_t before = 0;
   std::vector<double> worst = analysis.points_only_error;
   worst.resize(analysis.circles.size(), kNan);
-  for (const std::size_t i : rows_worth_showing(worst)) {
-    if (i > before) table.gap();
-    before = i + 1;
+  add_rows_worth_showing(worst, table, [&](std::size_t i) {
     const bool chord = i < analysis.chords.size();
     const bool end = i == 0 || i + 1 == analysis.circles.size();
     table.row({std::to_string(i + 1), end ? "-" : adjacent_radius(series, analysis, i),
                significant(degrees(turning_at(analysis, i)), 4), to_next(analysis, i),
                chord ? change_text(analysis.change[i]) : "",
                chord ? significant(analysis.points_only_error[i], 4) : ""});
-  }
+  });
   return table;
 }
 

@@ -45,17 +45,14 @@ Table patch_table(const SurfaceCheck& check) {
   table.column("mean curvature");
   std::vector<double> worst;
   for (const PatchReport& p : check.patches) worst.push_back(p.k1.most - p.k2.least);
-  std::size_t before = 0;
-  for (const std::size_t i : rows_worth_showing(worst)) {
-    if (i > before) table.gap();
-    before = i + 1;
+  add_rows_worth_showing(worst, table, [&](std::size_t i) {
     const PatchReport& p = check.patches[i];
     table.row({p.name, fmt::format("{} x {}{}", p.degree_u, p.degree_v, p.rational ? " rat." : ""),
                fmt::format("{} x {}", p.count_u, p.count_v),
                order_text(p.order_u) + ", " + order_text(p.order_v),
                significant(p.area, p.trims > 0 ? 8 : 4), range_text(p.gaussian),
                range_text(p.mean)});
-  }
+  });
   return table;
 }
 
@@ -78,16 +75,13 @@ Table line_table(const SurfaceCheck& check) {
   for (const PatchReport& p : check.patches) {
     worst.push_back(static_cast<double>(p.along_u.vertices + p.along_v.vertices));
   }
-  std::size_t before = 0;
-  for (const std::size_t i : rows_worth_showing(worst)) {
-    if (i > before) table.gap();
-    before = i + 1;
+  add_rows_worth_showing(worst, table, [&](std::size_t i) {
     const PatchReport& p = check.patches[i];
     table.row({p.name, monotone_text(p.along_u), std::to_string(p.along_u.vertices),
                std::to_string(p.along_u.most_vertices), std::to_string(p.along_u.inflections),
                monotone_text(p.along_v), std::to_string(p.along_v.vertices),
                std::to_string(p.along_v.most_vertices), std::to_string(p.along_v.inflections)});
-  }
+  });
   return table;
 }
 
@@ -163,10 +157,7 @@ Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
   table.column("angle largest\nat x, y, z", Table::Align::kLeft);
   std::vector<double> worst;
   for (const JointReport& j : check.joints) worst.push_back(j.angle);
-  std::size_t before = 0;
-  for (const std::size_t i : rows_worth_showing(worst)) {
-    if (i > before) table.gap();
-    before = i + 1;
+  add_rows_worth_showing(worst, table, [&](std::size_t i) {
     const JointReport& j = check.joints[i];
     const auto side = [&](std::size_t k) {
       return fmt::format("{}, {}", model.patches[j.patch[k]].name, border_name(j.side[k]));
@@ -174,7 +165,7 @@ Table joint_table(const SurfaceModel& model, const SurfaceCheck& check) {
     table.row({side(0), side(1), significant(j.gap, 3), significant(j.angle / kOneDegree, 3),
                significant(100.0 * j.curvature, 3) + " %", fmt::format("G{}", j.order),
                coordinates_text(j.angle_at)});
-  }
+  });
   return table;
 }
 
@@ -191,17 +182,14 @@ Table trim_table(const SurfaceModel& model, const SurfaceCheck& check) {
   table.column("angle largest\nat x, y, z", Table::Align::kLeft);
   std::vector<double> worst;
   for (const TrimJointReport& j : check.trim_joints) worst.push_back(j.angle);
-  std::size_t before = 0;
-  for (const std::size_t i : rows_worth_showing(worst)) {
-    if (i > before) table.gap();
-    before = i + 1;
+  add_rows_worth_showing(worst, table, [&](std::size_t i) {
     const TrimJointReport& j = check.trim_joints[i];
     table.row({model.patches[j.patch[0]].name,
                j.patch[0] == j.patch[1] ? "its own seam" : model.patches[j.patch[1]].name,
                significant(j.length, 4), significant(j.gap, 3),
                significant(j.angle / kOneDegree, 3), j.order > 0 ? "G1" : "G0",
                coordinates_text(j.gap_at), coordinates_text(j.angle_at)});
-  }
+  });
   return table;
 }
 

@@ -83,6 +83,10 @@ constexpr const char* kSurfaceHelp =
 
 const char* const kLengthHelp = "input units";
 
+constexpr const char* kViewText =
+    "iso, front, top, side, back, bottom, or longitudinals: graphs of the curvature along ten "
+    "lines u = const, of a picture alone [iso]";
+
 void add_pictures(CLI::App& app, RawSurface& raw) {
   const char* group = "Triangles, pages and pictures";
   app.add_option("--chord-tolerance", raw.formats.chord_tolerance,
@@ -98,11 +102,7 @@ void add_pictures(CLI::App& app, RawSurface& raw) {
          "shaded, isolines, gaussian, mean, k1, k2, zebra, isophotes or reflection [shaded]")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--view", raw.formats.view,
-                 "iso, front, top, side, back, bottom, or longitudinals: graphs of the curvature "
-                 "along ten lines u = const, of a picture alone [iso]")
-      ->type_name("NAME")
-      ->group(group);
+  app.add_option("--view", raw.formats.view, kViewText)->type_name("NAME")->group(group);
 }
 
 /// Options of contours through points, where points are read.
@@ -171,8 +171,7 @@ struct KindOptions {
                    "their bending less often; curvature along goes against its run by no more than "
                    "0.1 % of the section's largest (where the exact section has lost more, by "
                    "as much as that, and by 0.1 % against its own run); with --light, which is "
-                   "less, sections move by this "
-                   "all in all [sections stay]")
+                   "less, sections move by this all in all [sections stay]")
         ->type_name("EPS");
   }
   void operator()(const RuledKind&) const {
@@ -349,11 +348,7 @@ void add_check(CLI::App& app, RawSurface& raw) {
                   "Of pictures and pages: deviation, gaussian, mean, k1, k2, zebra, isophotes, "
                   "reflection, shaded or isolines [deviation with --against, else gaussian]")
       ->type_name("NAME");
-  check
-      .add_option("--view", raw.formats.view,
-                  "iso, front, top, side, back, bottom, or longitudinals: graphs of the curvature "
-                  "along ten lines u = const, of a picture alone [iso]")
-      ->type_name("NAME");
+  check.add_option("--view", raw.formats.view, kViewText)->type_name("NAME");
   check.add_flag("--csv", raw.check.csv, "Table of patches as CSV on standard output");
   check.add_flag("--json", raw.check.json, "JSON on standard output instead of the tables");
   check.add_flag("-q,--quiet", raw.check.quiet, "No tables and no progress bar");

@@ -44,15 +44,12 @@ Table section_table(const std::vector<SkinSectionReport>& sections) {
   table.column("monotonicity\nviolation");
   std::vector<double> worst;
   for (const SkinSectionReport& s : sections) worst.push_back(s.ripple);
-  std::size_t before = 0;
-  for (const std::size_t i : rows_worth_showing(worst)) {
-    if (i > before) table.gap();
-    before = i + 1;
+  add_rows_worth_showing(worst, table, [&](std::size_t i) {
     const SkinSectionReport& s = sections[i];
     table.row({s.name, fmt::format("{:.4f}", s.parameter), significant(s.deviation, 3),
                significant(s.from_points, 3), std::to_string(s.runs),
                s.ripple > 0.0 ? significant(100.0 * s.ripple, 2) + " %" : "none"});
-  }
+  });
   return table;
 }
 

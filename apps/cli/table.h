@@ -47,6 +47,19 @@ class Table {
 /// of greatest `value` (NaN counts as least). Ascending.
 [[nodiscard]] std::vector<std::size_t> rows_worth_showing(const std::vector<double>& value);
 
+/// Adds these rows, `add(i)` row i, with a gap wherever some are left out. How many there are.
+template <class Add>
+std::size_t add_rows_worth_showing(const std::vector<double>& value, Table& table, const Add& add) {
+  const std::vector<std::size_t> shown = rows_worth_showing(value);
+  std::size_t next = 0;
+  for (const std::size_t i : shown) {
+    if (i > next) table.gap();
+    next = i + 1;
+    add(i);
+  }
+  return shown.size();
+}
+
 /// "shown: the first 6, the last 6 and the 6 widest of 200 segments", or "" when all are shown.
 [[nodiscard]] std::string shown_note(std::size_t shown, std::size_t all, const char* greatest,
                                      const char* what);

@@ -30,20 +30,15 @@ std::string piece_table(const Contour& contour, const Certificate& certificate) 
   table.column("parameters in question", Table::Align::kLeft);
   std::vector<double> troubles;
   for (const PieceProof& proof : certificate.pieces) troubles.push_back(proof_trouble(proof));
-  const std::vector<std::size_t> shown = rows_worth_showing(troubles);
-  std::size_t before = 0;
-  for (const std::size_t i : shown) {
-    if (i > before) table.gap();
-    before = i + 1;
+  const std::size_t shown = add_rows_worth_showing(troubles, table, [&](std::size_t i) {
     const PieceProof& proof = certificate.pieces[i];
     const bool open = proof_trouble(proof) >= 2.0;
     table.row({std::to_string(i + 1),
                i < contour.pieces.size() ? piece_type(contour.pieces[i]) : "-",
                to_string(proof.verdict), proof.exact_arithmetic ? "exact" : "fast",
                open ? fmt::format("{}..{}", significant(proof.t0), significant(proof.t1)) : ""});
-  }
-  return table.text() +
-         shown_note(shown.size(), certificate.pieces.size(), "most difficult", "pieces");
+  });
+  return table.text() + shown_note(shown, certificate.pieces.size(), "most difficult", "pieces");
 }
 
 std::string verification_text(const StoredContour& stored, const Verification& found) {

@@ -15,6 +15,8 @@ namespace {
 constexpr int kEntrySteps = 30;
 /// Places of the first point on a closed contour that are tried.
 constexpr int kMostStarts = 32;
+/// From a start: to the first point, from there around, and how far the last point may be beyond.
+constexpr std::size_t kRoundsLooked = 3;
 
 /// A place along the contour, counted on around a closed one.
 struct Along {
@@ -140,7 +142,7 @@ bool goes_around(const Contour& contour, const Along begin, std::size_t points) 
   const std::size_t n = contour.pieces.size();
   Along start = begin;
   for (int k = 0; k < kMostStarts; ++k) {
-    Passage passage(contour, start, 3);
+    Passage passage(contour, start, kRoundsLooked);
     if (!passage.meet_first(0)) return false;
     const Along first = passage.here();
     if (Along{begin.piece + n, begin.t} < first) return false;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "obvid/curve/internal/basis.h"
+
 namespace obvid {
 namespace {
 
@@ -14,9 +16,8 @@ constexpr std::size_t kLeastChords = 32, kMostChords = 256;
 
 std::vector<double> places(const std::vector<double>& knots, Range domain) {
   std::vector<double> at;
-  for (const double knot : knots) {
-    if (knot < domain.from || knot > domain.to || (!at.empty() && knot <= at.back())) continue;
-    at.push_back(knot);
+  for (const double knot : distinct(knots)) {
+    if (knot >= domain.from && knot <= domain.to) at.push_back(knot);
   }
   const std::size_t spans = at.size() - 1;
   std::vector<double> out;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "check_joints.h"
+#include "network_crossing.h"
 #include "obvid/core/internal/parallel.h"
 #include "obvid/curve/internal/basis.h"
 #include "obvid/geom/internal/box.h"
@@ -113,10 +114,10 @@ class Borders {
   std::vector<BorderCurve> all_;
 };
 
-/// Whether boxes are nearer to each other than this in each coordinate.
-bool are_near(const Box3& a, const Box3& b, double nearness) {
-  const Vec3 below = a.low - b.high, above = b.low - a.high;
-  return std::max({below.x, below.y, below.z, above.x, above.y, above.z}) <= nearness;
+/// Whether a trim leads along u rather than v, as parts of the domain.
+bool leads_along_u(const NurbsCurve& trim, const NurbsSurface& s) {
+  const Vec2 way = trim.points.back() - trim.points.front();
+  return std::abs(way.x) * domain_v(s).length() >= std::abs(way.y) * domain_u(s).length();
 }
 
 /// What is measured at a place of a border; the angle is not a number where there is no plane.
@@ -157,11 +158,10 @@ class Beside {
                                   double t) const {
     const Range u = domain_u(surface_), v = domain_v(surface_);
     Vec2 p = borders.parameters(border, t);
-    const Vec2 from = border.curve.points.front(), to = border.curve.points.back();
-    if (std::abs(to.x - from.x) * v.length() < std::abs(to.y - from.y) * u.length()) {
-      p.x = p.x < u.at(0.5) ? u.to : u.from;
-    } else {
+    if (leads_along_u(border.curve, surface_)) {
       p.y = p.y < v.at(0.5) ? v.to : v.from;
+    } else {
+      p.x = p.x < u.at(0.5) ? u.to : u.from;
     }
     return evaluate(surface_, p.x, p.y);
   }
@@ -229,7 +229,7 @@ AlongPair along_pair(const Borders& borders, const BorderPair& pair, const Box3&
   AtTrim last;
   last.gap = 0.0;
   for (std::size_t i = 0; i < there.size(); ++i) {
-    if (!are_near({border.at[i], border.at[i]}, box, nearness)) continue;
+    if (!(distance_between({border.at[i], border.at[i]}, box) <= nearness)) continue;
     // distances do not change by more than the way: all before that is farther off
     if (norm(border.at[i] - last.point) < last.gap - nearness) continue;
     last = there[i] = pair.beside.measured(borders, border, border.t[i]);
@@ -326,10 +326,8 @@ bool is_seam(const SurfaceModel& model, const Topology& same, const BorderCurve&
   const NurbsSurface& s = model.patches[border.patch].surface;
   if (!runs_along_side(border.curve, s)) return false;
   const auto& sides = same.edge_of[border.patch];
-  const Vec2 from = border.curve.points.front(), to = border.curve.points.back();
-  const bool along_u = std::abs(to.x - from.x) * domain_v(s).length() >=
-                       std::abs(to.y - from.y) * domain_u(s).length();
-  return along_u ? sides[kVStart] == sides[kVEnd] : sides[kUStart] == sides[kUEnd];
+  return leads_along_u(border.curve, s) ? sides[kVStart] == sides[kVEnd]
+                                        : sides[kUStart] == sides[kUEnd];
 }
 
 }  // namespace
@@ -354,7 +352,7 @@ Result<TrimJoints> trim_joints_of(const SurfaceModel& model, const Topology& sam
     for (std::size_t i = 0; i < count; ++i) {
       const bool trimmed =
           !border.side || !model.patches[i].trims.empty();  // else `joints_of` has them
-      if (!trimmed || !are_near(border.box, boxes[i], nearness)) continue;
+      if (!trimmed || !(distance_between(border.box, boxes[i]) <= nearness)) continue;
       if (i != border.patch) {
         pairs.push_back({&border, Beside(model, i, nearest[i].get())});
       } else if (is_seam(model, same, border)) {
