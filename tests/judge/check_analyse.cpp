@@ -36,8 +36,12 @@ class AnalyseCheck {
                           kSameFigure * std::abs(kappa_.back()));
       turning_.push_back(std::atan2(cross(a, b), dot(a, b)));
     }
-    Real size = 0.0L;
-    for (const Vec& p : p_) size = std::max(size, norm(p));  // at least half of the size
+    Vec least = p_.front(), most = p_.front();
+    for (const Vec& p : p_) {
+      least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+      most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+    }
+    const Real size = norm(most - least);
     constexpr Real kNothing = 1e-9L;
     // each coordinate has digits of its own
     std::vector<GivenPoint> along = input.points, up = input.points;
@@ -47,7 +51,7 @@ class AnalyseCheck {
     const Real digit = std::max(rounding_of(along, kAll), rounding_of(up, kAll));
     straight_ = input.placed
                     ? HUGE_VALL
-                    : std::max(2.0L * kNothing * size, 2.0L * std::numbers::sqrt2_v<Real> * digit);
+                    : std::max(kNothing * size, 2.0L * std::numbers::sqrt2_v<Real> * digit);
   }
 
   void json(const Json& json) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -421,7 +423,7 @@ void share_closing_point(Input& input) {
   last = first;
 }
 
-std::string without_tolerances_below(const std::string& text, double tolerance) {
+std::string with_tolerances_from(const std::string& text, double tolerance) {
   std::string out;
   std::istringstream lines(text);
   std::optional<std::size_t> column;
@@ -432,7 +434,7 @@ std::string without_tolerances_below(const std::string& text, double tolerance) 
     }
     if (column && *column < cells.size() && is_number(cells[*column]) &&
         std::strtod(cells[*column].c_str(), nullptr) < tolerance) {
-      cells[*column].clear();
+      cells[*column] = fmt::format("{}", tolerance);
     }
     for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
     out += "\n";

@@ -76,7 +76,7 @@ std::vector<std::string> without_placement(const std::vector<std::string>& optio
 void share_closing_point(Input& input);
 
 /// The same points, none with a smaller tolerance of its own (column tol) than this one.
-std::string without_tolerances_below(const std::string& text, double tolerance);
+std::string with_tolerances_from(const std::string& text, double tolerance);
 
 /// Options of fit but for those that give a heading (or a bend) at one point, from 1; `points`: how
 /// many there are, repeats merged.

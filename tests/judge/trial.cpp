@@ -200,6 +200,12 @@ class Work : public ProgramRuns {
     if (told.find(" on others and w") != std::string::npos) {
       return out_.sheet.unjudged("convert back", "a piece that lies on another one was taken once");
     }
+    // farther from the origin than STEP is exact edges are apart, which is told
+    const double unit = metres_of(course.file.units).value_or(1.0);
+    const Real rounding = 0x1p-52L * course.ends.coordinate * static_cast<Real>(unit);
+    if (left && told.find("an edge apart") != std::string::npos && rounding > kStepAccuracy) {
+      return out_.sheet.unjudged("convert back", "edges far from the origin came back apart");
+    }
     // STEP must have a unit, assumed or not; DXF states none that nobody said
     back(course, text_of_file(path("e.json")), left ? 1e-6 : 1e-9, other == "d.dxf");
   }
@@ -279,9 +285,9 @@ class Work : public ProgramRuns {
     std::string points = kPoints;
     if (widened) {
       points = "widened.csv";
-      write_file(path(points),
-                 without_tolerances_below(series_.text,
-                                          std::strtod(tolerance.c_str(), nullptr) / scale()));
+      write_file(
+          path(points),
+          with_tolerances_from(series_.text, std::strtod(tolerance.c_str(), nullptr) / scale()));
     }
     std::vector<std::string> words{"fit", points, "--quiet"};
     for (std::size_t i = 0; i < series_.options.size(); ++i) {

@@ -280,14 +280,14 @@ void forget_around(const std::vector<int>& direction, const std::vector<double>&
   const std::size_t n = direction.size();
   for (std::size_t k = 0; k < n; ++k) {
     double& error = report.segments[k].points_only_error;
-    if (error == 0.0) continue;  // points of one circle or line, and the contour is that
     const bool inner = k > 0 && k + 1 < n;
     if (!inner && !closed) continue;
     const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
     const int common =
         common_direction(common_direction(direction[before], direction[k]), direction[after]);
     const bool turns_far = !(turn[before] + turn[k] + turn[after] < std::numbers::pi);
-    if (common == kNotMonotone || turns_far) error = kUnknown;
+    const bool circular = error == 0.0;  // so is the contour, however far it turns
+    if (common == kNotMonotone || (turns_far && !circular)) error = kUnknown;
   }
 }
 
