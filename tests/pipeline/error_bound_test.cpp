@@ -352,6 +352,48 @@ TEST(PointsOnlyError, IsUnknownWhereTheContourIsNotMonotone) {
   EXPECT_GT(known, 8U);
 }
 
+TEST(PointsOnlyError, IsUnknownOnACircleWhereTheContourIsNotMonotone) {
+  // a circle but for the last digits: the four points around the chord from 17 to 18 are one
+  // circle to these, the contour beside it falls and grows
+  const std::vector<Vec2> points = {
+      {-0.30350780214016454, -7.4953949217453726}, {-1.4716460193306484, -7.3557678057888705},
+      {-2.6035889283572984, -7.0352247093484106},  {-3.6714962592924745, -6.5416494278500084},
+      {-4.6491027048369293, -5.8871815038069535},  {-5.5123639186638069, -5.0879176533336237},
+      {-6.2400478889642272, -4.1635158655058984},  {-6.8142571422945108, -3.1367119117926334},
+      {-7.2208689340518148, -2.0327601570609053},  {-7.4498825990550603, -0.87881242548332172},
+      {-7.4956655190863701, 0.29674980179545601},  {-7.3570916578042844, 1.4650134325486064},
+      {-7.037569255742314, 2.5972448843956859},    {-6.5449570042257115, 3.6655967906639515},
+      {-5.8913707599312968, 4.6437929096709478},   {-5.0928855539564317, 5.5077743920017284},
+      {-4.1691402245230149, 6.2362915107582131},   {-3.1428543974272065, 6.8114263011104983},
+      {-2.0392696941516135, 7.2190332547648133},   {-0.88552891119429322, 7.4490872304145217},
+      {0.28999156022590122, 7.4959300232783557},   {1.4583796548725285, 7.3584095293171448},
+      {2.5908987291606049, 7.0399080813690533},    {3.6596943423094204, 6.5482592602730421},
+      {4.6384793396140624, 5.8955552270216938},    {5.5031803881269541, 5.0978493146253809},
+      {6.2325300631348588, 4.1747611944888483},    {6.8085899229886344, 3.1489943282680097}};
+  const auto f = fit_carrier(points, Carrier::kSpiral);
+  ASSERT_TRUE(f) << to_line(f.error());
+  std::vector<std::size_t> first;  // piece of each chord
+  for (std::size_t i = 0; i < f->contour.joints.size(); ++i) {
+    if (f->contour.joints[i].source) first.push_back(i);
+  }
+  ASSERT_EQ(first.size(), points.size());
+  std::size_t known = 0;
+  for (std::size_t k = 1; k + 2 < points.size(); ++k) {
+    if (std::isnan(f->report.segments[k].points_only_error)) continue;
+    ++known;
+    bool grows = false, falls = false, neither = false;
+    for (std::size_t i = first[k - 1]; i < first[k + 2]; ++i) {
+      const Verdict verdict = f->certificate.pieces[i].verdict;
+      grows = grows || verdict == Verdict::kIncreasing;
+      falls = falls || verdict == Verdict::kDecreasing;
+      neither = neither || verdict == Verdict::kHasVertex;
+    }
+    EXPECT_FALSE(grows && falls) << k;
+    EXPECT_FALSE(neither) << k;
+  }
+  EXPECT_GT(known, 0U);
+}
+
 TEST(ErrorBound, ArcsAroundASeamAtAVertexHaveItsCurvature) {
   std::vector<Vec2> points;
   constexpr int kPoints = 14;
