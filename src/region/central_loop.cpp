@@ -46,6 +46,13 @@ class LoopTurn {
     return in_order(central());
   }
 
+  bool closes_at_all() {
+    if (n_ < 2 || !find_seam()) return false;
+    unroll();
+    if (beside_arc(seam_) || open_behind()) return central().has_value();
+    return some_heading_closes() && (sharpest() || choose_curvature());
+  }
+
  private:
   [[nodiscard]] const RangeLink& before(std::size_t i) const {
     return all_links_[(i + n_ - 1) % n_];
@@ -125,23 +132,42 @@ class LoopTurn {
     return peak() * limit;
   }
 
+  /// Headings at the seam that the points on either side leave.
+  [[nodiscard]] std::optional<ValueRange> headings_at_seam() const {
+    const auto ranges = feasible_data(links_, nodes_, watch_);
+    if (!ranges.front().heading || !ranges.back().heading) return std::nullopt;
+    const double low = std::max(ranges.front().heading->low, ranges.back().heading->low - turn_);
+    const double high = std::min(ranges.front().heading->high, ranges.back().heading->high - turn_);
+    if (!(low < high)) return std::nullopt;
+    return ValueRange{low, high};
+  }
+
+  /// With the sharpest curvature; it stays fixed.
+  std::optional<double> heading_that_closes(ValueRange among) {
+    const auto [low, high] = among;
+    for (int k = 0; k < kHeadingTrials; ++k) {
+      const double part = (k + 0.5) / kHeadingTrials;  // the first one: the middle
+      const double theta = k == 0 ? 0.5 * (low + high) : low + part * (high - low);
+      if (closes(theta, sharpest())) return theta;
+    }
+    return std::nullopt;
+  }
+
+  bool some_heading_closes() {
+    if (const auto given = all_nodes_[seam_].theta) return closes(*given, sharpest());
+    const auto range = headings_at_seam();
+    return range && heading_that_closes(*range);
+  }
+
   bool choose_heading() {
     const std::optional<double> kappa = sharpest();
     if (const auto given = all_nodes_[seam_].theta) return closes(*given, kappa);
-    const auto ranges = feasible_data(links_, nodes_, watch_);
-    if (!ranges.front().heading || !ranges.back().heading) return false;
-    const double low = std::max(ranges.front().heading->low, ranges.back().heading->low - turn_);
-    const double high = std::min(ranges.front().heading->high, ranges.back().heading->high - turn_);
-    if (!(low < high)) return false;
-    std::optional<double> found;
-    for (int k = 0; k < kHeadingTrials && !found; ++k) {
-      const double part = (k + 0.5) / kHeadingTrials;  // the first one: the middle
-      const double theta = k == 0 ? 0.5 * (low + high) : low + part * (high - low);
-      if (closes(theta, kappa)) found = theta;
-    }
+    const auto range = headings_at_seam();
+    if (!range) return false;
+    const auto found = heading_that_closes(*range);
     if (!found) return false;
-    const double least = last_that_closes(*found, low, kappa);
-    const double greatest = last_that_closes(*found, high, kappa);
+    const double least = last_that_closes(*found, range->low, kappa);
+    const double greatest = last_that_closes(*found, range->high, kappa);
     const double middle = 0.5 * (least + greatest);
     return closes(middle, kappa) || closes(*found, kappa);
   }
@@ -217,6 +243,11 @@ std::optional<std::vector<RangeNode>> central_loop(const std::vector<RangeLink>&
                                                    const std::vector<RangeNode>& nodes,
                                                    const Wanted& wanted, Watch* watch) {
   return LoopTurn(links, nodes, wanted, watch).run();
+}
+
+bool loop_closes(const std::vector<RangeLink>& links, const std::vector<RangeNode>& nodes,
+                 Watch* watch) {
+  return LoopTurn(links, nodes, {}, watch).closes_at_all();
 }
 
 }  // namespace obvid

@@ -155,8 +155,7 @@ std::optional<double> least_largest_curvature_of_loop(const std::vector<Vec2>& p
   for (const double kappa : problem->adjacent_kappa) high = std::max(high, std::abs(kappa));
   return least_possible(high, [&](double most) {
     std::vector<RangeNode> nodes = problem->range_nodes;
-    return cap_curvatures(nodes, most) &&
-           central_loop(problem->links, nodes, {}, &watch).has_value();
+    return cap_curvatures(nodes, most) && loop_closes(problem->links, nodes, &watch);
   });
 }
 

@@ -95,4 +95,8 @@ enum class SharpCurvature {
     const std::vector<RangeLink>& links, const std::vector<RangeNode>& nodes,
     const std::vector<std::optional<double>>& wanted = {}, Watch* watch = nullptr);
 
+/// Whether `central_loop` has a curve, without the choice of its middle.
+[[nodiscard]] bool loop_closes(const std::vector<RangeLink>& links,
+                               const std::vector<RangeNode>& nodes, Watch* watch = nullptr);
+
 }  // namespace obvid
