@@ -407,6 +407,30 @@ TEST(DxfReads, OpenChainsFromTheirBeginning) {
   expect_connected(d.curves[0], false);
 }
 
+TEST(DxfReads, AContourThatPassesItselfWithinTheTolerance) {
+  // the waist is 2e-7 wide, the size 1.4
+  const Drawing d =
+      read_dxf_text(dxf(line("0", "0", "1", "0") + line("1", "0", "0.5", "0.5") +
+                        line("0.5", "0.5", "1", "1") + line("1", "1", "0", "1") +
+                        line("0", "1", "0.4999998", "0.5") + line("0.4999998", "0.5", "0", "0")));
+  ASSERT_EQ(d.curves.size(), 1u);
+  EXPECT_TRUE(d.curves[0].closed);
+  EXPECT_EQ(d.curves[0].pieces.size(), 6u);
+}
+
+TEST(DxfReads, EntitiesShorterThanTheToleranceWhereTheyMeetOthers) {
+  const Drawing d = read_dxf_text(
+      dxf(line("0", "0", "1", "0") + line("1", "0", "1", "1e-7") + line("1", "1e-7", "0", "1")));
+  ASSERT_EQ(d.curves.size(), 1u);
+  EXPECT_EQ(d.curves[0].pieces.size(), 3u);
+}
+
+TEST(DxfReads, CrossingsOfLinesThatEndThereAsBranches) {
+  const Drawing d = read_dxf_text(dxf(line("0", "0", "1", "1") + line("2", "2", "1", "1") +
+                                      line("0", "2", "1", "1") + line("2", "0", "1", "1")));
+  EXPECT_EQ(d.curves.size(), 4u);
+}
+
 TEST(DxfReads, ChainsUpToABranch) {
   const Drawing d = read_dxf_text(dxf(line("0", "0", "1", "0") + line("1", "0", "2", "1") +
                                       line("1", "0", "2", "-1") + line("2", "-1", "3", "-1")));
@@ -464,7 +488,8 @@ TEST(DxfLeavesOut, WhatCannotBeDrawnAndSaysSo) {
          "3 points stated, 2 found");
   warned({{0, "INSERT"}, {2, "NONE"}, {10, "0"}, {20, "0"}}, "there is no such block (NONE)");
   warned({{0, "TEXT"}, {10, "0"}, {20, "0"}, {1, "hello"}},
-         "not drawn, being neither curves nor points: 1 TEXT: text is a curve where it is converted to paths");
+         "not drawn, being neither curves nor points: 1 TEXT: text is a curve where it is "
+         "converted to paths");
   warned({{0, "LINE"}, {67, "1"}, {10, "0"}, {20, "0"}, {11, "9"}, {21, "9"}},
          "1 entity was of the paper space");
   warned({{0, "POLYLINE"}, {70, "64"}, {0, "VERTEX"}, {10, "0"}, {20, "0"}, {0, "SEQEND"}},

@@ -3,7 +3,6 @@
 #include "dxf/chains.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -19,6 +18,9 @@ namespace {
 /// Ends meet within this part of the size of the drawing: six digits are what the coarser programs
 /// print.
 constexpr double kMeet = 1e-6;
+/// Ends that are the same but for rounding, of centre, radius and angles where an arc gives them:
+/// part of the largest coordinate.
+constexpr double kSame = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr std::size_t kNoPlace = std::numeric_limits<std::size_t>::max();
 
 struct GridCell {
@@ -55,7 +57,6 @@ class Places {
     cells_.emplace(here, std::pair(count_, p));
     return count_++;
   }
-  [[nodiscard]] std::size_t count() const { return count_; }
 
  private:
   [[nodiscard]] std::int64_t index(double distance) const {
@@ -80,9 +81,11 @@ class Joiner {
 
   Chains run() {
     measure();
-    find_places();
+    place_ = places_within(out_.tolerance);
     drop_duplicates();
-    pair_ends();
+    other_.assign(place_.size(), kNoPlace);
+    pair_ends(places_within(same_));
+    pair_ends(place_);
     for (std::size_t i = 0; i < links_.size(); ++i) {
       if (!used_[i]) out_.chains.push_back(chain_from(i));
     }
@@ -97,22 +100,28 @@ class Joiner {
         for (const double t : {0.0, 0.5, 1.0}) box.add(evaluate(piece, t).point);
       }
     }
-    if (!links_.empty()) out_.tolerance = kMeet * box.diagonal();
+    if (links_.empty()) return;
+    out_.tolerance = kMeet * box.diagonal();
     low_ = box.low;
+    same_ = kSame * std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
+                              std::abs(box.high.y)});
   }
 
-  void find_places() {
-    Places places(low_, out_.tolerance);
-    place_.assign(2 * links_.size(), kNoPlace);
+  /// Of the two ends of each link; none of what is joined to nothing.
+  [[nodiscard]] std::vector<std::size_t> places_within(double tolerance) const {
+    Places places(low_, tolerance);
+    std::vector<std::size_t> out(2 * links_.size(), kNoPlace);
     for (std::size_t i = 0; i < links_.size(); ++i) {
       if (links_[i].closed) continue;
-      const std::size_t a = places.of(start_point(links_[i].pieces.front()), links_[i].layer);
-      const std::size_t b = places.of(end_point(links_[i].pieces.back()), links_[i].layer);
-      if (a == b) continue;  // closed within the tolerance, or as small as it
-      place_[2 * i] = a;
-      place_[2 * i + 1] = b;
+      out[2 * i] = places.of(start_point(links_[i].pieces.front()), links_[i].layer);
+      out[2 * i + 1] = places.of(end_point(links_[i].pieces.back()), links_[i].layer);
     }
-    place_count_ = places.count();
+    return out;
+  }
+
+  /// Closed within the tolerance, or as small as it.
+  [[nodiscard]] bool is_small(std::size_t link) const {
+    return place_[2 * link] == place_[2 * link + 1];
   }
 
   void drop_duplicates() {
@@ -121,7 +130,7 @@ class Joiner {
     std::vector<Row> rows;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const std::size_t a = place_[2 * i], b = place_[2 * i + 1];
-      if (a == kNoPlace) continue;
+      if (is_small(i)) continue;
       const Vec2 middle = place_half_way(links_[i].pieces);
       rows.emplace_back(std::min(a, b), std::max(a, b), middle.x, middle.y, i);
     }
@@ -131,25 +140,21 @@ class Joiner {
       const auto& [a0, b0, x0, y0, i0] = rows[k - 1];
       if (a != a0 || b != b0 || norm(Vec2{x - x0, y - y0}) > out_.tolerance) continue;
       used_[i] = true;
-      place_[2 * i] = place_[2 * i + 1] = kNoPlace;
       ++out_.duplicates;
     }
   }
 
-  /// The only other end at the place of each end.
-  void pair_ends() {
-    std::vector<std::array<std::size_t, 2>> ends(place_count_, {kNoPlace, kNoPlace});
-    std::vector<std::size_t> count(place_count_, 0);
-    for (std::size_t e = 0; e < place_.size(); ++e) {
-      if (place_[e] == kNoPlace) continue;
-      const std::size_t k = count[place_[e]]++;
-      if (k < 2) ends[place_[e]][k] = e;
+  /// The only other end at the place of each end that has none yet.
+  void pair_ends(const std::vector<std::size_t>& place) {
+    std::unordered_map<std::size_t, std::vector<std::size_t>> ends;
+    for (std::size_t e = 0; e < place.size(); ++e) {
+      const bool alone = place[e] == place[e ^ 1U] && other_[e ^ 1U] == kNoPlace;
+      if (!used_[e / 2] && other_[e] == kNoPlace && !alone) ends[place[e]].push_back(e);
     }
-    other_.assign(place_.size(), kNoPlace);
-    for (std::size_t p = 0; p < place_count_; ++p) {
-      if (count[p] != 2) continue;
-      other_[ends[p][0]] = ends[p][1];
-      other_[ends[p][1]] = ends[p][0];
+    for (const auto& [at, both] : ends) {
+      if (both.size() != 2) continue;
+      other_[both[0]] = both[1];
+      other_[both[1]] = both[0];
     }
   }
 
@@ -157,7 +162,7 @@ class Joiner {
   /// the file, so it gives the direction.
   Chain chain_from(std::size_t link) {
     Chain chain;
-    if (place_[2 * link] == kNoPlace) {  // stands for itself
+    if (is_small(link) && other_[2 * link] == kNoPlace && other_[2 * link + 1] == kNoPlace) {
       const Vec2 gap =
           end_point(links_[link].pieces.back()) - start_point(links_[link].pieces.front());
       chain.closed = links_[link].closed || meets(link, gap);
@@ -194,9 +199,9 @@ class Joiner {
   const std::vector<Link>& links_;
   Chains out_;
   Vec2 low_;
-  std::vector<std::size_t> place_;  ///< of the two ends of each link; kNoPlace: joined to nothing
-  std::size_t place_count_ = 0;
-  std::vector<std::size_t> other_;
+  double same_ = 0.0;               ///< ends so near each other are one
+  std::vector<std::size_t> place_;  ///< of the two ends of each link, within the tolerance
+  std::vector<std::size_t> other_;  ///< the end that meets each end; kNoPlace: none
   std::vector<bool> used_;
 };
 

@@ -32,8 +32,9 @@ struct Chains {
   double tolerance = 0.0;      ///< ends that are no farther apart meet, units
 };
 
-/// Joins links where exactly two ends of one layer meet, within a part of the size of the drawing:
-/// where three meet nobody can say which belong together. Every chain runs as its first link does.
+/// Joins links where exactly two ends of one layer meet: first but for rounding, then, of what is
+/// left, within a part of the size of the drawing. Where three meet nobody can say which belong
+/// together. Every chain runs as its first link does.
 /// Time O(n log n), whatever the links are.
 [[nodiscard]] Chains join(const std::vector<Link>& links);
 
