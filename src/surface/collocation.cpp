@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "obvid/curve/internal/basis.h"
@@ -44,6 +45,22 @@ std::vector<double> greville(int degree, const std::vector<double>& knots) {
     at[i] = knots[i + 1] == knots[i + p] ? knots[i + 1] : sum / static_cast<double>(p);
   }
   return at;
+}
+
+double largest_spread(const std::vector<double>& parameters) {
+  const auto across = cubic_collocation(parameters);
+  if (!across) return 1.0;
+  const std::size_t n = parameters.size();
+  std::vector<double> ones(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) ones[i * n + i] = 1.0;
+  across->matrix.solve_rows(ones, n);
+  double most = 1.0;
+  for (std::size_t j = 0; j < n; ++j) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) sum += std::abs(ones[j * n + i]);
+    most = std::max(most, sum);
+  }
+  return most;
 }
 
 Result<Collocation> greville_collocation(int degree, std::vector<double> knots) {

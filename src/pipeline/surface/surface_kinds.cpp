@@ -48,25 +48,6 @@ double deviation_of(const std::vector<ReadCurve>& curves) {
   return most;
 }
 
-/// How much larger than the curves' own distances those of what interpolates between them may be:
-/// the largest sum of absolute coefficients of the splines that are 1 at one place, 0 at the
-/// others.
-double spread_across(const std::vector<double>& at) {
-  const auto across = cubic_collocation(at);
-  if (!across) return 1.0;  // the surface was refused before
-  const std::size_t n = at.size();
-  std::vector<Vec3> points(n * n);
-  for (std::size_t i = 0; i < n; ++i) points[i * n + i].x = 1.0;
-  across->matrix.solve_rows(points, n);
-  double most = 1.0;
-  for (std::size_t j = 0; j < n; ++j) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) sum += std::abs(points[j * n + i].x);
-    most = std::max(most, sum);
-  }
-  return most;
-}
-
 /// What the curves bring to the surface that is made of them: their own distance from what they
 /// stand for moves it by as much, times `spread`. Error E310 where their units differ.
 Result<void> take_over(std::vector<ReadCurve>& curves, MadeSurface& made, double spread = 1.0) {
@@ -281,7 +262,7 @@ Result<MadeSurface> make_kind(const GordonKind& kind, const SurfaceJob& job,
                            fmt::format("{} and {} across", first->size(), second->size()));
   // through the first ones plus through the second ones less through their crossings, which are as
   // far off as either
-  const double u = spread_across(net->u_at), v = spread_across(net->v_at);
+  const double u = largest_spread(net->u_at), v = largest_spread(net->v_at);
   const bool first_off = deviation_of(*first) > deviation_of(*second);
   OBVID_TRY(take_over(*second, *made, u + (first_off ? 0.0 : u * v)));
   OBVID_TRY(take_over(*first, *made, v + (first_off ? u * v : 0.0)));

@@ -21,6 +21,11 @@ struct Collocation {
 /// (`index`: the later one).
 [[nodiscard]] Result<Collocation> cubic_collocation(const std::vector<double>& parameters);
 
+/// How much larger than the distances of curves from what they stand for those of a C2 cubic
+/// surface through them may be: the largest sum of absolute coefficients of the cubics that are 1
+/// at one parameter, 0 at the others. 1 where there is no such cubic. Time O(n^2).
+[[nodiscard]] double largest_spread(const std::vector<double>& parameters);
+
 /// Interpolation at the Greville abscissae (means of `degree` neighbouring inner knots) of any
 /// clamped knots: as continuous as the knots say. Error: E309 knots too uneven for a matrix.
 [[nodiscard]] Result<Collocation> greville_collocation(int degree, std::vector<double> knots);
