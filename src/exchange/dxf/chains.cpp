@@ -20,7 +20,7 @@ namespace {
 constexpr double kMeet = 1e-6;
 /// Ends that are the same but for rounding, of centre, radius and angles where an arc gives them:
 /// part of the largest coordinate.
-constexpr double kSameEnd = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double kSameButRounding = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr std::size_t kNoPlace = std::numeric_limits<std::size_t>::max();
 
 struct GridCell {
@@ -103,8 +103,8 @@ class Joiner {
     if (links_.empty()) return;
     out_.tolerance = kMeet * box.diagonal();
     low_ = box.low;
-    same_ = kSameEnd * std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
-                              std::abs(box.high.y)});
+    same_ = kSameButRounding * std::max({std::abs(box.low.x), std::abs(box.low.y),
+                                         std::abs(box.high.x), std::abs(box.high.y)});
   }
 
   /// Of the two ends of each link; none of what is joined to nothing.
