@@ -50,7 +50,8 @@ class LoopTurn {
     if (n_ < 2 || !find_seam()) return false;
     unroll();
     if (beside_arc(seam_) || open_behind()) return central().has_value();
-    return some_heading_closes() && (sharpest() || choose_curvature());
+    const std::optional<double> kappa = sharpest();
+    return some_heading_closes(kappa) && (kappa || choose_curvature());
   }
 
  private:
@@ -142,21 +143,21 @@ class LoopTurn {
     return ValueRange{low, high};
   }
 
-  /// With the sharpest curvature; it stays fixed.
-  std::optional<double> heading_that_closes(ValueRange among) {
+  std::optional<double> heading_that_closes(ValueRange among, std::optional<double> kappa) {
     const auto [low, high] = among;
     for (int k = 0; k < kHeadingTrials; ++k) {
       const double part = (k + 0.5) / kHeadingTrials;  // the first one: the middle
       const double theta = k == 0 ? 0.5 * (low + high) : low + part * (high - low);
-      if (closes(theta, sharpest())) return theta;
+      if (closes(theta, kappa)) return theta;
     }
     return std::nullopt;
   }
 
-  bool some_heading_closes() {
-    if (const auto given = all_nodes_[seam_].theta) return closes(*given, sharpest());
+  /// A heading with which one turn closes stays fixed, with this curvature.
+  bool some_heading_closes(std::optional<double> kappa) {
+    if (const auto given = all_nodes_[seam_].theta) return closes(*given, kappa);
     const auto range = headings_at_seam();
-    return range && heading_that_closes(*range);
+    return range && heading_that_closes(*range, kappa);
   }
 
   bool choose_heading() {
@@ -164,7 +165,7 @@ class LoopTurn {
     if (const auto given = all_nodes_[seam_].theta) return closes(*given, kappa);
     const auto range = headings_at_seam();
     if (!range) return false;
-    const auto found = heading_that_closes(*range);
+    const auto found = heading_that_closes(*range, kappa);
     if (!found) return false;
     const double least = last_that_closes(*found, range->low, kappa);
     const double greatest = last_that_closes(*found, range->high, kappa);

@@ -81,6 +81,7 @@ TEST(CentralLoop, HasASpiralOverEveryChordAndCloses) {
     const Loop loop = ellipse_loop(3.0, 2.0, with_vertices(random, from(random)));
     const auto found = central_loop(loop.links, loop.nodes);
     ASSERT_TRUE(found) << round;
+    EXPECT_TRUE(loop_closes(loop.links, loop.nodes)) << round;
     ASSERT_EQ(found->size(), loop.nodes.size() + 1);
     for (std::size_t i = 0; i < loop.links.size(); ++i) {
       expect_spiral(loop.links[i], (*found)[i], (*found)[i + 1]);
@@ -88,6 +89,25 @@ TEST(CentralLoop, HasASpiralOverEveryChordAndCloses) {
     EXPECT_NEAR(*found->back().theta - *found->front().theta, kTurn, 1e-12);
     EXPECT_EQ(*found->back().kappa, *found->front().kappa);
   }
+}
+
+TEST(CentralLoop, ClosesWhereItHasACurve) {
+  std::mt19937 random(29);
+  std::uniform_real_distribution<double> from(0.0, 0.99);
+  std::size_t close = 0, open = 0;
+  for (int round = 0; round < 5; ++round) {
+    const Loop loop = ellipse_loop(3.0, 2.0, with_vertices(random, from(random)));
+    for (const double most : {0.2, 0.5, 0.7, 0.74, 0.76, 0.8, 1.0, 4.0}) {
+      Loop capped = loop;
+      for (RangeNode& node : capped.nodes) node.kappas = ValueRange{-most, most};
+      const bool closes = loop_closes(capped.links, capped.nodes);
+      EXPECT_EQ(closes, central_loop(capped.links, capped.nodes).has_value())
+          << round << ' ' << most;
+      ++(closes ? close : open);
+    }
+  }
+  EXPECT_GT(close, 0U);
+  EXPECT_GT(open, 0U);
 }
 
 TEST(CentralLoop, KeepsWhatIsGiven) {
@@ -130,12 +150,15 @@ TEST(CentralLoop, RefusesWhatCannotClose) {
   Loop growing = loop;
   for (RangeLink& link : growing.links) link.direction = 1;
   EXPECT_FALSE(central_loop(growing.links, growing.nodes));
+  EXPECT_FALSE(loop_closes(growing.links, growing.nodes));
   Loop blunt = loop;  // a full turn would be 2 pi / 0.2 = 31 long, around an ellipse of 16
   for (RangeNode& node : blunt.nodes) node.kappas = ValueRange{-0.2, 0.2};
   EXPECT_FALSE(central_loop(blunt.links, blunt.nodes));
+  EXPECT_FALSE(loop_closes(blunt.links, blunt.nodes));
   Loop across = loop;
   across.nodes[0].theta = 0.0;  // square to the curve
   EXPECT_FALSE(central_loop(across.links, across.nodes));
+  EXPECT_FALSE(loop_closes(across.links, across.nodes));
 }
 
 }  // namespace

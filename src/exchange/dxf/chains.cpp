@@ -3,6 +3,7 @@
 #include "dxf/chains.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -107,7 +108,7 @@ class Joiner {
                                          std::abs(box.high.x), std::abs(box.high.y)});
   }
 
-  /// Of the two ends of each link; none of what is joined to nothing.
+  /// Of the two ends of each link, below the number of ends; kNoPlace of what is closed by itself.
   [[nodiscard]] std::vector<std::size_t> places_within(double tolerance) const {
     Places places(low_, tolerance);
     std::vector<std::size_t> out(2 * links_.size(), kNoPlace);
@@ -146,15 +147,18 @@ class Joiner {
 
   /// The only other end at the place of each end that has none yet.
   void pair_ends(const std::vector<std::size_t>& place) {
-    std::unordered_map<std::size_t, std::vector<std::size_t>> ends;
+    std::vector<std::array<std::size_t, 2>> ends(place.size());
+    std::vector<std::size_t> count(place.size(), 0);
     for (std::size_t e = 0; e < place.size(); ++e) {
       const bool alone = place[e] == place[e ^ 1U] && other_[e ^ 1U] == kNoPlace;
-      if (!used_[e / 2] && other_[e] == kNoPlace && !alone) ends[place[e]].push_back(e);
+      if (used_[e / 2] || other_[e] != kNoPlace || alone) continue;
+      const std::size_t k = count[place[e]]++;
+      if (k < 2) ends[place[e]][k] = e;
     }
-    for (const auto& [at, both] : ends) {
-      if (both.size() != 2) continue;
-      other_[both[0]] = both[1];
-      other_[both[1]] = both[0];
+    for (std::size_t p = 0; p < ends.size(); ++p) {
+      if (count[p] != 2) continue;
+      other_[ends[p][0]] = ends[p][1];
+      other_[ends[p][1]] = ends[p][0];
     }
   }
 
